@@ -1,5 +1,5 @@
 #pragma once
-/// The values with which bodies and colliders are described: ids, surfaces, definitions, modes, states.
+/// Values that describe bodies and colliders: ids, surfaces, definitions, modes, states, contact events.
 ///
 /// Frames   node poses X_WN in World, right-handed, +Z up; C is a body's centre of mass with its principal
 /// axes. Units    metres, seconds, kilograms; times in show nanoseconds.
@@ -20,8 +20,9 @@ using BodyId = std::uint32_t;
 using ColliderId = std::uint32_t;
 using FieldId = std::uint32_t;
 
-/// What one side says about a contact; what it leaves open, the other side decides, else the default.
-/// Pair: friction sqrt(a b), restitution and rolling the larger.
+/// Surface properties of one side of a contact. If one side leaves a value open, the other side decides; if
+/// both do, the default holds. A pair has the friction sqrt(a b), and the larger restitution and rolling
+/// resistance.
 struct Surface {
   std::optional<double> friction;     ///< Coulomb coefficient, default 0.5
   std::optional<double> restitution;  ///< in [0, 1], default 0.5
@@ -33,14 +34,14 @@ struct PairSurface {
 };
 PairSurface combine(const Surface& a, const Surface& b);
 
-/// A body that sticks fast in what its tip meets first, as a javelin does in the ground: in a collider that
-/// stands still, at more than 1 m/s.
+/// A body embeds its tip, like a javelin, in the first collider that the tip hits faster than 1 m/s. The
+/// collider must stand still.
 struct Stick {
-  Vec3 nose = Vec3::UnitX();  ///< the way the tip points, unit, in N
+  Vec3 nose = Vec3::UnitX();  ///< direction of the tip, unit, in N
   double tip = 0;             ///< of the foremost point, along the nose [m]
   double reach = 0.01;        ///< points so far behind it still belong to the tip [m]
   double cosine = 0.5;        ///< of the greatest angle between the nose and straight into the surface
-  double depth = 0;           ///< so far it goes in, the way the tip comes [m]
+  double depth = 0;           ///< how far the tip goes in, along its velocity [m]
 };
 
 struct BodyFlight;
@@ -54,9 +55,9 @@ struct BodyDef {
   Surface surface;
   double damping = 0;            ///< velocity lost as exp(-c t) [1/s]
   double dragArea = 0;           ///< drag coefficient times cross section, for media [m2]
-  double releaseDistance = 0.5;  ///< [m]; if infinite, releases are not watched for and not told
+  double releaseDistance = 0.5;  ///< [m]; if infinite, no release is reported
   std::optional<Stick> stick;
-  std::shared_ptr<const BodyFlight> flight;  ///< null: it feels media as a point with its drag area
+  std::shared_ptr<const BodyFlight> flight;  ///< null: media act on a point with its drag area
 };
 
 struct ColliderDef {
@@ -73,12 +74,12 @@ enum class BodyMode : std::uint8_t {
   Rest,         ///< asleep: its state is frozen
   Held,         ///< moved from outside (grabbed)
   Quarantined,  ///< its state would have become non-finite
-  Stuck,        ///< its tip sticks in a collider, until that moves or goes, or somebody takes it out
+  Stuck,        ///< its tip sticks in a collider, until that moves or disappears, or a hand takes it
 };
 constexpr BodyMode lastOf(BodyMode) {
   return BodyMode::Stuck;
 }
-/// Whether a body of this mode neither moves nor is moved.
+/// Whether a body in this mode stands.
 constexpr bool standsStill(BodyMode mode) {
   return mode == BodyMode::Rest || mode == BodyMode::Quarantined || mode == BodyMode::Stuck;
 }
@@ -93,7 +94,7 @@ constexpr FlightClass lastOf(FlightClass) {
   return FlightClass::Steps;
 }
 
-/// A body's whole simulated state at the end of the last advance, for hashing and reports.
+/// The whole simulated state of a body at the end of the last advance, for hashes and reports.
 struct BodyState {
   Pose pose;                  ///< X_WN
   Vec3 p = Vec3::Zero();      ///< centre of mass [m]
@@ -102,11 +103,11 @@ struct BodyState {
   Vec3 omega = Vec3::Zero();  ///< [rad/s]
   Vec3 L = Vec3::Zero();      ///< angular momentum [kg m2/s]
   BodyMode mode = BodyMode::Flight;
-  Nanoseconds clock = 0;  ///< when its present arc began [ns]
+  Nanoseconds clock = 0;  ///< start of its present arc [ns]
   double clockRest = 0;   ///< [s], part of the clock below a nanosecond
-  // For reports, no part of the state:
+  // For reports only:
   FlightClass flight = FlightClass::Exact;  ///< in flight
-  std::uint32_t arcs = 0;                   ///< how many it has begun so far: the measure of work
+  std::uint32_t arcs = 0;                   ///< arcs begun so far: a measure of work
   bool asleep() const { return mode == BodyMode::Rest; }
 };
 

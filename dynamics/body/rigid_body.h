@@ -107,7 +107,7 @@ struct Hook {
   FieldId field = 0;
 };
 
-/// How a body that hardly moves changes its velocity: who is being accelerated does not fall asleep.
+/// How a body that hardly moves changes its velocity. A body that accelerates does not fall asleep.
 struct Calm {
   Vec3 v = Vec3::Zero(), omega = Vec3::Zero();  ///< when the present look began
   double since = 0;                             ///< its quiet time then [s]
@@ -145,57 +145,83 @@ struct WayOut {
   double side = 1;              ///< 1: out of the front of its faces, -1: out of their back
 };
 
-struct RigidBody : RigidMotion {
+/// What does not change while a body lives: its shape, mass, surface and air.
+struct BodyMatter {
   ShapeId shapeId = 0;
   const Shape* shape = nullptr;
-  Surface surface;
-  double mass = 1, inverseMass = 1;
-  Vec3 inertia = Vec3::Ones();
-  EvenPull even;  ///< a path that is a series: what acts on the body
-  Pose X_NC, X_CN;
-  bool centred = false;  ///< a ball that rotates about its own centre: it has closed forms
-  Sphere bound;          ///< centre in N
+  Sphere bound;          ///< of the shape, centre in N
   double reach = 0;      ///< greatest distance of a surface point from the centre of mass [m]
-  double damping = 0, dragArea = 0, releaseDistance = 0.5;
+  bool centred = false;  ///< a ball that rotates about its own centre: it has closed forms
+  Surface surface;
+  double mass = 1, inverseMass = 1;  ///< [kg], [1/kg]
+  Vec3 inertia = Vec3::Ones();       ///< about the principal axes [kg m2]
+  Pose X_NC, X_CN;                   ///< centre of mass and principal axes in N, and back
+  double damping = 0;                ///< [1/s]
+  double dragArea = 0;               ///< [m2]
+  double releaseDistance = 0.5;      ///< [m]
   std::optional<Stick> stick;
   std::shared_ptr<const BodyFlight> flight;
   Quat q_CA = Quat::Identity();  ///< flight frame A to C, of a body with `flight`
+};
 
-  Vec3 endL = Vec3::Zero();  ///< Contact, but for Driven spins: angular momentum at the end of the sub-step
-  double step = 0;           ///< last step of the general integrator [s]
-  Support support;
-  std::vector<Hook> hooks;
-  std::vector<Party> touching;   ///< Contact, Rest: whom the body leans on, or nearly
-  std::vector<Party> leaning;    ///< Contact: those of them that the memory of pairs calls touching
-  std::vector<Pressed> presses;  ///< Contact: forces of the last step on the points of this body
-  double dueAge = 0;             ///< Contact: age at which the solver looks again; 0: at once [s]
-  bool crowd = false;            ///< Contact: one of many, advanced together with them
-  bool wedged = false;           ///< Contact, islands: a hand or a lift presses it against what does not move
-  bool restless = false;         ///< Contact, islands: the last step had no exact solution, or not soon
-  bool drowsy = false;           ///< crowd: it falls asleep when the present step is over
-  bool heaped = false;           ///< Rest: it fell asleep as one of them
-  Vec3 drift = Vec3::Zero(), twist = Vec3::Zero();  ///< how far since it is quiet, or is looked at [m], [rad]
+/// A body in lasting contact. Much of it outlasts the mode: a sleeping body keeps its neighbours and forces,
+/// and wakes with them.
+struct BodyContact {
+  std::vector<Party> touching;   ///< what the body leans on, or nearly; also of a body at rest
+  std::vector<Party> leaning;    ///< those of them that the memory of pairs calls touching
+  std::vector<Pressed> presses;  ///< forces of the last step on the points of this body
+  Vec3 endL = Vec3::Zero();  ///< angular momentum at the end of the step, except for Driven spins [kg m2/s]
+  double dueAge = 0;         ///< age at which the solver continues; 0: at once [s]
+  bool crowd = false;        ///< a member of a pile, advanced together with the others
+  bool drowsy = false;       ///< in a pile: it falls asleep when the present step is over
+  bool heaped = false;       ///< at rest: it fell asleep as a member of a pile
+  bool wedged = false;       ///< in an island: external motion presses it against something fixed
+  bool restless = false;     ///< in an island: the last step had no exact solution, or not soon
+  double quiet = 0;          ///< how long it has hardly moved [s]
+  Calm calm;                 ///< in an island
+  Vec3 drift = Vec3::Zero(), twist = Vec3::Zero();  ///< since it is quiet, or since the last look [m], [rad]
   std::uint32_t slot = 0;                           ///< scratch of the contact solver
+};
+
+/// A body in a hand, and what it keeps of that until it is free.
+struct BodyGrip {
   GuidedMotion held;
-  BodyWay nextWay;  ///< Held: in the coming part of a frame, if it is known
-  bool traced = false,
-       awaited = false;           ///< its way is noted, for others or because it may part from something
-  bool put = false;               ///< it has been put where it is
-  BodyWay trace;                  ///< traced: its way in this frame
-  std::vector<FieldId> carried;   ///< Held: fields in the same hand
-  Vec3 wound = Vec3::Zero();      ///< Held: the velocity that their pushes have added up to, in N [m/s]
-  Instant woundTo;                ///< Held: until when
-  Vec3 freePlace = Vec3::Zero();  ///< Held: where the middle of its bound was when it last was in nothing
-  bool letGo = false;             ///< a hand has let go of it in this moment
-  std::vector<WayOut> waysOut;    ///< Contact: of what it was let go in, until it is out
-  std::uint32_t impacts = 0;      ///< in the short time `impactSpan`
-  Nanoseconds impactSpan = -1;
-  double quiet = 0;  ///< Contact: how long it has hardly moved [s]
-  Calm calm;         ///< Contact, islands
-  std::string trouble;
-  Aabb swept;                        ///< of the rest of the window, as far as it is known
+  BodyWay nextWay;                ///< in the coming part of a frame, if it is known
+  std::vector<FieldId> carried;   ///< fields in the same hand
+  Vec3 wound = Vec3::Zero();      ///< the velocity that their pushes have added up to, in N [m/s]
+  Instant woundTo;                ///< until when
+  Vec3 freePlace = Vec3::Zero();  ///< the last place of the middle of its bound where it was in nothing
+  bool letGo = false;             ///< a hand has released it at this moment
+  std::vector<WayOut> waysOut;    ///< out of the colliders in which it was released
+};
+
+/// The record of a body's path within a frame (state/body_traces.h).
+struct BodyTrace {
+  bool traced = false;   ///< for others
+  bool awaited = false;  ///< because it may part from something
+  bool put = false;      ///< it has been put where it is
+  BodyWay way;
+};
+
+/// The whole state of a body.
+///
+/// The parts are no std::variant of modes, because they outlast modes: a ball that rests keeps the face on
+/// which it rolled, a body that wakes starts its contact from the forces of the last one, and a snapshot
+/// saves all of it.
+struct RigidBody : RigidMotion, BodyMatter {
+  EvenPull even;    ///< a path that is a series: what acts on the body
+  double step = 0;  ///< last step of the general integrator [s]
+  Support support;  ///< Slide, Roll, Rest: the face
+  std::vector<Hook> hooks;
+  BodyContact contact;
+  BodyGrip grip;
+  BodyTrace trace;
+  std::uint32_t impacts = 0;         ///< in the short time `impactSpan`
+  Nanoseconds impactSpan = -1;       ///< counts spans of 16 ms
+  std::string trouble;               ///< why it is quarantined
+  Aabb swept;                        ///< in the rest of the window, as far as it is known
   std::uint32_t place = 0xffffffff;  ///< in the broad phase
-  ColliderId only = 0;               ///< all that is near what it sweeps, if it is alone
+  ColliderId only = 0;               ///< the one thing near what it sweeps, if it is alone
 
   bool isBall() const { return std::holds_alternative<BallShape>(*shape); }
   /// How far the ball's centre is from the centre of mass [m].
@@ -212,12 +238,14 @@ struct RigidBody : RigidMotion {
   Vec3 velocity(double tau) const { return path.velocity(age(tau)); }
   Quat orientation(double tau) const { return spin.orientation(spinAge(tau)); }
   /// In a step of contact the arc turns with the mean of the step, through which the momentum grows evenly.
-  bool torqued() const { return mode == BodyMode::Contact && dueAge > 0 && spin.kind != Spin::Kind::Driven; }
+  bool torqued() const {
+    return mode == BodyMode::Contact && contact.dueAge > 0 && spin.kind != Spin::Kind::Driven;
+  }
   /// Angular momentum now.
   Vec3 momentum(double tau) const {
     if (!torqued()) return spin.angularMomentum(spinAge(tau));
-    const double share = std::clamp(2 * age(tau) / dueAge - 1, -1.0, 1.0);
-    return spin.L + share * (endL - spin.L);
+    const double share = std::clamp(2 * age(tau) / contact.dueAge - 1, -1.0, 1.0);
+    return spin.L + share * (contact.endL - spin.L);
   }
   /// Angular velocity that belongs to it.
   Vec3 turning(double tau) const { return turning(tau, orientation(tau)); }
@@ -229,13 +257,13 @@ struct RigidBody : RigidMotion {
   }
   /// X_WN alone.
   Pose poseAt(double tau) const {
-    if (mode == BodyMode::Held) return held.at(tau).pose;
+    if (mode == BodyMode::Held) return grip.held.at(tau).pose;
     const Pose X_WC{position(tau), orientation(tau)};
     return aligned ? X_WC : X_WC * X_CN;
   }
   Kinematics at(double tau) const {
     if (mode == BodyMode::Held) {
-      Kinematics k = held.at(tau);
+      Kinematics k = grip.held.at(tau);
       const Vec3 c = k.pose * X_NC.p;
       k.v = k.velocityAt(c), k.p = c;
       return k;
@@ -272,7 +300,7 @@ struct Collider {
 };
 
 inline MotionBound RigidBody::boundOver(double from, double to) const {
-  if (mode == BodyMode::Held) return held.boundOver(from, to).seenFrom(X_NC.p.norm());
+  if (mode == BodyMode::Held) return grip.held.boundOver(from, to).seenFrom(X_NC.p.norm());
   return boundOf(path, age(from), age(to), spin, spinAge(to));
 }
 

@@ -7,7 +7,7 @@
 
 namespace stadion {
 
-/// Whether the side is a ball about its own centre of mass that nobody holds, or one that stands still.
+/// Whether the side is a ball about its own centre of mass that is not held, or one that stands still.
 inline bool isFreeBall(const Side& s) {
   return s.body ? s.body->centred && s.body->mode != BodyMode::Held
                 : std::holds_alternative<BallShape>(*s.shape) && !s.collider->motion.moving;

@@ -1,9 +1,9 @@
 #pragma once
-/// Who may come near whom: the boxes that things sweep, in strips along one axis, sorted along another.
-/// Internal to dynamics/.
+/// The broad phase: the boxes that things sweep, in strips along one axis, sorted along another. It finds the
+/// pairs that may come near each other. Internal to dynamics/.
 ///
-/// Far larger boxes than most are kept apart and looked at one by one; so are those that have changed since
-/// the sorting, until there are too many of them.
+/// Boxes that are far larger than most are kept apart and visited one by one. So are boxes that have changed
+/// since the last sort, until sorting again is cheaper.
 /// Order    visits go by what was filed, in which order; no addresses.
 /// T        has a member `std::uint32_t place`, which belongs to the broad phase, `kUnfiled` at first.
 

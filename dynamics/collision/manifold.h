@@ -11,7 +11,8 @@ namespace stadion {
 constexpr double kTouching = 1e-4;  ///< pairs closer than this are in contact [m]
 constexpr double kDeepBall = 0.2;   ///< share of a ball's radius that it overlaps only when put there
 
-/// Whose corner the point is: it turns with that side, the normal with the other.
+/// The side that the corner of a contact point belongs to. The point turns with that side, the normal with
+/// the other.
 enum class Carrier : std::uint8_t { None, A, B };
 
 /// How the carrier is round where it touches: it rolls over the point, which stays below its axis.

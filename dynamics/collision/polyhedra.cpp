@@ -129,7 +129,7 @@ std::optional<Touch> meshesTouch(const Side& a, const Side& b, double from, doub
     tau += std::max(leastTime(g.distance > kNear ? kShare * g.distance : kLeast, speed, acceleration), 1e-9);
     if (!(tau <= to)) return {};
   }
-  // Too near for too long to see farther: nothing gets lost if they meet here, even as they part. Whoever
+  // Too near for too long to see farther. Nothing is lost if they meet here, even as they part. A pair that
   // does so again and again is in lasting contact.
   return lastFree;
 }

@@ -29,7 +29,7 @@ struct Side {
   /// How it moves if that is said from outside, else null.
   const GuidedMotion* motion() const {
     if (collider) return &collider->motion;
-    return body->mode == BodyMode::Held ? &body->held : nullptr;
+    return body->mode == BodyMode::Held ? &body->grip.held : nullptr;
   }
   bool guided() const { return motion() && motion()->guided(); }
   bool still() const { return body ? standsStill(body->mode) : !collider->motion.moving; }

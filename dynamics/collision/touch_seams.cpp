@@ -63,7 +63,7 @@ std::vector<char> hiddenAmong(const std::vector<Bearing>& points) {
   };
   if (n < 2 || std::ranges::none_of(points, differs)) return {};
   std::vector<char> hidden(n, 0);
-  std::vector<std::pair<std::size_t, std::size_t>> hides;  // by whom, whom
+  std::vector<std::pair<std::size_t, std::size_t>> hides;  // which bearing, which other
   for (std::size_t i = 0; i < n; ++i)
     for (std::size_t k = 0; k < n; ++k) {
       const Bearing &p = points[i], &on = points[k];
@@ -73,8 +73,8 @@ std::vector<char> hiddenAmong(const std::vector<Bearing>& points) {
     }
   if (hides.empty()) return {};
   std::vector<char> gone(n, 0);
-  for (const auto& [by, whom] : hides)
-    if (!hidden[by]) gone[whom] = 1;
+  for (const auto& [by, hiddenOne] : hides)
+    if (!hidden[by]) gone[hiddenOne] = 1;
   return gone;
 }
 

@@ -22,7 +22,7 @@ std::uint32_t CrowdEnergy::of(std::uint32_t i) {
   return i;
 }
 
-/// Who pushes whom at present belongs together from now on.
+/// Bodies that push each other at present belong together from now on.
 void CrowdEnergy::join(const Crowd& crowd) {
   for (const CrowdContact& c : crowd.contacts) {
     if (!(c.pressed > 0)) continue;

@@ -18,7 +18,7 @@ constexpr double kConverged = 1e-8;    ///< a sweep that changes less is the las
 constexpr double kSlow = 0.1;          ///< root mean square speed at rest, nearly [m/s]
 constexpr double kSettled = 1e-5;      ///< a sweep that changes less is the last [m/s]
 constexpr double kSlop = 1e-4;         ///< overlap that is left alone [m]
-constexpr double kDeep = 2e-2;         ///< overlap that no step leaves behind: somebody was put there [m]
+constexpr double kDeep = 2e-2;         ///< overlap that no step leaves behind: the body was put there [m]
 constexpr double kShare = 0.3;         ///< of deeper overlap that a step takes back
 constexpr double kMostShift = 2e-3;    ///< in a step [m]
 constexpr double kBounceSpeed = 0.5;   ///< slower approaches do not bounce [m/s]
@@ -232,7 +232,7 @@ double CrowdSolver::meanSquare() const {
   return sum / static_cast<double>(std::max<std::size_t>(crowd_.members, 1));
 }
 
-/// Whoever would meet within the step bounces now, or slows down so far that it just meets.
+/// Bodies that would meet within the step bounce now, or slow down so far that they just meet.
 void CrowdSolver::jump() {
   bool any = false;
   for (CrowdContact& c : crowd_.contacts) {
@@ -249,7 +249,7 @@ void CrowdSolver::jump() {
   energy_.boundJump(crowd_, before);
 }
 
-/// Takes back a share of what overlaps; who is in the way moves along.
+/// Takes back a share of what overlaps; what is in the way moves along.
 void CrowdSolver::shift() {
   crowd_.shift.assign(crowd_.bodies.size(), Vec3::Zero());
   bool any = false;

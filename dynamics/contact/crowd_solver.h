@@ -1,16 +1,18 @@
 #pragma once
-/// One step of a heap of bodies: many contact points, a few sweeps, and energy that contacts never add.
+/// One step of a pile of bodies: many contact points, a few sweeps, and contacts that add no energy.
 ///
-/// Method   a step has two parts. At its start velocities jump, so that whoever would meet within the step
-/// bounces or closes its gap and no more. Through the step every body has one acceleration, from its pull and
-/// from the contact points' forces, which keep the mean velocity from closing more than the gap. Both are
-/// found by projected Gauss-Seidel sweeps; the forces begin with those of the last step.
-/// Energy   with even accelerations the work of all contact forces on a set of bodies goes linearly through
-/// the step: it is negative throughout if it is so at both ends. Where the sweeps leave it otherwise, the set
-/// is slowed down until it is. The jump's energy is bounded likewise. Overlap is taken back by a shift, which
-/// the set pays for with what the jump took and with a little of its motion; only far deeper overlap, which
-/// no step leaves behind, is undone for free. So the energy of a heap that nothing moves from outside does
-/// not rise from any moment to a later one (round bodies; others turn with their mean momentum).
+/// Method   a step has two parts. At its start velocities jump, so that a body that would meet another
+///          within the step bounces, or closes its gap and no more. Through the step every body has one
+///          acceleration, from its pull and from the forces at its contact points. These keep the mean
+///          velocity from closing more than the gap. Projected Gauss-Seidel sweeps find both; the forces
+///          begin with the last step's.
+/// Energy   with even accelerations, the work of all contact forces on a set of bodies changes linearly
+///          through the step. It is negative throughout if it is negative at both ends. If the sweeps leave
+///          it positive, the set is slowed down. The energy of the jump is bounded likewise.
+/// Overlap  a shift removes it. The set pays for that with what the jump took and with a little of its
+///          motion. Only far deeper overlap, which no step leaves behind, is removed for free.
+/// Result   the energy of a pile that nothing moves from outside never rises. This holds for round bodies;
+///          others turn with their mean momentum.
 
 #include "engine/maths/maths.h"
 

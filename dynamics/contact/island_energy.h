@@ -3,7 +3,7 @@
 ///
 /// Method   the work of all impulses on the members is a b + a^2 c if they are `a` times as strong: where it
 /// would be positive they are weakened, all alike, until it is not. So momenta stay what they are. Overlap is
-/// pushed out at a speed of its own: the work that this takes is allowed to who does not move as fast
+/// pushed out at a speed of its own: the work that this takes is allowed to bodies that do not move as fast
 /// already.
 
 #include "dynamics/body/impulse.h"

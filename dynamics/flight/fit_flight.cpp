@@ -86,7 +86,7 @@ Eigen::VectorXd apart(const Trajectory& flown, const Trajectory& recorded, int a
   const double range = (recorded.back().at.p - recorded.front().at.p).head<2>().norm();
   const double metres = tolerance.landing * std::max(range, 1e-3),
                share = 1 / std::sqrt(double(recorded.size()));
-  // An axis that nobody asked for still tells what the air does to it.
+  // An axis that was not asked for still shows what the air does to it.
   const double radians = std::min(tolerance.attitude, 5.0) * kDegree;
   Eigen::VectorXd r(6 * static_cast<Eigen::Index>(recorded.size()) + 2);
   Eigen::Index n = 0;

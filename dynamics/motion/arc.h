@@ -30,8 +30,8 @@ struct Path {
   int degree = 0;
   double damping = 0;  ///< [1/s]
   double spare = 0;    ///< bound on the acceleration of a polynomial of degree > 2 [m/s2]
-  /// Coefficients up to `degree`, and one to spare for those who read four numbers at once; damped: position,
-  /// velocity, acceleration.
+  /// Coefficients up to `degree`, and one to spare for code that reads four numbers at once. Damped:
+  /// position, velocity, acceleration.
   std::array<Vec3, kMostDegree + 2> c;
 
   Path() { c[0].setZero(), c[1].setZero(), c[2].setZero(), c.back().setZero(); }

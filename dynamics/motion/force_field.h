@@ -1,11 +1,11 @@
 #pragma once
-/// What pushes bodies: plain descriptions that the world evaluates; the scene nodes that own them move and
-/// switch them.
+/// Force fields and media. A field is a plain value: the world evaluates it, and its scene node moves and
+/// switches it.
 ///
-/// Frames   a field has a pose and a strength at the start and at the end of the frame and goes evenly
-///          between them.
-/// Forces   all fields here act at the centre of mass. A new kind is a new struct in `FieldLaw` and one case
-/// in `accelerationOf`.
+/// Laws     linear, spherical, point, vortex, medium. docs/architecture.md says how to add one.
+/// Frames   a field has a pose X_WF and a strength at both ends of the frame; both change evenly.
+/// Forces   all laws here act at the centre of mass.
+/// Units    SI; a strength is an acceleration [m/s2] or a force [N], as `unit` says.
 
 #include "engine/base/time_signature.h"
 #include "engine/maths/maths.h"

@@ -107,7 +107,7 @@ protected:
   virtual bool needsScene(Nanoseconds end) const;
   /// What happens at `time`; no frame is given if nothing of it needs the scene.
   virtual void act(Nanoseconds time, FrameContext* frame);
-  /// Whether somebody whom `mover` moves is among those it looks at, or carries one.
+  /// Whether `mover` moves one of the nodes that this one looks at, or one that carries such a node.
   virtual bool looksAt(const Node& mover, const Scene& scene) const;
   /// Tells the world where things that are moved from outside go until `to`; evenly, or as the world stands
   /// still in between, with a jump.

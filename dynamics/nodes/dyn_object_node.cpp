@@ -47,7 +47,7 @@ std::vector<DynObjectNode::Request> DynObjectNode::takeRequests() {
 }
 
 void DynObjectNode::ask(Request request) {
-  if (!simulation_.asking) return;  // nobody would ever take it
+  if (!simulation_.asking) return;  // no node would ever take it
   requests_.push_back(std::move(request));
   simulation_.asking->push_back(self());
 }

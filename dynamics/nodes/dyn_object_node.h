@@ -81,7 +81,7 @@ public:
   };
   void setSimulation(const Simulation& simulation) { simulation_ = simulation; }
   BodyId bodyId() const { return simulation_.body; }
-  NodeRef movedBy() const { return simulation_.dynamics; }  ///< invalid while nobody simulates it
+  NodeRef movedBy() const { return simulation_.dynamics; }  ///< invalid while no node simulates it
   /// Its simulated state, copied here by its dynamics node so that the state hash sees it.
   void setState(const BodyState& state) { state_ = state; }
   const BodyState& state() const { return state_; }

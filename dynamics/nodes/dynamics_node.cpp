@@ -199,7 +199,7 @@ void DynamicsNode::obey(const Order& order, FrameContext& frame) {
 
 void DynamicsNode::grab(const Part& part, const std::string& tracker, Nanoseconds when, FrameContext& frame) {
   const Course* hand = frame.scene.feed().trackerCourse(tracker, frame);
-  if (!hand || when < hand->front().time) return;  // nobody knows where the hand is
+  if (!hand || when < hand->front().time) return;  // it is not known where the hand is
   Course way = *hand;
   letGo(part, when, frame.scene);
   if (const Grip* grip = grips_.grab(part.id, part.ref, tracker, std::move(way), when))

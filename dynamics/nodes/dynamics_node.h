@@ -86,7 +86,7 @@ private:
 
   std::vector<NodeRef> asking_;               ///< bodies of which something has been asked
   std::unordered_map<BodyId, Part*> partOf_;  ///< by its body
-  std::vector<Part*> traced_;                 ///< those whose way in this frame somebody may look at
+  std::vector<Part*> traced_;                 ///< those whose path in this frame others may read
   std::vector<Field> fields_;
   Grips grips_{world_};
   std::vector<Order> orders_;  ///< of this frame, in the order of time

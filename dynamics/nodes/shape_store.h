@@ -25,7 +25,7 @@ struct FittedShape {
 };
 using SharedFit = std::shared_ptr<const FittedShape>;
 
-/// Ownership  whoever uses a fit owns it, together with the others; it goes with the last of them.
+/// Ownership  all users of a fit own it together; it is deleted with the last of them.
 /// Threads    any: the loader fits what a file declares before App needs it.
 /// The mesh's form at another size, without what it looks like.
 Mesh scaled(const Mesh& mesh, const Eigen::Vector3f& scale);

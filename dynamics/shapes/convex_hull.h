@@ -45,7 +45,7 @@ struct ConvexShape {
   }
   bool few() const { return points.size() <= 24; }  ///< looking through all is faster than walking
 
-  /// Who is next to corner i: neighbours[firstNeighbour[i]] and on, before firstNeighbour[i + 1].
+  /// The corners next to corner i: neighbours[firstNeighbour[i]] and on, before firstNeighbour[i + 1].
   std::vector<std::uint32_t> neighbours, firstNeighbour;
   std::vector<std::uint32_t> facesAround, firstFace;  ///< the faces that meet in a corner, in the same way
   std::array<std::uint32_t, 8> outermost{};  ///< along (-1, -1, -1), (1, -1, -1), (-1, 1, -1) and so on

@@ -7,10 +7,10 @@ namespace stadion {
 
 /// Notes the body's way from now on, for others or for its own partings, or no longer.
 void BodyTraces::trace(RigidBody& b, bool traced, bool awaited, double tau) {
-  const bool before = b.traced || b.awaited;
-  b.traced = traced, b.awaited = awaited;
+  const bool before = b.trace.traced || b.trace.awaited;
+  b.trace.traced = traced, b.trace.awaited = awaited;
   if (before == (traced || awaited)) return;
-  b.trace.clear();
+  b.trace.way.clear();
   if (before) {
     std::erase(list_, &b);
   } else {
@@ -20,19 +20,19 @@ void BodyTraces::trace(RigidBody& b, bool traced, bool awaited, double tau) {
 }
 
 void BodyTraces::addPart(RigidBody& b, WayPart part) {
-  part.jump = std::exchange(b.put, false);
+  part.jump = std::exchange(b.trace.put, false);
   // What lasts for no time is no part of a way.
-  if (!b.trace.empty() && !(b.trace.back().from < part.from)) {
-    part.from = b.trace.back().from, part.jump = part.jump || b.trace.back().jump;
-    b.trace.back() = part;
+  if (!b.trace.way.empty() && !(b.trace.way.back().from < part.from)) {
+    part.from = b.trace.way.back().from, part.jump = part.jump || b.trace.way.back().jump;
+    b.trace.way.back() = part;
   } else {
-    b.trace.push_back(part);
+    b.trace.way.push_back(part);
   }
 }
 
 /// The body follows the arc that it has now from tau on.
 void BodyTraces::note(RigidBody& b, double tau) {
-  if (!b.traced && !b.awaited) return;
+  if (!b.trace.traced && !b.trace.awaited) return;
   if (b.mode == BodyMode::Held) return noteHeld(b, tau);
   WayPart part;
   part.from = time_.instantAt(tau);
@@ -43,13 +43,14 @@ void BodyTraces::note(RigidBody& b, double tau) {
 
 /// The way of a held body from tau on, in this part of a frame.
 void BodyTraces::noteHeld(RigidBody& b, double tau) {
-  if (!b.traced && !b.awaited) return;
-  if (!b.held.guided()) {
-    const Kinematics k = b.held.at(tau);
+  if (!b.trace.traced && !b.trace.awaited) return;
+  if (!b.grip.held.guided()) {
+    const Kinematics k = b.grip.held.at(tau);
     return addPart(b, WayPart::straight(time_.instantAt(tau), k.pose, k.v, k.omega));
   }
-  for (std::size_t i = b.held.partAfter(tau); i < b.held.way.size() && b.held.way[i].tau < time_.now(); ++i) {
-    WayPart part = b.held.way[i];
+  for (std::size_t i = b.grip.held.partAfter(tau);
+       i < b.grip.held.way.size() && b.grip.held.way[i].tau < time_.now(); ++i) {
+    WayPart part = b.grip.held.way[i];
     const double early = tau - part.tau;
     if (early > 0) part.from = time_.instantAt(tau), part.pathAge += early, part.spinAge += early;
     addPart(b, part);
@@ -63,7 +64,7 @@ void BodyTraces::begin(bool continues) {
   find(goesOn);
   if (goesOn) return;
   for (RigidBody* b : list_) {
-    if (!continues) b->trace.clear();
+    if (!continues) b->trace.way.clear();
     note(*b, time_.from());
   }
 }
@@ -74,7 +75,7 @@ void BodyTraces::find(bool goesOn) {
   constexpr double kUsualPull = 10;  // [m/s2]
   const double span = 2 * (time_.now() - time_.from()) + 0.02;
   if (!goesOn)
-    for (RigidBody* b : list_) b->awaited = false;
+    for (RigidBody* b : list_) b->trace.awaited = false;
   const auto mayGo = [&](const RigidBody* b) {
     if (!b || standsStill(b->mode)) return 0.0;
     if (b->mode == BodyMode::Held) return 1e300;
@@ -86,16 +87,16 @@ void BodyTraces::find(bool goesOn) {
               *b = objects_.body(w.pair.second);
     if (mayGo(a) + mayGo(b) < w.slack) continue;
     for (RigidBody* one : {a, b}) {
-      if (!one || one->awaited) continue;
-      one->awaited = true;
-      if (one->traced || !one->trace.empty()) continue;
+      if (!one || one->trace.awaited) continue;
+      one->trace.awaited = true;
+      if (one->trace.traced || !one->trace.way.empty()) continue;
       list_.push_back(one);
       if (goesOn) note(*one, time_.from());
     }
   }
   std::erase_if(list_, [](RigidBody* b) {
-    if (b->traced || b->awaited) return false;
-    b->trace.clear();
+    if (b->trace.traced || b->trace.awaited) return false;
+    b->trace.way.clear();
     return true;
   });
 }
@@ -104,7 +105,7 @@ void BodyTraces::find(bool goesOn) {
 void BodyTraces::pause(bool continues) {
   stoodStill_ = true;
   for (RigidBody* b : list_) {
-    if (!continues) b->trace.clear();
+    if (!continues) b->trace.way.clear();
     addPart(*b, WayPart::straight(Instant{time_.t1(), 0}, b->pose, Vec3::Zero(), Vec3::Zero()));
   }
 }

@@ -131,10 +131,10 @@ void rememberTouching(ContactMemory& memory, RigidBody& b, const std::vector<Par
     return std::find(list.begin(), list.end(), p) != list.end();
   };
   for (const Party p : near)
-    if (!in(b.leaning, p)) memory.setTouching(ContactMemory::keyOf(p, {true, b.id}), true);
-  for (const Party p : b.leaning)
+    if (!in(b.contact.leaning, p)) memory.setTouching(ContactMemory::keyOf(p, {true, b.id}), true);
+  for (const Party p : b.contact.leaning)
     if (!in(near, p)) memory.setTouching(ContactMemory::keyOf(p, {true, b.id}), false);
-  b.leaning = near;
+  b.contact.leaning = near;
 }
 
 }  // namespace stadion

@@ -108,7 +108,9 @@ void FieldCommands::followFields() {
         b.hooks, [&](const Hook& h) { return std::ranges::find(different, h.field) != different.end(); });
     if (!concerned || !b.enabled) continue;
     // A pile's step goes on. So does a step that ends at once, since a part of a frame may be as short.
-    if (b.mode == BodyMode::Contact && (b.crowd || b.dueAge - b.age(time_.from()) <= kShortestStep)) continue;
+    if (b.mode == BodyMode::Contact &&
+        (b.contact.crowd || b.contact.dueAge - b.age(time_.from()) <= kShortestStep))
+      continue;
     stir(b);
   }
 }

@@ -10,12 +10,12 @@ bool bothCarried(const Side& a, const Side& b) {
 
 void HeldBodies::add(RigidBody& b) {
   b.mode = BodyMode::Held;
-  b.freePlace = b.pose * b.bound.centre;
+  b.grip.freePlace = b.pose * b.bound.centre;
   if (std::ranges::find(list_, &b) == list_.end()) list_.push_back(&b);
-  b.held.way.clear(), b.nextWay.clear();
-  b.held.set(b.pose, b.pose, time_.now(), 0);
-  b.carried.clear();
-  b.wound.setZero();
+  b.grip.held.way.clear(), b.grip.nextWay.clear();
+  b.grip.held.set(b.pose, b.pose, time_.now(), 0);
+  b.grip.carried.clear();
+  b.grip.wound.setZero();
 }
 
 void HeldBodies::dropReleased() {
@@ -23,22 +23,23 @@ void HeldBodies::dropReleased() {
 }
 
 void HeldBodies::carryFields(RigidBody& b, std::vector<FieldId> fields) const {
-  if (b.carried.empty()) b.woundTo = time_.instantAt(time_.now());
-  b.carried = std::move(fields);
+  if (b.grip.carried.empty()) b.grip.woundTo = time_.instantAt(time_.now());
+  b.grip.carried = std::move(fields);
 }
 
 void HeldBodies::windUp(double tau) {
   for (RigidBody* b : list_) {
-    if (b->mode != BodyMode::Held || b->carried.empty()) continue;
+    if (b->mode != BodyMode::Held || b->grip.carried.empty()) continue;
     // A push acts evenly and keeps its direction in the hand: its mean is that of the middle.
-    const double span = time_.instantAt(tau).since(b->woundTo), middle = tau - 0.5 * span;
+    const double span = time_.instantAt(tau).since(b->grip.woundTo), middle = tau - 0.5 * span;
     if (!(span > 0)) continue;
-    b->woundTo = time_.instantAt(tau);
-    const Quat q_NW = b->held.at(middle).pose.q.conjugate();
-    for (const FieldId id : b->carried) {
+    b->grip.woundTo = time_.instantAt(tau);
+    const Quat q_NW = b->grip.held.at(middle).pose.q.conjugate();
+    for (const FieldId id : b->grip.carried) {
       const FieldEntry* f = fields_.find(id);
       if (!f || !f->on || !isHooked(*b, id) || !std::holds_alternative<LinearField>(f->field.law)) continue;
-      b->wound += span * (q_NW * accelerationOf(f->field, {b->mass, b->dragArea}, time_.shareAt(middle)));
+      b->grip.wound +=
+          span * (q_NW * accelerationOf(f->field, {b->mass, b->dragArea}, time_.shareAt(middle)));
     }
   }
 }

@@ -6,12 +6,12 @@ namespace stadion {
 
 bool leansOn(const RigidBody& b, Party p) {
   return (b.support.on.id && b.support.on == p) ||
-         std::find(b.touching.begin(), b.touching.end(), p) != b.touching.end();
+         std::find(b.contact.touching.begin(), b.contact.touching.end(), p) != b.contact.touching.end();
 }
 
 void SupportGraph::note(const RigidBody& b) {
   if (b.support.on.id) leaners_.emplace(b.support.on, b.id);
-  for (const Party p : b.touching) leaners_.emplace(p, b.id);
+  for (const Party p : b.contact.touching) leaners_.emplace(p, b.id);
   if (leaners_.size() <= pruneAt_) return;
   std::erase_if(leaners_, [&](const auto& l) {
     const RigidBody* leaner = objects_.body(l.second);

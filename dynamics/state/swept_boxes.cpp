@@ -47,7 +47,7 @@ void SweptBoxes::sweep(RigidBody& b, double tau) {
   } else {
     const double end = b.pathAge - b.age0;
     Aabb box = sweptBody(b, tau, std::max(tau, std::min(time_.windowEnd(), end)));
-    if (b.crowd) {  // steps are short and many: a roomy box serves several
+    if (b.contact.crowd) {  // steps are short and many: a roomy box serves several
       if (b.place != kUnfiled && holds(b.swept, box)) return;
       const double room = 0.004 + 0.05 * b.velocity(tau).norm();
       b.swept.lo = box.lo.array() - room, b.swept.hi = box.hi.array() + room;
@@ -65,7 +65,7 @@ void SweptBoxes::sweep(Collider& c) {
   if (c.motion.moving) {
     c.swept = sweptBox(Side::of(c), time_.from(), std::max(time_.from(), time_.now()));
   } else {
-    constexpr double margin = 2e-5;  // so that whoever touches it at load is seen
+    constexpr double margin = 2e-5;  // so that a body that touches it at load is seen
     c.swept = boundingBox(*c.shape, c.motion.end);
     c.swept.lo.array() -= margin, c.swept.hi.array() += margin;
   }

@@ -3,8 +3,8 @@
 ///
 /// Units    show time in nanoseconds; tau in seconds since the start of the window.
 /// Windows  last 128 ms to 1 s and begin on a grid of show time, so that they do not depend on frames. The
-/// world
-///          predicts contacts to the end of the window. It knows external motion only to the end of the part.
+///          world predicts contacts to the end of the window, but knows external motion only to the end of
+///          the part.
 
 #include "dynamics/motion/instant.h"
 

@@ -44,7 +44,7 @@ bool ArcEnds::crossFold(RigidBody& b, double tau) const {
 
 void ArcEnds::reachHorizon(RigidBody& b, double tau) {
   if (b.mode == BodyMode::Held) {
-    ++b.held.part, ++b.version;
+    ++b.grip.held.part, ++b.version;
     waking_.wakeOnto({true, b.id}, tau);
     foresight_.predict(b, tau);
     return;

@@ -18,7 +18,7 @@ void Arrivals::settle() {
     for (const Party p : arrived) wakeWithin(p);
 }
 
-/// Who has appeared or jumped since the last frame: colliders, then bodies.
+/// What has appeared or jumped since the last frame: colliders, then bodies.
 std::vector<Party> Arrivals::arrivals() const {
   std::vector<Party> arrived;
   for (const ColliderId id : changes_.colliders())
@@ -78,9 +78,9 @@ void Arrivals::settleFresh(const std::vector<Party>& arrived) {
   for (const Settler& s : settlers) s.body->fresh = false;
   for (const Settler& s : settlers) {
     waysOut_.find(*s.body);
-    for (const WayOut& w : s.body->waysOut)
+    for (const WayOut& w : s.body->grip.waysOut)
       memory_.setTouching(ContactMemory::keyOf({false, w.of}, {true, s.body->id}), true);
-    if (!s.body->waysOut.empty())
+    if (!s.body->grip.waysOut.empty())
       waking_.enterContact(*s.body, time_.from());
     else if (!s.touching.empty())
       settle(*s.body, s.touching);

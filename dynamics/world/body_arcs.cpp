@@ -62,13 +62,13 @@ void BodyArcs::setPath(RigidBody& b, double tau, const Path& path, double horizo
   b.age0 = -tau;
   b.pathAge = horizon;
   b.validAge = std::min(horizon, b.spinStart + b.spin.horizon);
-  b.dueAge = 0;
-  b.drowsy = b.lazy = false;
-  b.heaped = b.crowd && mode == BodyMode::Rest;
-  b.crowd = b.crowd && mode == BodyMode::Contact;
+  b.contact.dueAge = 0;
+  b.contact.drowsy = b.lazy = false;
+  b.contact.heaped = b.contact.crowd && mode == BodyMode::Rest;
+  b.contact.crowd = b.contact.crowd && mode == BodyMode::Contact;
   b.until = tau + b.validAge;
   ++b.version;
-  if (mode != BodyMode::Flight && !b.crowd) supports_.note(b);
+  if (mode != BodyMode::Flight && !b.contact.crowd) supports_.note(b);
   active_.add(b);
   traces_.note(b, tau);
   if (!changes_.immediate())
@@ -88,7 +88,7 @@ void BodyArcs::quarantine(RigidBody& b, double tau, std::string why) {
   b.since = time_.instantAt(tau);
   b.age0 = -tau, b.until = b.validAge = b.pathAge = kUnlimited;
   b.support.on = {};
-  b.touching.clear();
+  b.contact.touching.clear();
   ++b.version;
   traces_.note(b, tau);
 }
@@ -229,7 +229,7 @@ void BodyArcs::startOnFace(RigidBody& b, double tau, const BallStart& s, bool gr
     return;
   }
   memory_.setTouching(ContactMemory::keyOf(b.support.on, self), true);
-  if (arc.mode == BodyMode::Rest) b.touching = {b.support.on};
+  if (arc.mode == BodyMode::Rest) b.contact.touching = {b.support.on};
   if (b.damping > 0 && arc.mode != BodyMode::Rest) {
     // Drag on top of friction: short arcs of mean deceleration.
     Path path = arc.path;

@@ -131,7 +131,7 @@ void ContactFinder::find(RigidBody& b, double tau, std::vector<FoundContact>& fo
     }
   };
   forgetWaysOut(b, objects_, tau);
-  for (const WayOut& w : b.waysOut) {
+  for (const WayOut& w : b.grip.waysOut) {
     const Shape plane = *barrier(self, Side::of(*objects_.collider(w.of)), tau, w);
     Collider form;
     form.shape = &plane;
@@ -147,10 +147,11 @@ void ContactFinder::find(RigidBody& b, double tau, std::vector<FoundContact>& fo
     if (!objects_.mayTouch(self, other)) return;
     const double reach = b.bound.radius + o.bound.radius + margin;
     if ((o.at(tau).pose * o.bound.centre - k.pose * b.bound.centre).squaredNorm() > reach * reach) return;
-    if (o.mode == BodyMode::Contact && !o.crowd) {
-      if (o.slot == kNowhere) o.slot = 0, set.push_back(&o);  // it is not due, but it comes along
-      if (o.id < b.id) return;                                // the pair is found from there
-    } else if (!o.crowd && !standsStill(o.mode) && o.mode != BodyMode::Held) {
+    if (o.mode == BodyMode::Contact && !o.contact.crowd) {
+      if (o.contact.slot == kNowhere)
+        o.contact.slot = 0, set.push_back(&o);  // it is not due, but it comes along
+      if (o.id < b.id) return;                  // the pair is found from there
+    } else if (!o.contact.crowd && !standsStill(o.mode) && o.mode != BodyMode::Held) {
       return;  // a flier: its touch is an event
     }
     against(other, other);

@@ -47,14 +47,14 @@ bool isSlender(const std::vector<RigidBody*>& island, const std::vector<FoundCon
 
 }  // namespace
 
-/// Sleepers touched by something that moves wake; true if there were any, who then take part.
+/// Sleeping bodies that something moving touches wake. True if there were any; they take part then.
 bool ContactIslands::wakeTouched(const std::vector<FoundContact>& found, double tau) {
   for (const FoundContact& f : found) {
     if (!f.b.isBody) continue;
     RigidBody& o = *objects_.body(f.b.id);
     const RigidBody& mover = *objects_.body(f.a.id);
     if (o.mode != BodyMode::Rest || f.gap.distance > kTouching) continue;
-    if (mover.quiet != 0 && !(mover.at(tau).velocityAt(f.gap.point).norm() > 5e-3)) continue;
+    if (mover.contact.quiet != 0 && !(mover.at(tau).velocityAt(f.gap.point).norm() > 5e-3)) continue;
     if (o.support.on.id) {
       waking_.enterContact(o, tau);
       waking_.wakeOnto({true, o.id}, tau);
@@ -70,9 +70,10 @@ void ContactIslands::findAll(double tau, std::vector<RigidBody*>& set, std::vect
   for (int pass = 0; pass < 50; ++pass) {
     set.clear(), found.clear(), finder_.clear();
     for (RigidBody* b : active_) {
-      b->slot = kInNoSet;
-      if (b->mode == BodyMode::Contact && b->enabled && !b->crowd && b->dueAge <= b->age(tau) + kDue)
-        b->slot = 0, set.push_back(b);
+      b->contact.slot = kInNoSet;
+      if (b->mode == BodyMode::Contact && b->enabled && !b->contact.crowd &&
+          b->contact.dueAge <= b->age(tau) + kDue)
+        b->contact.slot = 0, set.push_back(b);
     }
     std::ranges::sort(set, {}, &RigidBody::id);
     for (std::size_t i = 0; i < set.size(); ++i) finder_.find(*set[i], tau, found, set);
@@ -82,7 +83,7 @@ void ContactIslands::findAll(double tau, std::vector<RigidBody*>& set, std::vect
   std::ranges::sort(set, {}, &RigidBody::id);
   finder_.sort();
   std::ranges::stable_sort(found, {}, [](const FoundContact& f) { return std::pair(f.a, f.b); });
-  for (std::size_t i = 0; i < set.size(); ++i) set[i]->slot = static_cast<std::uint32_t>(i);
+  for (std::size_t i = 0; i < set.size(); ++i) set[i]->contact.slot = static_cast<std::uint32_t>(i);
 }
 
 std::vector<ContactIsland> ContactIslands::group(const std::vector<RigidBody*>& set,
@@ -90,10 +91,11 @@ std::vector<ContactIsland> ContactIslands::group(const std::vector<RigidBody*>& 
   Groups groups(set.size());
   const auto comesAlong = [&](Party p) {
     const RigidBody* b = p.isBody ? objects_.body(p.id) : nullptr;
-    return b && b->mode == BodyMode::Contact && !b->crowd;
+    return b && b->mode == BodyMode::Contact && !b->contact.crowd;
   };
   for (const FoundContact& f : found)
-    if (comesAlong(f.b)) groups.join(objects_.body(f.a.id)->slot, objects_.body(f.b.id)->slot);
+    if (comesAlong(f.b))
+      groups.join(objects_.body(f.a.id)->contact.slot, objects_.body(f.b.id)->contact.slot);
   std::vector<ContactIsland> islands;
   std::vector<std::uint32_t> islandOf(set.size());
   for (std::size_t i = 0; i < set.size(); ++i) {
@@ -102,7 +104,8 @@ std::vector<ContactIsland> ContactIslands::group(const std::vector<RigidBody*>& 
     islandOf[i] = islandOf[root];
     islands[islandOf[i]].set.push_back(set[i]);
   }
-  for (FoundContact& f : found) islands[islandOf[objects_.body(f.a.id)->slot]].found.push_back(std::move(f));
+  for (FoundContact& f : found)
+    islands[islandOf[objects_.body(f.a.id)->contact.slot]].found.push_back(std::move(f));
   return islands;
 }
 
@@ -119,8 +122,8 @@ void ContactIslands::tick(double tau) {
   for (ContactIsland& island : islands) {
     if (piles_.isPile(island.set, tau) && !isSlender(island.set, island.found)) {
       for (RigidBody* b : island.set) {
-        b->crowd = true, b->dueAge = 0;
-        b->drift.setZero(), b->twist.setZero();
+        b->contact.crowd = true, b->contact.dueAge = 0;
+        b->contact.drift.setZero(), b->contact.twist.setZero();
       }
       piled = true;
     } else {
@@ -128,7 +131,7 @@ void ContactIslands::tick(double tau) {
     }
   }
   for (RigidBody* b : set)
-    if (!b->crowd) foresight_.predict(*b, tau);
+    if (!b->contact.crowd) foresight_.predict(*b, tau);
   if (piled) piles_.advance(tau);
   waking_.scheduleDue(tau);
 }

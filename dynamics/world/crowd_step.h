@@ -26,9 +26,9 @@ struct CrowdStep {
   struct Note {
     std::uint64_t key = 0, reverse = 0;  ///< from the first side's view, from the second's
     Party other;
-    std::uint32_t fixed = kNobody;  ///< which one its second side is, if no member
+    std::uint32_t fixed = kNone;  ///< which one its second side is, if no member
   };
-  static constexpr std::uint32_t kNobody = 0xffffffff;
+  static constexpr std::uint32_t kNone = 0xffffffff;
 
   double tau = 0;
   std::vector<Member> members;
@@ -41,7 +41,9 @@ struct CrowdStep {
   std::vector<std::uint32_t> features;  ///< of each bearing
   Crowd crowd;
 
-  bool has(const RigidBody& b) const { return b.slot < members.size() && members[b.slot].body == &b; }
+  bool has(const RigidBody& b) const {
+    return b.contact.slot < members.size() && members[b.contact.slot].body == &b;
+  }
 };
 
 }  // namespace stadion

@@ -31,7 +31,7 @@ void Foresight::pushTurn(Party p, const GuidedMotion& motion, double tau) {
 }
 
 void Foresight::pushHorizon(const RigidBody& b) {
-  if (b.mode == BodyMode::Held) return pushTurn({true, b.id}, b.held, time_.from());
+  if (b.mode == BodyMode::Held) return pushTurn({true, b.id}, b.grip.held, time_.from());
   if (!(b.until <= time_.windowEnd()) || b.mode == BodyMode::Contact) return;
   queue_.postHorizon(std::max(b.until, time_.from()), {true, b.id}, b.version);
 }
@@ -43,7 +43,8 @@ void Foresight::predictPair(const Side& a, const Side& b, double tau) {
     if (!s->body) continue;
     // What lasting contact is with is the solver's or the closed form's business.
     if (s->body->mode == BodyMode::Contact &&
-        std::find(s->body->touching.begin(), s->body->touching.end(), o->party) != s->body->touching.end())
+        std::find(s->body->contact.touching.begin(), s->body->contact.touching.end(), o->party) !=
+            s->body->contact.touching.end())
       return;
     if (s->body->mode != BodyMode::Flight && s->body->support.on.id && s->body->support.on == o->party &&
         !std::holds_alternative<MeshShape>(*o->shape))
@@ -79,7 +80,7 @@ void Foresight::predict(RigidBody& b, double tau) {
   const Aabb before = b.swept;
   boxes_.sweep(b, tau);
   if (!b.enabled) return;
-  if (b.alone && b.place != kUnfiled && holds(before, b.swept)) {  // nobody else is where it goes
+  if (b.alone && b.place != kUnfiled && holds(before, b.swept)) {  // nothing else is where it goes
     b.swept = before;
     lookAtOnly(b, tau);
   } else {
@@ -88,7 +89,7 @@ void Foresight::predict(RigidBody& b, double tau) {
 }
 
 void Foresight::lookAhead(RigidBody& b, double tau, bool onlyGreater) {
-  if (b.crowd) return;  // whoever could touch it within its step has been taken into the step
+  if (b.contact.crowd) return;  // all that could touch it has joined its step
   const Side self = Side::of(b);
   b.alone = true, b.only = 0;
   ++looks_.looks;
@@ -108,7 +109,7 @@ void Foresight::lookAhead(RigidBody& b, double tau, bool onlyGreater) {
   awaitHorizon(b);
 }
 
-/// The body has been looked at: its next arc begins in time, or when somebody asks for it.
+/// The body has been looked at. Its next arc begins in time, or on request.
 void Foresight::awaitHorizon(RigidBody& b) {
   // What its next arcs sweep is known if they go through the same medium.
   b.lazy = b.alone && b.only == 0 && b.mode == BodyMode::Flight &&
@@ -116,13 +117,13 @@ void Foresight::awaitHorizon(RigidBody& b) {
   if (!b.lazy) pushHorizon(b);
 }
 
-/// The next arc of a lazy body, which nobody has asked for yet.
+/// The next arc of a lazy body.
 void Foresight::flyOnLazily(RigidBody& b) {
   arcs_.flyOn(b, b.until);
   b.lazy = b.mode == BodyMode::Flight;
 }
 
-/// Something has come near what the body sweeps: it is one who must be watched.
+/// Something has come near what the body sweeps: it stops being lazy.
 void Foresight::comeNear(RigidBody& b, double tau) {
   b.alone = false;
   if (!b.lazy) return;
@@ -131,7 +132,7 @@ void Foresight::comeNear(RigidBody& b, double tau) {
   pushHorizon(b);
 }
 
-/// The same for one who is alone and goes nowhere else than it was seen to go.
+/// The same for a body that is alone and goes where it was seen to go.
 void Foresight::lookAtOnly(RigidBody& b, double tau) {
   pushHorizon(b);
   ++looks_.looks;
@@ -141,7 +142,6 @@ void Foresight::lookAtOnly(RigidBody& b, double tau) {
   predictPair(Side::of(b), Side::of(*c), tau);
 }
 
-/// Looks ahead from tau for everybody who is marked and for colliders that were told something.
 void Foresight::predictChanged(double tau) {
   for (RigidBody* b : changes_.bodies())
     if (b->enabled) lookAhead(*b, tau, true);
@@ -167,8 +167,8 @@ bool Foresight::solidsMayMeet() const {
   return solids > kFew || (solids > 0 && !objects_.colliders().empty());
 }
 
-/// How long the next window is to be: while nobody comes near anybody else and little else is near, far looks
-/// cost less than many. What it depends on does not depend on frames.
+/// While no bodies come near each other and little else is near, one long look costs less than many short
+/// ones. The result does not depend on frames.
 Nanoseconds Foresight::nextWindow() const {
   bool moves = false, lazy = true;
   for (const RigidBody* b : active_) {
@@ -213,15 +213,15 @@ void Foresight::predict(Collider& c, double tau) {
   pushTurn({false, c.id}, c.motion, tau);
 }
 
-void Foresight::fillWindow(WorldTime& time, double tau) {
+void Foresight::fillWindow(double tau) {
   boxes_.sortCollidersIfCrowded();
   boxes_.sweep(active_, tau);
-  if (time.window() > WorldTime::kWindow && solidsMayMeet()) {
+  if (time_.window() > WorldTime::kWindow && solidsMayMeet()) {
     if (!boxes_.anyNear(active_)) {
       for (RigidBody* b : active_) b->alone = true, b->only = 0, awaitHorizon(*b);
       return;
     }
-    time.shortenWindow();
+    time_.shortenWindow();
     boxes_.sweep(active_, tau);
   }
   for (RigidBody* b : active_) changes_.mark(*b);

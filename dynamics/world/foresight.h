@@ -14,7 +14,7 @@ constexpr double kDue = 1e-9;  ///< times as near as this are the same [s]
 
 class Foresight {
 public:
-  Foresight(const WorldTime& time, EventQueue& queue, WorldObjects& objects, ContactMemory& memory,
+  Foresight(WorldTime& time, EventQueue& queue, WorldObjects& objects, ContactMemory& memory,
             ActiveBodies& active, ChangedMotions& changes, SweptBoxes& boxes, BodyArcs& arcs,
             FlushSurfaces& surfaces, World::Counters& counters)
       : time_(time), queue_(queue), objects_(objects), memory_(memory), active_(active), changes_(changes),
@@ -46,7 +46,7 @@ public:
   /// All events are void: a window begins.
   void beginWindow() { looks_ = {}, queue_.clear(); }
   /// Looks ahead for all active bodies from tau; shortens a long window if something is near.
-  void fillWindow(WorldTime& time, double tau);
+  void fillWindow(double tau);
 
   template <class Fields>
   void state(Fields& f) {
@@ -69,7 +69,7 @@ private:
   bool solidsMayMeet() const;
   double knownUntil(const Side& s) const;
 
-  const WorldTime& time_;
+  WorldTime& time_;
   EventQueue& queue_;
   WorldObjects& objects_;
   ContactMemory& memory_;

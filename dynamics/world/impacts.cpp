@@ -14,11 +14,12 @@ namespace {
 constexpr double kLastBounce = 1e-7;
 /// The same between bodies that have no closed form to rest in [m].
 constexpr double kLastRattle = 1e-6;
-constexpr double kExact = 1e-9;  ///< a touch is taken to its surface from no farther: nobody is lifted [m]
+constexpr double kExact =
+    1e-9;  ///< a touch is taken to its surface from no farther, so that no body is lifted [m]
 constexpr Nanoseconds kSpan = 16'000'000;     ///< in which impacts are counted [ns]
 constexpr std::uint32_t kMostImpacts = 60;    ///< in that time, then the contact solver takes over
 constexpr std::uint32_t kMostRattles = 4;     ///< the same where bounces die away soon
-constexpr std::uint32_t kMostInThick = 1;     ///< and among many balls, who will lean on each other anyway
+constexpr std::uint32_t kMostInThick = 1;     ///< and among many balls, which will lean on each other anyway
 constexpr std::uint32_t kMostFolds = 200;     ///< and of faces that a ball rolls over
 constexpr std::uint32_t kMostBounces = 2000;  ///< of a ball on a face
 constexpr double kLeastStick = 1;             ///< what comes slower does not stick [m/s]
@@ -45,17 +46,18 @@ void Impacts::countImpact(RigidBody& b, double tau) const {
 /// The rest of a crowd's step with other velocities, under the same forces.
 void Impacts::strikeInCrowd(RigidBody& b, const Mobile& m, double tau) {
   const Quat q = b.orientation(tau);
-  const double left = b.dueAge - b.age(tau), quiet = b.quiet;
+  const double left = b.contact.dueAge - b.age(tau), quiet = b.contact.quiet;
   const Vec3 a = left > 0 && b.path.isParabola() ? Vec3(2 * b.path.c[2]) : Vec3(Vec3::Zero());
   const Vec3 before = b.turning(tau), L = b.momentum(tau);
   const Vec3 more = q * b.inertia.cwiseProduct(q.conjugate() * (m.omega - before));
-  const Vec3 end = b.endL + more;
+  const Vec3 end = b.contact.endL + more;
   Spin spin = Spin::free(q, left > 0 ? Vec3(0.5 * (L + more + end)) : Vec3(L + more), b.inertia);
   if (b.spin.kind == Spin::Kind::Driven) spin = Spin::driven(q, m.omega, b.spin.alpha, b.inertia.x());
   arcs_.setArc(b, tau, Path::parabola(b.position(tau), m.v, a), spin, std::max(left, grid_.islandStep()),
                BodyMode::Contact);
   if (b.mode != BodyMode::Contact) return;
-  b.endL = end, b.dueAge = left > 0 ? left : grid_.untilPileStep(time_.instantAt(tau)), b.quiet = quiet;
+  b.contact.endL = end, b.contact.dueAge = left > 0 ? left : grid_.untilPileStep(time_.instantAt(tau)),
+  b.contact.quiet = quiet;
   boxes_.sweep(b, tau);
 }
 
@@ -64,17 +66,17 @@ void Impacts::afterImpulse(RigidBody& b, const Mobile& m, double tau, bool lasti
   if (!b.movable()) return;
   const Vec3& p = m.p;
   const Quat& q = m.q;
-  if (b.crowd) return strikeInCrowd(b, m, tau);
+  if (b.contact.crowd) return strikeInCrowd(b, m, tau);
   const Vec3 L = q * b.inertia.cwiseProduct(q.conjugate() * m.omega);
   const bool leaning = b.mode == BodyMode::Contact || (b.mode == BodyMode::Rest && !b.support.on.id);
   if (lasting || leaning) {
     if (b.mode == BodyMode::Rest) waking_.wake(b, tau);
-    if (b.crowd) return strikeInCrowd(b, m, tau);
-    b.endL = L;
+    if (b.contact.crowd) return strikeInCrowd(b, m, tau);
+    b.contact.endL = L;
     arcs_.setArc(b, tau, Path::parabola(p, m.v, Vec3::Zero()), Spin::free(q, L, b.inertia),
                  grid_.islandStep(), BodyMode::Contact);
     if (b.mode != BodyMode::Contact) return;
-    b.quiet = 0;
+    b.contact.quiet = 0;
     queue_.scheduleTick(tau);
     foresight_.predict(b, tau);
     return;
@@ -105,7 +107,7 @@ void Impacts::afterImpulse(RigidBody& b, const Mobile& m, double tau, bool lasti
 void Impacts::stick(RigidBody& b, Party in, const Vec3& v, double tau) {
   waking_.wakeOnto({true, b.id}, tau);
   b.support.on = {};
-  b.touching = {in};
+  b.contact.touching = {in};
   memory_.setTouching(ContactMemory::keyOf(in, {true, b.id}), true);
   arcs_.setArc(b, tau, Path::still(b.position(tau) + b.stick->depth * v.normalized()),
                Spin::still(b.orientation(tau)), std::numeric_limits<double>::infinity(), BodyMode::Stuck);

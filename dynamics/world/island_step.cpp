@@ -175,19 +175,20 @@ bool inFold(const RigidBody& b, const Collider& c, const Support& face, double t
 
 }  // namespace
 
-/// Velocities now, and who is with whom.
+/// Velocities at the start, and the sides of each contact.
 void IslandStep::begin(ContactIsland& s, double tau) const {
   for (std::size_t i = 0; i < s.set.size(); ++i) {
     RigidBody& b = *s.set[i];
-    b.slot = static_cast<std::uint32_t>(i);
+    b.contact.slot = static_cast<std::uint32_t>(i);
     s.start.push_back(mobileOf(b, tau));
-    s.wedged = s.wedged || b.wedged;
+    s.wedged = s.wedged || b.contact.wedged;
   }
   for (FoundContact& f : s.found) {
     SolverContact& c = f.contact;
-    c.a = objects_.body(f.a.id)->slot;
-    if (f.b.isBody && objects_.body(f.b.id)->mode == BodyMode::Contact && !objects_.body(f.b.id)->crowd) {
-      c.b = objects_.body(f.b.id)->slot;
+    c.a = objects_.body(f.a.id)->contact.slot;
+    if (f.b.isBody && objects_.body(f.b.id)->mode == BodyMode::Contact &&
+        !objects_.body(f.b.id)->contact.crowd) {
+      c.b = objects_.body(f.b.id)->contact.slot;
       continue;
     }
     const auto known = std::find(s.fixed.begin(), s.fixed.end(), f.b);
@@ -278,7 +279,7 @@ bool IslandStep::solveStep(ContactIsland& s, double tau, double h, Effort effort
   step.reserve(points + s.flats.size());
   const auto begins = [&](SolverContact c, std::uint64_t key, const Vec3& n) {
     c.impulse.setZero();
-    for (const Pressed& p : s.set[c.a]->presses)
+    for (const Pressed& p : s.set[c.a]->contact.presses)
       if (p.key == key) c.impulse = std::min(h, p.step) * (basisAround(n).transpose() * p.force);
     if (c.patch >= 0) c.impulse.tail<2>().setZero();  // its area's now
     step.push_back(c);
@@ -472,29 +473,31 @@ bool IslandStep::settleOnFace(RigidBody& b, const FoundContact& only, double tau
 /// speed. Each look takes twice as long as the last one, so that what only trembles is found out to be in
 /// balance.
 void IslandStep::noteQuiet(RigidBody& b, const Mobile& start, const Mobile& end, double tau, double h) const {
-  const double before = b.quiet;
+  const double before = b.contact.quiet;
   const double fastest =
       std::max(end.v.norm() + end.omega.norm() * b.reach, start.v.norm() + start.omega.norm() * b.reach);
-  b.quiet = fastest < kQuietSpeed ? before + h : 0;
+  b.contact.quiet = fastest < kQuietSpeed ? before + h : 0;
   const auto look = [&](const Mobile& from, double since, double span, bool balanced) {
-    b.calm = {from.v, from.omega, since, span, balanced};
-    b.drift.setZero(), b.twist.setZero();
+    b.contact.calm = {from.v, from.omega, since, span, balanced};
+    b.contact.drift.setZero(), b.contact.twist.setZero();
   };
   if (!(before > kGliding)) look(start, 0, kSleepsAfter, false);
-  b.drift += 0.5 * h * (start.v + end.v), b.twist += 0.5 * h * (start.omega + end.omega);
-  const double seconds = b.quiet - b.calm.since;
-  if (seconds < b.calm.span) return;
-  const double change = (end.v - b.calm.v).norm() + (end.omega - b.calm.omega).norm() * b.reach;
+  b.contact.drift += 0.5 * h * (start.v + end.v), b.contact.twist += 0.5 * h * (start.omega + end.omega);
+  const double seconds = b.contact.quiet - b.contact.calm.since;
+  if (seconds < b.contact.calm.span) return;
+  const double change =
+      (end.v - b.contact.calm.v).norm() + (end.omega - b.contact.calm.omega).norm() * b.reach;
   const double pull = fields_.accelerationAt(b, start.p, start.v, tau).norm();
-  const double way = b.drift.norm() + b.twist.norm() * b.reach;
-  look(end, b.quiet, 2 * b.calm.span, change <= kCalm * (1 + pull) * seconds && way <= kCreep * seconds);
+  const double way = b.contact.drift.norm() + b.contact.twist.norm() * b.reach;
+  look(end, b.contact.quiet, 2 * b.contact.calm.span,
+       change <= kCalm * (1 + pull) * seconds && way <= kCreep * seconds);
 }
 
 /// The bodies' arcs of h seconds, and the forces as a guess for the next step.
 void IslandStep::conclude(ContactIsland& s, double tau, double h) {
   for (std::size_t i = 0; i < s.set.size(); ++i) {
     RigidBody& b = *s.set[i];
-    b.touching.clear(), b.presses.clear();
+    b.contact.touching.clear(), b.contact.presses.clear();
     std::vector<Party> near;
     const FoundContact* only = nullptr;
     int points = 0;
@@ -505,19 +508,19 @@ void IslandStep::conclude(ContactIsland& s, double tau, double h) {
       if (f.contact.a != i && f.contact.b != i) continue;
       ++points, only = &f;
       const Party other = f.contact.a == i ? f.b : f.a;
-      note(b.touching, other);
+      note(b.contact.touching, other);
       if (f.gap.distance < kTouching) note(near, other);
       if (f.contact.a == i && !f.contact.impulse.isZero(0))
-        b.presses.push_back({f.key, basisAround(f.gap.normal) * (f.contact.impulse / h), h});
+        b.contact.presses.push_back({f.key, basisAround(f.gap.normal) * (f.contact.impulse / h), h});
     }
     for (const ContactFinder::Beside& o : finder_.besideOf(b.id)) {
-      note(b.touching, o.piece);
+      note(b.contact.touching, o.piece);
       if (o.touches) note(near, o.piece);
     }
-    for (const Party p : s.way) note(b.touching, p);
+    for (const Party p : s.way) note(b.contact.touching, p);
     for (const FlatPatch& f : s.flats)
       if (f.contact.a == i && !f.contact.impulse.isZero(0))
-        b.presses.push_back({f.key, basisAround(f.flat.plane.n) * (f.contact.impulse / h), h});
+        b.contact.presses.push_back({f.key, basisAround(f.flat.plane.n) * (f.contact.impulse / h), h});
     rememberTouching(memory_, b, near);
     if (points == 0) {
       concludeFreely(b, s.start[i], tau);
@@ -528,15 +531,15 @@ void IslandStep::conclude(ContactIsland& s, double tau, double h) {
     const Vec3 L0 = start.inverseInertia.inverse() * start.omega,
                L1 = end.inverseInertia.inverse() * end.omega;
     noteQuiet(b, start, end, tau, h);
-    if (s.glides) b.quiet = b.quiet > 0 ? kGliding : 0;
+    if (s.glides) b.contact.quiet = b.contact.quiet > 0 ? kGliding : 0;
     arcs_.setArc(b, tau, Path::parabola(start.p, start.v, (end.v - start.v) / h),
                  Spin::free(q, 0.5 * (L0 + L1), b.inertia), h, BodyMode::Contact);
-    b.endL = L1, b.dueAge = h;
+    b.contact.endL = L1, b.contact.dueAge = h;
     if (points == 1 && b.isBall() && b.mode == BodyMode::Contact) settleOnFace(b, *only, tau);
   }
 }
 
-/// Even parts of h in which nobody turns far: contact points of fast tops would leave their arcs. Nor does a
+/// Even parts of h in which no body turns far: contact points of fast tops would leave their arcs. Nor does a
 /// step go on, but for a moment, when it is not known any more how strong a field is that pulls; nor when a
 /// corner that comes fast is down: that is an impact.
 double IslandStep::stepOf(const ContactIsland& s, double tau, double h) const {
@@ -582,18 +585,18 @@ void IslandStep::advance(ContactIsland& s, double tau, double h) {
   if (!s.glides) {
     h = stepOf(s, tau, h);
     const bool holds = solveStep(s, tau, h, Effort::Moving);
-    for (RigidBody* b : s.set) b->restless = !holds;
+    for (RigidBody* b : s.set) b->contact.restless = !holds;
     boundStep(s, h);
     const std::vector<Mobile> solved = s.end;
     resistRolling(s);
     if (!s.carried) holdRims(s, solved);
   }
   const bool wedged = staysWedged(s);
-  for (RigidBody* b : s.set) b->wedged = wedged;
+  for (RigidBody* b : s.set) b->contact.wedged = wedged;
   conclude(s, tau, s.glides ? last : h);
   // Sets that have been quiet together fall asleep together.
   const bool quiet = !s.carried && std::ranges::all_of(s.set, [&](const RigidBody* b) {
-    return b->mode == BodyMode::Contact && b->quiet >= kSleepsAfter && b->calm.balanced &&
+    return b->mode == BodyMode::Contact && b->contact.quiet >= kSleepsAfter && b->contact.calm.balanced &&
            !fields_.feelsChange(*b);
   });
   if (quiet)

@@ -7,7 +7,7 @@
 namespace stadion {
 namespace {
 
-constexpr double kWakeSpeed = 5e-3;  ///< whoever touches a sleeper faster wakes it [m/s]
+constexpr double kWakeSpeed = 5e-3;  ///< a body that touches a sleeping body faster wakes it [m/s]
 constexpr double kStrongest = 9.81;  ///< acceleration that a step allows for [m/s2]
 
 bool sleeps(const RigidBody& b) {
@@ -30,13 +30,13 @@ void Piles::addContact(const RigidBody& b, Party other, const Surface& surface, 
                        std::uint32_t feature, CrowdStep& step) {
   CrowdContact c;
   const PairSurface pair = combine(b.surface, surface);
-  c.a = b.slot, c.n = gap.normal, c.gap = gap.distance;
+  c.a = b.contact.slot, c.n = gap.normal, c.gap = gap.distance;
   c.friction = pair.friction, c.restitution = pair.restitution;
   if (b.isBall()) c.rolling = pair.rolling * b.radius();
   CrowdStep::Note note;
   note.other = other, note.key = pairKey({true, b.id}, other, feature);
   note.reverse = pairKey(other, {true, b.id}, feature);
-  for (const Pressed& p : b.presses)
+  for (const Pressed& p : b.contact.presses)
     if (p.key == note.key) {
       const Vec3 impulse = std::min(step.crowd.h, p.step) * p.force;
       c.pressed = std::max(0.0, impulse.dot(c.n));
@@ -44,14 +44,14 @@ void Piles::addContact(const RigidBody& b, Party other, const Surface& surface, 
     }
   RigidBody* o = other.isBody ? objects_.body(other.id) : nullptr;
   if (o && step.has(*o)) {
-    c.b = o->slot;
-  } else if (o && o->slot < step.fixed.size() && step.fixed[o->slot].body == o) {
-    note.fixed = o->slot;
+    c.b = o->contact.slot;
+  } else if (o && o->contact.slot < step.fixed.size() && step.fixed[o->contact.slot].body == o) {
+    note.fixed = o->contact.slot;
   } else {
     const auto known = o ? step.fixed.end() : std::ranges::find(step.fixed, other, &CrowdStep::Fixed::party);
     note.fixed = static_cast<std::uint32_t>(known - step.fixed.begin());
     if (known == step.fixed.end()) step.fixed.push_back({other, o, Vec3::Zero()});
-    if (o) o->slot = note.fixed;
+    if (o) o->contact.slot = note.fixed;
   }
   step.crowd.contacts.push_back(c);
   step.notes.push_back(note);
@@ -59,7 +59,7 @@ void Piles::addContact(const RigidBody& b, Party other, const Surface& surface, 
 }
 
 void Piles::findColliders(const RigidBody& b, const Aabb& box, double margin, CrowdStep& step) {
-  const CrowdStep::Member me = step.members[b.slot];
+  const CrowdStep::Member me = step.members[b.contact.slot];
   const Side self = Side::of(b);
   step.bearings.clear(), step.features.clear();
   const auto note = [&](const Collider& c, const Gap& gap, std::uint32_t feature) {
@@ -79,7 +79,7 @@ void Piles::findColliders(const RigidBody& b, const Aabb& box, double margin, Cr
     }
     const double theirs = moves ? step.crowd.h * c.motion.at(step.tau).velocityAt(me.middle).norm() : 0;
     manifold(self, Side::of(c), step.tau, margin + theirs, step.found);
-    // Whose centre is inside leaves by one way, the shortest.
+    // A ball with its centre inside leaves by one way, the shortest.
     if (me.round && !step.found.empty() && step.found.front().gap.distance < -me.bound) step.found.resize(1);
     for (const ManifoldPoint& p : step.found) note(c, p.gap, p.key);
   });
@@ -91,16 +91,16 @@ void Piles::findColliders(const RigidBody& b, const Aabb& box, double margin, Cr
   }
 }
 
-/// One who is near a member: at which points they may meet, and whether it comes along.
+/// A body near a member: the points at which they may meet, and whether it joins the step.
 void Piles::meet(RigidBody& b, RigidBody& o, double margin, CrowdStep& step) {
   if (&o == &b || !o.enabled) return;
-  const CrowdStep::Member me = step.members[b.slot];
+  const CrowdStep::Member me = step.members[b.contact.slot];
   bool member = step.has(o);
   if (member && o.id < b.id) return;  // the pair is found from there
   double reach = margin;
   Vec3 there;
   if (member) {
-    reach += step.members[o.slot].way, there = step.members[o.slot].middle;
+    reach += step.members[o.contact.slot].way, there = step.members[o.contact.slot].middle;
   } else {
     reach += step.crowd.h * o.velocity(step.tau).norm();
     there = o.centred ? o.position(step.tau) : Vec3(o.poseAt(step.tau) * o.bound.centre);
@@ -120,10 +120,10 @@ void Piles::meet(RigidBody& b, RigidBody& o, double margin, CrowdStep& step) {
     if (step.found.empty()) return;
   }
   if (!member && o.movable()) {
-    // Who sleeps stays asleep unless it is pushed; who moves comes along.
+    // A sleeping body stays asleep unless it is pushed; a moving body joins the step.
     const bool touched =
         std::ranges::any_of(step.found, [](const auto& p) { return p.gap.distance < kTouching; });
-    const bool pushes = b.quiet == 0 || step.crowd.bodies[b.slot].v.norm() > kWakeSpeed;
+    const bool pushes = b.contact.quiet == 0 || step.crowd.bodies[b.contact.slot].v.norm() > kWakeSpeed;
     if (!sleeps(o) || (touched && pushes)) join(o, step);
     member = step.has(o);
     if (member && o.id < b.id) return;
@@ -132,18 +132,18 @@ void Piles::meet(RigidBody& b, RigidBody& o, double margin, CrowdStep& step) {
 }
 
 void Piles::findContacts(RigidBody& b, CrowdStep& step) {
-  const CrowdStep::Member& me = step.members[b.slot];
+  const CrowdStep::Member& me = step.members[b.contact.slot];
   const double margin = kTouching + me.way + step.crowd.h * step.crowd.h * kStrongest;
   Aabb box;
   box.include(me.middle);
   box.lo.array() -= me.bound + margin, box.hi.array() += me.bound + margin;
   findColliders(b, box, margin, step);
-  // Fliers' boxes hold their whole way, so that those who come fast are met as well. In the order of ids:
+  // Fliers' boxes hold their whole way, so that fast bodies are met as well. In the order of ids:
   // sweeps depend on it, and the broad phase's own depends on frames.
   step.near.clear();
   foresight_.eachBodyNear(box, step.tau, [&](RigidBody& o) {
     if (step.has(o)) {  // most of them: the pair is found from the other, or too far apart
-      const CrowdStep::Member& other = step.members[o.slot];
+      const CrowdStep::Member& other = step.members[o.contact.slot];
       const double far = me.bound + other.bound + margin + other.way;
       if (o.id <= b.id || (me.middle - other.middle).squaredNorm() > far * far) return;
     }
@@ -153,7 +153,7 @@ void Piles::findContacts(RigidBody& b, CrowdStep& step) {
   for (RigidBody* o : step.near) meet(b, *o, margin, step);
 }
 
-/// Everybody is known now: who moves, who does not, and where the points are on both.
+/// All sides are known now: which of them move, and where the points are on both.
 void Piles::linkContacts(CrowdStep& step) {
   Crowd& crowd = step.crowd;
   const auto n = static_cast<std::uint32_t>(step.members.size());
@@ -169,9 +169,9 @@ void Piles::linkContacts(CrowdStep& step) {
   for (std::size_t k = 0; k < crowd.contacts.size(); ++k) {
     CrowdContact c = crowd.contacts[k];
     const CrowdStep::Note& note = step.notes[k];
-    const CrowdStep::Fixed* fixed = note.fixed == CrowdStep::kNobody ? nullptr : &step.fixed[note.fixed];
+    const CrowdStep::Fixed* fixed = note.fixed == CrowdStep::kNone ? nullptr : &step.fixed[note.fixed];
     if (fixed && fixed->body && step.has(*fixed->body)) {  // it has come along after all
-      c.b = fixed->body->slot;
+      c.b = fixed->body->contact.slot;
       if (fixed->body->id < step.members[c.a].body->id) continue;  // and has found the pair by itself
     } else if (fixed) {
       c.b = n + note.fixed;

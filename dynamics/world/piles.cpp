@@ -11,10 +11,10 @@ namespace {
 
 constexpr double kParted = 1e-3;      ///< and those farther than this no longer [m]
 constexpr std::size_t kLeast = 4;     ///< a smaller crowd is none any more
-constexpr double kLeaving = 0.1;      ///< the least speed of who may leave a heap for good [m/s]
+constexpr double kLeaving = 0.1;      ///< least speed of a body that may leave a pile for good [m/s]
 constexpr double kQuietWay = 1.2e-3;  ///< a surface point that stays within this is quiet [m]
 constexpr double kQuietTime = 0.3;    ///< before a body sleeps among quiet ones [s]
-constexpr double kWaking = 1e-9;      ///< quiet time of one who has been woken softly [s]
+constexpr double kWaking = 1e-9;      ///< quiet time of a body that has been woken softly [s]
 
 bool in(const std::vector<Party>& list, Party p) {
   return std::find(list.begin(), list.end(), p) != list.end();
@@ -54,12 +54,12 @@ std::vector<char> calmInCrowd(const CrowdStep& step) {
   for (std::size_t i = 0; i < n; ++i) {
     RigidBody& b = *step.members[i].body;
     const CrowdBody &start = crowd.start[i], &end = crowd.bodies[i];
-    b.drift += crowd.shift[i] + 0.5 * crowd.h * (start.v + end.v);
-    b.twist += 0.5 * crowd.h * (start.omega + end.omega);
-    b.quiet += crowd.h;
-    if (b.drift.norm() + b.twist.norm() * b.reach > kQuietWay)
-      b.quiet = 0, b.drift.setZero(), b.twist.setZero();
-    calm[i] = b.quiet >= kQuietTime;
+    b.contact.drift += crowd.shift[i] + 0.5 * crowd.h * (start.v + end.v);
+    b.contact.twist += 0.5 * crowd.h * (start.omega + end.omega);
+    b.contact.quiet += crowd.h;
+    if (b.contact.drift.norm() + b.contact.twist.norm() * b.reach > kQuietWay)
+      b.contact.quiet = 0, b.contact.drift.setZero(), b.contact.twist.setZero();
+    calm[i] = b.contact.quiet >= kQuietTime;
   }
   std::vector<char> may = calm;
   for (const CrowdContact& c : crowd.contacts) {
@@ -77,12 +77,12 @@ std::vector<char> calmInCrowd(const CrowdStep& step) {
 
 void Piles::join(RigidBody& b, CrowdStep& step) {
   const double tau = step.tau;
-  if (!b.crowd) {
-    const double quiet = b.mode == BodyMode::Rest ? kWaking : b.quiet;
+  if (!b.contact.crowd) {
+    const double quiet = b.mode == BodyMode::Rest ? kWaking : b.contact.quiet;
     waking_.enterContact(b, tau);
     if (b.mode != BodyMode::Contact) return;
-    b.crowd = true, b.restless = false, b.quiet = quiet, b.dueAge = 0;
-    b.drift.setZero(), b.twist.setZero();
+    b.contact.crowd = true, b.contact.restless = false, b.contact.quiet = quiet, b.contact.dueAge = 0;
+    b.contact.drift.setZero(), b.contact.twist.setZero();
   }
   CrowdStep::Member m;
   CrowdBody c;
@@ -102,35 +102,35 @@ void Piles::join(RigidBody& b, CrowdStep& step) {
     c.omega = inverse * L;
   }
   m.way = step.crowd.h * (c.v.norm() + (m.round ? 0 : c.omega.norm() * b.reach));
-  b.slot = static_cast<std::uint32_t>(step.members.size());
+  b.contact.slot = static_cast<std::uint32_t>(step.members.size());
   step.members.push_back(m);
   step.crowd.bodies.push_back(c);
   step.crowd.inverseInertia.push_back(inverse);
 }
 
-/// Whom the member leans on, and the forces as a guess for the next step. False if nothing is near.
+/// What the member leans on, and the forces as a guess for the next step. False if nothing is near.
 bool Piles::noteNeighbours(const CrowdStep& step, std::size_t i, std::span<const std::uint32_t> list,
                            std::vector<Party>& near) {
   const Crowd& crowd = step.crowd;
   RigidBody& b = *step.members[i].body;
-  b.touching.clear(), b.presses.clear();
+  b.contact.touching.clear(), b.contact.presses.clear();
   near.clear();
   for (const std::uint32_t k : list) {
     const CrowdContact& c = crowd.contacts[k];
     const bool first = c.a == i;
     const Party other = first ? step.notes[k].other : Party{true, step.members[c.a].body->id};
-    note(b.touching, other);
-    if (c.gap < kTouching || (c.gap < kParted && in(b.leaning, other))) note(near, other);
+    note(b.contact.touching, other);
+    if (c.gap < kTouching || (c.gap < kParted && in(b.contact.leaning, other))) note(near, other);
     if (!(c.pressed > 0)) continue;
     const Vec3 force = (c.pressed * c.n + c.held) / crowd.h;
     const std::uint64_t key = first ? step.notes[k].key : step.notes[k].reverse;
-    b.presses.push_back({key, first ? force : Vec3(-force), crowd.h});
+    b.contact.presses.push_back({key, first ? force : Vec3(-force), crowd.h});
   }
   std::ranges::sort(near);
-  if (near != b.leaning) {
-    const std::vector<Party> left = b.leaning;
+  if (near != b.contact.leaning) {
+    const std::vector<Party> left = b.contact.leaning;
     rememberTouching(memory_, b, near);
-    for (const Party p : left)  // who leaned on it may fall now
+    for (const Party p : left)  // a body that leaned on it may fall now
       if (p.isBody && !in(near, p))
         if (RigidBody* o = objects_.body(p.id); o && o->mode == BodyMode::Rest)
           waking_.enterContact(*o, step.tau);
@@ -145,7 +145,7 @@ void Piles::follow(const CrowdStep& step, std::size_t i) {
   RigidBody& b = *step.members[i].body;
   const CrowdBody &start = crowd.start[i], &end = crowd.bodies[i];
   const Quat q = b.orientation(tau);
-  const double quiet = b.quiet;
+  const double quiet = b.contact.quiet;
   const Path path = Path::parabola(step.members[i].p + crowd.shift[i], start.v, (end.v - start.v) / h);
   if (step.members[i].round) {
     const Vec3 alpha = (end.omega - start.omega) / h;
@@ -153,19 +153,19 @@ void Piles::follow(const CrowdStep& step, std::size_t i) {
                  alpha.isZero(0) ? Spin::free(q, start.omega / start.roundInertia, b.inertia)
                                  : Spin::driven(q, start.omega, alpha, b.inertia.x()),
                  h, BodyMode::Contact);
-    b.endL = end.omega / end.roundInertia;
+    b.contact.endL = end.omega / end.roundInertia;
   } else {
     const auto momentum = [&](const Vec3& omega) {
       return Vec3(q * b.inertia.cwiseProduct(q.conjugate() * omega));
     };
     const Vec3 L0 = momentum(start.omega), L1 = momentum(end.omega);
     arcs_.setArc(b, tau, path, Spin::free(q, 0.5 * (L0 + L1), b.inertia), h, BodyMode::Contact);
-    b.endL = L1;
+    b.contact.endL = L1;
   }
-  if (b.mode == BodyMode::Contact) b.dueAge = h, b.quiet = quiet;
+  if (b.mode == BodyMode::Contact) b.contact.dueAge = h, b.contact.quiet = quiet;
 }
 
-/// Arcs of the step, and who may sleep.
+/// Arcs of the step, and which members may sleep.
 void Piles::conclude(CrowdStep& step) {
   const Crowd& crowd = step.crowd;
   const double tau = step.tau;
@@ -185,7 +185,7 @@ void Piles::conclude(CrowdStep& step) {
     }
     follow(step, i);
     if (b.mode != BodyMode::Contact) continue;
-    b.drowsy = may[i] != 0;  // not at once: the others' motion counts on its own
+    b.contact.drowsy = may[i] != 0;  // not at once: the others' motion counts on its own
     boxes_.sweep(b, tau);
   }
 }
@@ -195,14 +195,14 @@ void Piles::conclude(CrowdStep& step) {
 void Piles::dissolve(const std::vector<RigidBody*>& due, double tau) {
   for (RigidBody* b : due) {
     const Vec3 L = b->momentum(tau);
-    if (b->dueAge > 0)
+    if (b->contact.dueAge > 0)
       arcs_.setArc(*b, tau, Path::parabola(b->position(tau), b->velocity(tau), Vec3::Zero()),
                    Spin::free(b->orientation(tau), L, b->inertia), grid_.islandStep(), BodyMode::Contact);
-    b->crowd = false, b->endL = L;
+    b->contact.crowd = false, b->contact.endL = L;
   }
 }
 
-/// One step of all who lie in heaps, to the next time on the crowd's grid.
+/// One step of all members of piles, to the next time on the grid of piles.
 void Piles::advance(double tau) {
   CrowdStep step;
   step.tau = tau;
@@ -210,12 +210,12 @@ void Piles::advance(double tau) {
   crowd.h = grid_.untilPileStep(time_.instantAt(tau));
   std::vector<RigidBody*> due;
   for (RigidBody* b : active_) {
-    b->slot = CrowdStep::kNobody;
-    if (b->crowd && b->enabled && b->dueAge <= b->age(tau) + kDue) due.push_back(b);
+    b->contact.slot = CrowdStep::kNone;
+    if (b->contact.crowd && b->enabled && b->contact.dueAge <= b->age(tau) + kDue) due.push_back(b);
   }
   std::ranges::sort(due, {}, &RigidBody::id);
   for (RigidBody* b : due)
-    if (b->drowsy) arcs_.freeze(*b, tau), foresight_.predict(*b, tau);
+    if (b->contact.drowsy) arcs_.freeze(*b, tau), foresight_.predict(*b, tau);
   std::erase_if(due, [](const RigidBody* b) { return b->mode != BodyMode::Contact; });
   if (due.empty()) return;
   const auto leaves = [&](const RigidBody* b) { return b->velocity(tau).norm() > kLeaving; };
@@ -239,7 +239,7 @@ void Piles::advance(double tau) {
 bool Piles::isPile(const std::vector<RigidBody*>& island, double tau) {
   const bool balls = std::ranges::all_of(island, [](const RigidBody* b) { return b->isBall(); });
   // Thin meshes would sink through each other in a crowd's longer steps.
-  const bool restless = std::ranges::any_of(island, &RigidBody::restless) &&
+  const bool restless = std::ranges::any_of(island, [](const RigidBody* b) { return b->contact.restless; }) &&
                         std::ranges::none_of(island, [](const RigidBody* b) {
                           return std::holds_alternative<MeshShape>(*b->shape);
                         });

@@ -53,16 +53,16 @@ double turningSpeed(const MotionBound& bound, double reach) {
 
 /// Whether it is known how the side has gone through this frame.
 bool isNoted(const Side& s) {
-  return !s.body || !s.body->trace.empty() || standsStill(s.body->mode);
+  return !s.body || !s.body->trace.way.empty() || standsStill(s.body->mode);
 }
 
 /// A side as it has gone through the frame so far: a body on the way that has been noted of it.
 class PastSide {
 public:
   PastSide(const Side& present, const Instant& start) : side_(present) {
-    if (!present.body || present.body->trace.empty()) return;
+    if (!present.body || present.body->trace.way.empty()) return;
     thing_.shape = present.shape, thing_.bound = present.bound();
-    thing_.motion.way = present.body->trace, thing_.motion.moving = true;
+    thing_.motion.way = present.body->trace.way, thing_.motion.moving = true;
     thing_.motion.rebase(start);
     side_.body = nullptr, side_.collider = &thing_;
   }
@@ -162,7 +162,7 @@ double ReleaseWatch::wayLength(const Side& s, double from, double tau) const {
     add(s.boundOver(from, tau), tau - from);
     return length;
   }
-  const BodyWay& way = s.collider ? s.collider->motion.way : s.body->trace;
+  const BodyWay& way = s.collider ? s.collider->motion.way : s.body->trace.way;
   if (way.empty()) return standsStill(s.body->mode) ? 0 : 1e300;
   if (s.body && way.front().from.since({time_.origin(), 0}) > from) return 1e300;
   for (std::size_t i = 0; i < way.size(); ++i) {
@@ -192,7 +192,7 @@ bool ReleaseWatch::stillNear(ContactMemory::Waiting& w, double tau) const {
   return true;
 }
 
-/// Pairs whose impact was told are released when their surfaces are far enough apart; if that is in the
+/// Pairs whose impact was reported are released when their surfaces are far enough apart; if that is in the
 /// impact's own frame, they are told of it in the next one.
 void ReleaseWatch::reportReleases() {
   std::vector<std::pair<ContactMemory::Key, Nanoseconds>> due;
@@ -200,7 +200,7 @@ void ReleaseWatch::reportReleases() {
     const bool asForeseen = w.versionA && *w.versionA + *w.versionB == w.versions;
     if (asForeseen && time_.t1() < w.look) continue;
     const Side a = *objects_.side(w.pair.first), b = *objects_.side({true, w.pair.second});
-    if (asForeseen && w.sure && nobodyNearer(w, a, b)) {
+    if (asForeseen && w.sure && noPartNearer(w, a, b)) {
       due.emplace_back(w.pair, std::max(w.look, time_.t0()));
       continue;
     }
@@ -239,7 +239,7 @@ void ReleaseWatch::releaseBefore(const ContactMemory::Key& pair, double tau) {
   const bool asForeseen = w->versionA && *w->versionA + *w->versionB == w->versions;
   if (asForeseen && time_.timeAt(tau) < w->look) return;
   if (asForeseen && w->sure &&
-      nobodyNearer(*w, *objects_.side(pair.first), *objects_.side({true, pair.second})))
+      noPartNearer(*w, *objects_.side(pair.first), *objects_.side({true, pair.second})))
     return release(pair, std::max(w->look, time_.t0()));
   if (stillNear(*w, tau)) return;
   if (const auto parted = whenParted(*w, tau)) release(pair, *parted);
@@ -247,7 +247,7 @@ void ReleaseWatch::releaseBefore(const ContactMemory::Key& pair, double tau) {
 
 /// The body has got as far off the face that was below it as it must be: whether no other part of the same
 /// thing is nearer.
-bool ReleaseWatch::nobodyNearer(const ContactMemory::Waiting& w, const Side& a, const Side& b) const {
+bool ReleaseWatch::noPartNearer(const ContactMemory::Waiting& w, const Side& a, const Side& b) const {
   if (!std::holds_alternative<MeshShape>(*a.shape)) return true;
   const double tau = time_.tauOf(w.look), far = b.body->releaseDistance;
   // It has been so near until half a nanosecond ago.
@@ -281,7 +281,8 @@ void ReleaseWatch::awaitRelease(ContactMemory::Waiting& w, const Side& a, const 
 /// An impact at tau has been dealt with: the pair need not be looked at before it can part.
 void ReleaseWatch::foreseeRelease(ContactMemory::Waiting& w, double tau, std::int32_t triangle) {
   for (const Party p : {w.pair.first, Party{true, w.pair.second}})
-    if (RigidBody* b = p.isBody ? objects_.body(p.id) : nullptr) traces_.trace(*b, b->traced, true, tau);
+    if (RigidBody* b = p.isBody ? objects_.body(p.id) : nullptr)
+      traces_.trace(*b, b->trace.traced, true, tau);
   const Side a = *objects_.side(w.pair.first), b = *objects_.side({true, w.pair.second});
   w.triangle = triangle;
   awaitRelease(w, a, b, b.body->releaseDistance, tau);

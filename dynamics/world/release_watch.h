@@ -32,7 +32,7 @@ private:
   void release(const ContactMemory::Key& pair, Nanoseconds time);
   void awaitRelease(ContactMemory::Waiting& w, const Side& a, const Side& b, double distance,
                     double tau) const;
-  bool nobodyNearer(const ContactMemory::Waiting& w, const Side& a, const Side& b) const;
+  bool noPartNearer(const ContactMemory::Waiting& w, const Side& a, const Side& b) const;
   std::optional<Nanoseconds> whenParted(const ContactMemory::Waiting& w, double tau) const;
   double wayLength(const Side& s, double from, double tau) const;
   bool stillNear(ContactMemory::Waiting& w, double tau) const;

@@ -7,19 +7,20 @@ namespace stadion {
 void Waking::enterContact(RigidBody& b, double tau) {
   if (b.mode == BodyMode::Contact || !b.movable()) return;
   const Vec3 L = b.spin.angularMomentum(b.spinAge(tau));
-  // Among a crowd it moves with the crowd: between its steps nobody else gives way.
+  // In a pile it moves with the pile: between the steps of the pile no other body gives way.
   const bool rests = b.mode == BodyMode::Rest;
-  const bool crowded = rests && (b.heaped || std::ranges::any_of(b.touching, [&](Party p) {
-                                   return p.isBody && objects_.body(p.id) && objects_.body(p.id)->crowd;
-                                 }));
+  const bool crowded =
+      rests && (b.contact.heaped || std::ranges::any_of(b.contact.touching, [&](Party p) {
+                  return p.isBody && objects_.body(p.id) && objects_.body(p.id)->contact.crowd;
+                }));
   b.support.on = {};
   arcs_.setArc(b, tau, Path::parabola(b.position(tau), b.velocity(tau), Vec3::Zero()),
                Spin::free(b.orientation(tau), L, b.inertia), grid_.islandStep(), BodyMode::Contact);
-  b.endL = L;
-  b.quiet = 0;
-  if (!rests) b.presses.clear();
+  b.contact.endL = L;
+  b.contact.quiet = 0;
+  if (!rests) b.contact.presses.clear();
   if (crowded && b.mode == BodyMode::Contact)
-    b.crowd = true, b.dueAge = grid_.untilPileStep(time_.instantAt(tau));
+    b.contact.crowd = true, b.contact.dueAge = grid_.untilPileStep(time_.instantAt(tau));
   queue_.scheduleTick(tau);
 }
 
@@ -29,17 +30,17 @@ void Waking::cutStep(RigidBody& b, double tau) {
   const Vec3 L = b.momentum(tau);
   arcs_.setArc(b, tau, Path::parabola(b.position(tau), b.velocity(tau), Vec3::Zero()),
                Spin::free(b.orientation(tau), L, b.inertia), grid_.islandStep(), BodyMode::Contact);
-  b.endL = L;
-  b.quiet = 0;
+  b.contact.endL = L;
+  b.contact.quiet = 0;
   queue_.scheduleTick(tau);
 }
 
 /// What was foreseen for longer than a step is looked at anew.
 void Waking::hurry(RigidBody& b, double tau) {
-  if (b.mode != BodyMode::Contact || b.crowd || b.dueAge <= grid_.islandStep() ||
-      b.age(tau) + grid_.islandStep() >= b.dueAge)
+  if (b.mode != BodyMode::Contact || b.contact.crowd || b.contact.dueAge <= grid_.islandStep() ||
+      b.age(tau) + grid_.islandStep() >= b.contact.dueAge)
     return;
-  b.dueAge = 0;
+  b.contact.dueAge = 0;
   queue_.scheduleTick(tau);
 }
 
@@ -55,7 +56,6 @@ void Waking::wake(RigidBody& b, double tau) {
   wakeOnto({true, b.id}, tau);
 }
 
-/// Who leans on what moved falls, or leans anew; those who lean on them, in turn.
 void Waking::wakeOnto(Party moved, double tau) {
   if (!supports_.bears(moved)) return;
   std::vector<Party> waking{moved};
@@ -85,8 +85,8 @@ void Waking::wakeOnto(Party moved, double tau) {
       } else if (other->mode == BodyMode::Contact) {
         hurry(*other, tau);
       } else if (other->mode == BodyMode::Rest) {
-        // In a heap those who lean on it wake when it moves; elsewhere nobody would wake them.
-        if (!other->heaped) waking.push_back({true, id});
+        // In a pile, bodies that lean on it wake when it moves; elsewhere nothing would wake them.
+        if (!other->contact.heaped) waking.push_back({true, id});
         enterContact(*other, tau);
       }
     }
@@ -97,7 +97,7 @@ void Waking::wakeOnto(Party moved, double tau) {
 void Waking::scheduleDue(double tau) {
   double first = 1e300;
   for (const RigidBody* b : active_)
-    if (b->mode == BodyMode::Contact && b->enabled) first = std::min(first, b->dueAge - b->age0);
+    if (b->mode == BodyMode::Contact && b->enabled) first = std::min(first, b->contact.dueAge - b->age0);
   if (first < 1e299) queue_.scheduleTick(std::max(first, tau));
 }
 

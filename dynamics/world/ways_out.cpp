@@ -7,12 +7,12 @@
 namespace stadion {
 
 bool comesOutOf(const RigidBody& b, ColliderId id) {
-  return std::ranges::any_of(b.waysOut, [&](const WayOut& w) { return w.of == id; });
+  return std::ranges::any_of(b.grip.waysOut, [&](const WayOut& w) { return w.of == id; });
 }
 
 /// Of the things that a body was let go in, those that it is out of.
 void forgetWaysOut(RigidBody& b, const WorldObjects& objects, double tau) {
-  std::erase_if(b.waysOut, [&](const WayOut& w) {
+  std::erase_if(b.grip.waysOut, [&](const WayOut& w) {
     const Collider* c = objects.collider(w.of);
     return !c || !c->enabled || !barrier(Side::of(b), Side::of(*c), tau, w);
   });
@@ -25,48 +25,48 @@ void WaysOut::noteFreePlaces() {
     const Side self = Side::of(*b);
     const Vec3 middle = b->poseAt(time_.now()) * b->bound.centre;
     Aabb box;
-    box.include(middle), box.include(b->freePlace);
+    box.include(middle), box.include(b->grip.freePlace);
     box.lo.array() -= b->bound.radius, box.hi.array() += b->bound.radius;
     bool free = true;
     boxes_.eachCollider(box, [&](const Collider& c) {
       const Side thing = Side::of(c);
       if (!free || !c.enabled || !objects_.mayTouch(self, thing)) return;
-      free = !overlaps(self, thing, time_.now()) && !wentInto(thing, time_.now(), b->freePlace, middle);
+      free = !overlaps(self, thing, time_.now()) && !wentInto(thing, time_.now(), b->grip.freePlace, middle);
     });
-    if (free) b->freePlace = middle;
+    if (free) b->grip.freePlace = middle;
   }
 }
 
 /// A body that has been let go inside of something is to come out the way it went in.
 void WaysOut::find(RigidBody& b) {
-  b.waysOut.clear();
-  if (!b.letGo) return;
-  b.letGo = false;
+  b.grip.waysOut.clear();
+  if (!b.grip.letGo) return;
+  b.grip.letGo = false;
   const double tau = time_.from();
   const Kinematics k = b.at(tau);
   if (fields_.accelerationAt(b, k.p, k.v, tau).isZero(0)) return;
   const Side self = Side::of(b);
   Aabb box;
-  box.include(k.pose * b.bound.centre), box.include(b.freePlace);
+  box.include(k.pose * b.bound.centre), box.include(b.grip.freePlace);
   box.lo.array() -= b.bound.radius, box.hi.array() += b.bound.radius;
   boxes_.eachCollider(box, [&](const Collider& c) {
     const Side thing = Side::of(c);
     if (!c.enabled || !objects_.mayTouch(self, thing)) return;
-    if (const auto way = wayOutOf(self, thing, tau, b.freePlace)) b.waysOut.push_back(*way);
+    if (const auto way = wayOutOf(self, thing, tau, b.grip.freePlace)) b.grip.waysOut.push_back(*way);
   });
   std::erase_if(comingOut_, [&](BodyId id) {
-    return id == b.id || !objects_.body(id) || objects_.body(id)->waysOut.empty();
+    return id == b.id || !objects_.body(id) || objects_.body(id)->grip.waysOut.empty();
   });
-  if (!b.waysOut.empty()) comingOut_.push_back(b.id);
+  if (!b.grip.waysOut.empty()) comingOut_.push_back(b.id);
 }
 
 std::uint64_t WaysOut::digest() const {
   StateHash h;
   for (const RigidBody* b : held_.list())
-    if (b->mode == BodyMode::Held) h.add(std::uint64_t{b->id}), h.add(b->freePlace);
+    if (b->mode == BodyMode::Held) h.add(std::uint64_t{b->id}), h.add(b->grip.freePlace);
   for (const BodyId id : comingOut_) {
     const RigidBody* b = objects_.body(id);
-    for (const WayOut& w : b ? b->waysOut : std::vector<WayOut>{})
+    for (const WayOut& w : b ? b->grip.waysOut : std::vector<WayOut>{})
       h.add(std::uint64_t{id}), h.add(std::uint64_t{w.of}), h.add(w.normal), h.add(w.side);
   }
   return h.value();

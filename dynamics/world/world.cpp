@@ -160,7 +160,7 @@ bool World::enableBody(BodyId id, bool on) {
   core_->boxes_.remove(*b);
   core_->arcs_.freeze(*b, core_->time_.now());
   b->support.on = {};
-  b->touching.clear();
+  b->contact.touching.clear();
   core_->waking_.wakeOnto({true, id}, core_->time_.now());
   core_->memory_.forget({true, id});
   return true;
@@ -238,9 +238,9 @@ bool World::hooked(BodyId id, FieldId field) const {
 bool World::placeBody(BodyId id, const Pose& X_WN, const Vec3& v, const Vec3& omega) {
   RigidBody* b = core_->objects_.body(id);
   if (!b) return false;
-  b->put = true;
+  b->trace.put = true;
   const bool placed = core_->putBody(*b, X_WN, v, omega);
-  b->put = false;
+  b->trace.put = false;
   return placed;
 }
 
@@ -249,7 +249,7 @@ bool World::Core::putBody(RigidBody& b, const Pose& X_WN, const Vec3& v, const V
   b.pose = unit(X_WN);
   b.trouble.clear();
   b.fresh = true;
-  b.touching.clear(), b.waysOut.clear();
+  b.contact.touching.clear(), b.grip.waysOut.clear();
   const Pose X_WC = b.pose * b.X_NC;
   memory_.forget({true, b.id});
   arcs_.startFlight(b, time_.now(), X_WC.p, v, X_WC.q,
@@ -274,7 +274,7 @@ bool World::holdBody(BodyId id) {
   if (!b || b->mode == BodyMode::Quarantined) return false;
   core_->arcs_.freeze(*b, core_->time_.now());
   b->support.on = {};
-  b->touching.clear(), b->waysOut.clear();
+  b->contact.touching.clear(), b->grip.waysOut.clear();
   core_->waking_.wakeOnto({true, id}, core_->time_.now());
   core_->held_.add(*b);
   return true;
@@ -289,38 +289,38 @@ bool World::carryFields(BodyId id, std::vector<FieldId> fields_) {
 
 Vec3 World::woundUp(BodyId id) const {
   const RigidBody* b = core_->objects_.body(id);
-  return b && b->mode == BodyMode::Held ? Vec3(b->pose.q * b->wound) : Vec3::Zero();
+  return b && b->mode == BodyMode::Held ? Vec3(b->pose.q * b->grip.wound) : Vec3::Zero();
 }
 
 bool World::moveHeld(BodyId id, const Pose& end, bool teleport) {
   RigidBody* b = core_->objects_.body(id);
   if (!b || b->mode != BodyMode::Held || !usable(end)) return false;
-  b->nextWay.clear();
+  b->grip.nextWay.clear();
   if (teleport) {
-    b->put = b->traced || b->awaited;
+    b->trace.put = b->trace.traced || b->trace.awaited;
     b->pose = unit(end);
     core_->releases_.forgetSlack({true, id});
-    b->held.set(b->pose, b->pose, core_->time_.now(), 0);
-    b->freePlace = b->pose * b->bound.centre;
+    b->grip.held.set(b->pose, b->pose, core_->time_.now(), 0);
+    b->grip.freePlace = b->pose * b->bound.centre;
     b->fresh = true;
     core_->waking_.wakeOnto({true, id}, core_->time_.now());
   }
-  b->held.start = b->pose;
-  b->held.end = unit(end);
+  b->grip.held.start = b->pose;
+  b->grip.held.end = unit(end);
   ++b->version;
   return true;
 }
 
 bool World::moveHeld(BodyId id, const Pose& end, const BodyWay& way) {
   if (!moveHeld(id, end)) return false;
-  core_->objects_.body(id)->nextWay = way;
+  core_->objects_.body(id)->grip.nextWay = way;
   return true;
 }
 
 bool World::releaseBody(BodyId id, const Vec3& v, const Vec3& omega) {
   RigidBody* b = core_->objects_.body(id);
   if (!b || b->mode != BodyMode::Held || !core_->putBody(*b, b->pose, v, omega)) return false;
-  b->letGo = true;
+  b->grip.letGo = true;
   return true;
 }
 
@@ -341,14 +341,14 @@ bool World::pause(Nanoseconds t0, Nanoseconds t1, bool continues) {
 bool World::traceBody(BodyId id, bool on) {
   RigidBody* b = core_->objects_.body(id);
   if (!b) return false;
-  if (b->traced != on) core_->traces_.trace(*b, on, b->awaited, core_->time_.now());
+  if (b->trace.traced != on) core_->traces_.trace(*b, on, b->trace.awaited, core_->time_.now());
   return true;
 }
 
 const BodyWay& World::wayOf(BodyId id) const {
   static const BodyWay none;
   const RigidBody* b = core_->objects_.body(id);
-  return b && b->traced ? b->trace : none;
+  return b && b->trace.traced ? b->trace.way : none;
 }
 
 const std::vector<BodyId>& World::changed() const {
@@ -363,7 +363,7 @@ Pose World::pose(BodyId id) const {
 Pose World::poseAhead(BodyId id, Nanoseconds when) const {
   const RigidBody* b = core_->objects_.body(id);
   if (!b) return {};
-  if (b->mode == BodyMode::Held) return b->held.end;
+  if (b->mode == BodyMode::Held) return b->grip.held.end;
   const double tau = core_->time_.tauOf(when), known = std::min(tau, b->until);
   Pose X = b->poseAt(known);
   X.p += (tau - known) * b->velocity(known);
@@ -388,7 +388,7 @@ BodyState World::state(BodyId id) const {
   s.flight = flightClassOf(b->path), s.arcs = b->version;
   const Pose X_WC = b->pose * b->X_NC;
   if (b->mode == BodyMode::Held) {
-    s.p = X_WC.p, s.q = X_WC.q, s.v = b->held.v, s.omega = b->held.omega;
+    s.p = X_WC.p, s.q = X_WC.q, s.v = b->grip.held.v, s.omega = b->grip.held.omega;
     return s;
   }
   s.p = b->path.position(age), s.v = b->path.velocity(age), s.q = b->spin.orientation(age - b->spinStart);

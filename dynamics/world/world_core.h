@@ -1,11 +1,12 @@
 #pragma once
 /// The inside of World: the classes that keep its state and those that move its bodies, in the order in which
-/// they use each other. Core itself only orders them through a frame (world_frame.cpp).
+/// they use each other. Core itself only orders them through a frame (world_frame.cpp). It has more than 20
+/// fields, because each of these classes is one of them.
 ///
 /// State    dynamics/state: time, objects, fields, events, boxes. Each class there owns its fields.
-/// Motion   body_arcs begins arcs; foresight predicts what they meet; waking, impacts, arc_ends and arrivals
-/// say what
-///          happens at an event; contact_islands, island_step and piles advance lasting contact.
+/// Motion   body_arcs begins arcs, and foresight predicts what they meet. waking, impacts, arc_ends and
+///          arrivals say what happens at an event. contact_islands, island_step and piles advance lasting
+///          contact.
 
 #include "dynamics/state/event_queue.h"
 #include "dynamics/state/field_commands.h"

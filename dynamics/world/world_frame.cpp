@@ -17,7 +17,7 @@ bool inBounds(const Pose& X) {
 }  // namespace
 
 /// The first frame begins: arcs made before begin with it. If there are commands, they will change most of
-/// them before anybody looks.
+/// them before any result is read.
 void World::Core::start(Nanoseconds at) {
   time_.start(at);
   const Nanoseconds whole = at / WorldTime::kWindow * WorldTime::kWindow,
@@ -26,7 +26,7 @@ void World::Core::start(Nanoseconds at) {
   commands_.empty() ? openWindow(opens) : beginWindow(opens);
 }
 
-/// No list remembers it any more.
+/// Removes the body from all lists.
 void World::Core::forgetBody(RigidBody& b) {
   boxes_.remove(b);
   active_.forget(b);
@@ -52,7 +52,7 @@ void World::Core::pause(Nanoseconds to, bool continues) {
   const Nanoseconds gap = to - time_.t1();
   traces_.pause(continues);
   if (gap == 0) return;
-  for (RigidBody& b : objects_.bodies()) b.since.ns += gap, b.woundTo.ns += gap;
+  for (RigidBody& b : objects_.bodies()) b.since.ns += gap, b.grip.woundTo.ns += gap;
   for (ContactMemory::Waiting& w : memory_.waiting()) w.look += gap, w.seen += gap;
   time_.standUntil(to);
   openWindow(to / WorldTime::kWindow * WorldTime::kWindow);
@@ -81,11 +81,11 @@ void World::Core::beginFrame() {
   const double seconds = time_.now() - time_.from();
   held_.dropReleased();
   for (RigidBody* b : held_.list()) {
-    b->held.set(b->held.start, b->held.end, time_.from(), seconds);
-    b->held.way.swap(b->nextWay), b->nextWay.clear();
-    b->held.follow({time_.origin(), 0}, time_.from(), time_.now());
+    b->grip.held.set(b->grip.held.start, b->grip.held.end, time_.from(), seconds);
+    b->grip.held.way.swap(b->grip.nextWay), b->grip.nextWay.clear();
+    b->grip.held.follow({time_.origin(), 0}, time_.from(), time_.now());
     traces_.noteHeld(*b, time_.from());
-    b->put = false;
+    b->trace.put = false;
     ++b->version;
     changes_.mark(*b);
   }
@@ -102,10 +102,10 @@ void World::Core::beginFrame() {
   commands_.obey(time_.from());
   commands_.followFields();
   restartStirred(time_.from());
-  boxes_.sweep(changes_);  // boxes before predictions, so that these see everybody
+  boxes_.sweep(changes_);  // boxes before predictions, so that these see all bodies
   arrivals_.settle();
   for (const RigidBody* b : held_.list())
-    if (b->held.moving) waking_.wakeOnto({true, b->id}, time_.from());
+    if (b->grip.held.moving) waking_.wakeOnto({true, b->id}, time_.from());
   for (const ColliderId id : changes_.colliders())
     if (Collider* c = objects_.collider(id); c && c->enabled && (c->motion.moving || c->disturbed)) {
       waking_.wakeOnto({false, id}, time_.from());
@@ -178,7 +178,7 @@ void World::Core::sample(RigidBody& b) {
     b.pose = X;
   else
     expel(b);
-  if (b.mode == BodyMode::Held) b.held.start = b.held.end, b.held.way.clear();
+  if (b.mode == BodyMode::Held) b.grip.held.start = b.grip.held.end, b.grip.held.way.clear();
   changed_.push_back(b.id);
   b.active = !standsStill(b.mode);
 }
@@ -212,7 +212,7 @@ void World::Core::beginWindow(Nanoseconds at) {
   for (RigidBody& b : objects_.bodies()) {
     b.age0 = start.since(b.since);
     b.until = b.validAge - b.age0;
-    b.held.begin = time_.from(), b.held.rebase(start);
+    b.grip.held.begin = time_.from(), b.grip.held.rebase(start);
   }
   for (Collider& c : objects_.colliders()) c.motion.begin = time_.from(), c.motion.rebase(start);
   waking_.scheduleDue(from);
@@ -222,7 +222,7 @@ void World::Core::beginWindow(Nanoseconds at) {
 /// A window begins: the world looks ahead for all active bodies.
 void World::Core::openWindow(Nanoseconds at) {
   beginWindow(at);
-  foresight_.fillWindow(time_, std::max(0.0, time_.from()));
+  foresight_.fillWindow(std::max(0.0, time_.from()));
 }
 
 void World::Core::turnByFrame() {

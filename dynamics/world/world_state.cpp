@@ -134,13 +134,18 @@ static void fieldsOf(RigidBody& b, StateFields& f) {
   f("inertia", b.inertia), f("even pull", b.even), f("X_NC", b.X_NC), f("X_CN", b.X_CN);
   f("centred", b.centred), f("bound", b.bound), f("reach", b.reach), f("damping", b.damping);
   f("drag area", b.dragArea), f("release distance", b.releaseDistance), f("stick", b.stick);
-  f("q_CA", b.q_CA), f("end momentum", b.endL), f("step", b.step), f("support", b.support);
-  f("hooks", b.hooks), f("touching", b.touching), f("leaning", b.leaning), f("presses", b.presses);
-  f("due", b.dueAge), f("crowd", b.crowd), f("wedged", b.wedged), f("restless", b.restless);
-  f("drowsy", b.drowsy), f("heaped", b.heaped), f("drift", b.drift), f("twist", b.twist);
-  f("slot", b.slot), f("held", b.held), f("carried", b.carried), f("wound", b.wound);
-  f("wound to", b.woundTo), f("free place", b.freePlace), f("let go", b.letGo), f("ways out", b.waysOut);
-  f("impacts", b.impacts), f("impact span", b.impactSpan), f("quiet", b.quiet), f("calm", b.calm);
+  f("q_CA", b.q_CA), f("end momentum", b.contact.endL), f("step", b.step), f("support", b.support);
+  f("hooks", b.hooks), f("touching", b.contact.touching), f("leaning", b.contact.leaning),
+      f("presses", b.contact.presses);
+  f("due", b.contact.dueAge), f("crowd", b.contact.crowd), f("wedged", b.contact.wedged),
+      f("restless", b.contact.restless);
+  f("drowsy", b.contact.drowsy), f("heaped", b.contact.heaped), f("drift", b.contact.drift),
+      f("twist", b.contact.twist);
+  f("slot", b.contact.slot), f("held", b.grip.held), f("carried", b.grip.carried), f("wound", b.grip.wound);
+  f("wound to", b.grip.woundTo), f("free place", b.grip.freePlace), f("let go", b.grip.letGo),
+      f("ways out", b.grip.waysOut);
+  f("impacts", b.impacts), f("impact span", b.impactSpan), f("quiet", b.contact.quiet),
+      f("calm", b.contact.calm);
   f("trouble", b.trouble), f("swept", b.swept), f("place", b.place), f("only", b.only);
 }
 static void fieldsOf(Collider& c, StateFields& f) {
