@@ -17,7 +17,7 @@
 namespace stadion {
 namespace {
 
-constexpr std::size_t kMaxFileBytes = 1 << 20;
+constexpr std::size_t kMaxFileBytes = 4 << 20;
 constexpr double kMaxLength = 1e7;  ///< of any number before units [m or the file's unit]
 constexpr std::uint64_t kMaxPixels = 16384;
 

@@ -209,7 +209,8 @@ std::string ringOf(std::size_t count) {
   std::string text;
   const auto corner = [&](std::size_t i) {
     const double turn = 2 * 3.14159265358979 * static_cast<double>(i) / static_cast<double>(count);
-    return std::to_string(5 * std::sin(turn)) + " " + std::to_string(5 * std::cos(turn));
+    const double away = 0.1 * static_cast<double>(count);  // so that walls are no narrower than 0.6 m
+    return std::to_string(away * std::sin(turn)) + " " + std::to_string(away * std::cos(turn));
   };
   for (std::size_t i = 0; i < count; ++i)
     text += "wall w" + std::to_string(i) + "  lower-left " + corner(i) + " 0  lower-right " + corner(i + 1) +

@@ -1,7 +1,7 @@
 // Walls drawn by processes of their own: what travels, that the pixels are the same, and what becomes of a
 // wall whose process dies or hangs.
-#include "pipeline/process/views_in_workers.h"
 #include "pipeline/process/list_bytes.h"
+#include "pipeline/process/views_in_workers.h"
 #include "tests/pipeline/draw/renderer_scene.h"
 #include "tests/proc.h"
 

@@ -1,6 +1,6 @@
 /// A hall of 64 views: run, profile and worker processes show and report all of them.
 
-#include "tests/cli/program.h"
+#include "tests/programs/program.h"
 
 #include <cmath>
 #include <gtest/gtest.h>
@@ -29,11 +29,21 @@ std::string ringOf(std::size_t count) {
   return text.str();
 }
 
-/// Plays two frames of small pictures on the walls of the file.
+/// Plays a few frames of small pictures on the walls of the file.
 ProgramResult played(const std::string& how, const std::string& walls, const std::vector<std::string>& more) {
-  std::vector<std::string> words{how,      testShow("moving.evs"), "--asset-root", assetFolder(), "--walls",
-                                 walls,    "--size",               "16x12",        "--frames",    "2",
-                                 "--look", "plain",                "--json"};
+  std::vector<std::string> words{how,
+                                 testShow("moving.evs"),
+                                 "--asset-root",
+                                 assetFolder(),
+                                 "--walls",
+                                 walls,
+                                 "--size",
+                                 "16x12",
+                                 "--frames",
+                                 "6",
+                                 "--look",
+                                 "plain",
+                                 "--json"};
   words.insert(words.end(), more.begin(), more.end());
   return stadionProgram(words);
 }
@@ -70,10 +80,11 @@ TEST(ProgramManyViews, OfMonoWallsAreDrawnAndEachIsProfiled) {
   ASSERT_EQ(run.status, 0) << run.err;
   EXPECT_EQ(hashesOf(run).size(), 64U) << run.out;
 
-  const ProgramResult profile = played("profile", walls, {"--stereo", "off", "--out", folder.path() / "out"});
+  const ProgramResult profile =
+      played("profile", walls, {"--stereo", "off", "--html", folder.path() / "report.html"});
   ASSERT_EQ(profile.status, 0) << profile.err;
   EXPECT_EQ(json::parse(profile.out)["walls"].size(), 64U);
-  const std::string page = fileContent(folder.path() / "out" / "report.html");
+  const std::string page = fileContent(folder.path() / "report.html");
   for (const char* last : {"Cull w63", "Draw w63"}) EXPECT_TRUE(has(page, last)) << last;
 }
 
