@@ -12,7 +12,7 @@ namespace stadion {
 FileDescriptor openBeneath(int root, const std::string& path, bool folder) {
   if (path.empty() || path.find('\0') != std::string::npos) return errno = ENOENT, FileDescriptor();
   open_how how{};
-  // Without O_NONBLOCK a named pipe would hold us until somebody writes to it.
+  // Without O_NONBLOCK, opening a named pipe would wait for a writer.
   how.flags = O_RDONLY | O_CLOEXEC | O_NOCTTY | O_NONBLOCK | (folder ? O_DIRECTORY : 0);
   how.resolve = RESOLVE_BENEATH | RESOLVE_NO_MAGICLINKS;
   long opened = -1;

@@ -1,5 +1,5 @@
 #pragma once
-/// Opens files that lie inside a folder, and no others.
+/// Opens files inside a folder, and no others.
 
 #include "engine/base/file_descriptor.h"
 

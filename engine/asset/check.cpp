@@ -42,7 +42,7 @@ Result<AssetCounts> checkAssets(const fs::path& importerProgram, const fs::path&
     else
       finding.message = mesh.error().message;
     ++(mesh ? counts.loaded : readable ? counts.failed : counts.refused);
-    // A program that fell over is gone; after an ordinary failure it waits for the next file.
+    // A program that crashed has ended; after an ordinary failure it waits for the next file.
     if (!mesh && readable && importer.pid() == 0) ++counts.faults;
     tell(finding);
   }

@@ -1,5 +1,5 @@
 #pragma once
-/// Imports every model file of a folder and tells how it went, for `stadion check --assets`.
+/// Imports every model file of a folder and reports the results, for `stadion check --assets`.
 
 #include "engine/asset/import.h"
 
@@ -17,8 +17,8 @@ enum class AssetVerdict {
 struct AssetFinding {
   AssetVerdict verdict = AssetVerdict::Failed;
   std::string file;            ///< below the folder
-  std::string message;         ///< why not; empty when loaded
-  Diagnostics notes;           ///< what was lost on the way
+  std::string message;         ///< the error; empty when loaded
+  Diagnostics notes;           ///< losses during import
   const Mesh* mesh = nullptr;  ///< when loaded; valid during the call
 };
 
@@ -27,8 +27,8 @@ struct AssetCounts {
   std::size_t faults = 0;  ///< of the failed: the importer program crashed, hung or ran out of memory
 };
 
-/// Goes through `folder` in the order of names, without following symbolic links; files that are no models
-/// are passed over. The error, when there is one, is that the folder cannot be opened.
+/// Imports the files of `folder` in the order of names, without following symbolic links. Skips files that
+/// are no models. Returns an error only if the folder cannot be opened.
 Result<AssetCounts> checkAssets(const std::filesystem::path& importerProgram,
                                 const std::filesystem::path& folder,
                                 const std::function<void(const AssetFinding&)>& tell,

@@ -23,7 +23,7 @@ struct Refused {
   const char* name;
 };
 
-// Formats whose loaders fall over on hostile files, or that nobody needs in a show.
+// Formats with loaders that crash on hostile files, or that shows do not need.
 constexpr Refused kRefused[] = {
     {"3d", "Unreal"},
     {"3mf", "3MF"},

@@ -35,11 +35,11 @@ struct FormatInfo {
   const char* loader;     ///< what assimp calls the loader; the only one that may read such a file
   UpAxis up;              ///< when neither file nor script says
   double unit;            ///< [m] likewise
-  bool statesAxes;        ///< the file says up axis and unit itself
+  bool statesAxes;        ///< the file states up axis and unit itself
   bool linearColours;
 };
 
-/// What the script says about a model; unset means: as the format has it.
+/// The script's settings for a model; unset means: as the format defines.
 struct ImportOptions {
   std::optional<double> unit;  ///< [m] length of one unit of the file, 1e-6 .. 1e6
   std::optional<UpAxis> up;

@@ -57,7 +57,7 @@ private:
   ImporterProcess process_;
 };
 
-/// What is drawn in place of an asset that could not be loaded: a box of 0.5 m in black and magenta checks,
+/// Returns the replacement for an asset that could not be loaded: a box of 0.5 m in black and magenta checks,
 /// standing on the origin.
 std::unique_ptr<Mesh> standIn(const std::string& name);
 

@@ -5,7 +5,7 @@
 namespace stadion {
 namespace {
 
-// Grows as the bytes come: a size that lies costs no memory.
+// Memory grows as the bytes arrive: a false size costs none.
 Transfer readBytes(const BringBytes& bring, std::vector<std::uint8_t>& bytes, std::uint64_t size) {
   constexpr std::uint64_t kPiece = 4u << 20;
   while (bytes.size() < size) {
@@ -16,7 +16,7 @@ Transfer readBytes(const BringBytes& bring, std::vector<std::uint8_t>& bytes, st
   return Transfer::Done;
 }
 
-// The program may say anything: lines of printable text are what is passed on.
+// Keeps only lines of printable text, since the program may send anything.
 void clean(std::string& text) {
   for (char& c : text) {
     const auto u = static_cast<unsigned char>(c);

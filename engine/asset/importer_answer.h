@@ -1,10 +1,9 @@
 #pragma once
-/// What the importer program answers, read piece by piece from wherever it comes.
+/// The importer program's answer, read piece by piece from any source.
 ///
 /// Threads  pure.
-/// Errors   nothing of it is believed: lengths are held against limits before anything is allocated, and
-/// memory
-///          grows only with bytes that have really come. What the mesh's bytes are worth, decode() says.
+/// Errors   Nothing in it is trusted: lengths are checked against limits before allocation, and memory grows
+///          only with bytes that have arrived. decode() checks the mesh's bytes.
 
 #include "engine/asset/importer_protocol.h"
 
@@ -22,10 +21,10 @@ struct ImporterAnswer {
   std::vector<std::uint8_t> mesh;  ///< not checked yet
 };
 
-/// Brings exactly so many bytes, or says why it cannot.
+/// Reads exactly so many bytes, or says why it cannot.
 using BringBytes = std::function<Transfer(void* to, std::size_t size)>;
 
-/// Reads one answer; unless it is Done, the answer is worth nothing.
+/// Reads one answer, which is valid only if the result is Done.
 Transfer readAnswer(const BringBytes& bring, ImporterAnswer& answer);
 
 }  // namespace stadion

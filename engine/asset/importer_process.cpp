@@ -143,7 +143,7 @@ void ImporterProcess::stop() {
   pid_ = 0;
 }
 
-// The conversation broke off. How the program ended tells why.
+// The exchange broke off. The program's exit shows why.
 ImporterProcess::Answer ImporterProcess::fault(End end) {
   Answer answer{end, {}, {}};
   if (end == End::Crashed && pid_ != 0) {

@@ -1,8 +1,7 @@
 #pragma once
-/// One running importer program, and the conversation with it.
+/// One running importer program, and the exchange with it.
 ///
-/// Errors   whatever the program does (dies, hangs, sends nonsense), ask() returns and says so; the next
-/// ask() starts
+/// Errors   If the program crashes, hangs or sends nonsense, ask() returns and says so; the next ask() starts
 ///          a new one. No signal reaches the show.
 /// Threads  one caller at a time.
 

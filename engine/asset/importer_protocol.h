@@ -1,10 +1,10 @@
 #pragma once
-/// What the show and its importer program say to each other over a pair of stream sockets.
+/// The messages between the show and its importer program over a pair of stream sockets.
 ///
 /// The show sends a request head together with the descriptor of the asset root, then the name below that
 /// root. The program answers with an answer head, a text (notes, one a line, or the reason of the failure)
-/// and the bytes of the mesh (see mesh_file). Both are the same build, so structs travel as they are; the
-/// show still believes nothing of what comes back.
+/// and the bytes of the mesh (see mesh_file). Both are the same build, so structs are sent as they are. The
+/// show still trusts nothing it receives.
 
 #include "engine/asset/mesh_file.h"
 

@@ -1,5 +1,5 @@
 #pragma once
-/// What can be said of a mesh from its triangles alone.
+/// Properties of a mesh that follow from its triangles alone.
 
 #include "engine/asset/mesh.h"
 

@@ -1,12 +1,11 @@
 #pragma once
-/// A mesh as bytes: how the importer program hands it over.
+/// A mesh as bytes, as the importer program sends it.
 ///
-/// Layout  one fixed head (magic, version, counts), then the arrays one after another; native byte order,
-/// since
-///         both ends run on one machine and a foreign file fails at the magic.
-/// Errors  decode() believes nothing: counts against limits and against the bytes there are, every index in
-/// range,
-///         every number finite, normals of unit length. It reads no byte beyond the given ones.
+/// Layout  One fixed head (magic, version, counts), then the arrays one after another; native byte order,
+///         since both ends run on one machine and a foreign file fails at the magic.
+/// Errors  decode() trusts nothing. It checks counts against limits and against the available bytes, that
+///         every index is in range, every number finite, and normals of unit length. It reads no byte beyond
+///         the given ones.
 
 #include "engine/asset/mesh.h"
 #include "engine/base/diagnostic.h"

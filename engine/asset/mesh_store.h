@@ -1,5 +1,5 @@
 #pragma once
-/// Which meshes the show holds at the moment, by id.
+/// The show's present meshes, by id.
 ///
 /// Ownership  the store owns every mesh. App adds, retains and releases; Draw looks up.
 /// Threads    every function may be called from any thread. The pointer that find() returns stays valid until
@@ -15,9 +15,9 @@
 
 namespace stadion {
 
-/// Follows from the mesh's content: the same on every replica, whatever came and went before and whenever
-/// memory was freed, so that what is ordered by it (draw lists) is the same everywhere. Two meshes that would
-/// get the same one by chance (1 in 4 billion) get different ones, in the order in which they come.
+/// Follows from the mesh's content, so it is the same on every replica, for any history of loads and frees.
+/// Draw lists sorted by it are thus the same everywhere. Two meshes that would get the same id by chance (1
+/// in 4 billion) get different ones, in the order in which they come.
 using MeshId = std::uint32_t;
 constexpr MeshId kNoMesh = 0;
 
@@ -26,22 +26,22 @@ public:
   /// Takes the mesh, or finds the one with the same content, and counts one use of it.
   MeshId add(std::unique_ptr<const Mesh> mesh);
   void retain(MeshId id);
-  /// Gives up one use; with the last one, the mesh goes once frame `lastFrame` has been shown.
+  /// Releases one use. After the last one, the mesh is freed once frame `lastFrame` has been shown.
   void release(MeshId id, std::uint64_t lastFrame);
 
-  /// The mesh, or nullptr if it is gone.
+  /// Returns the mesh, or nullptr if it was freed.
   const Mesh* find(MeshId id) const;
   /// Those that are in use, in ascending order.
   std::vector<MeshId> used() const;
-  /// Whether a mesh of this content is there under this id, used or not: what nobody uses may go the next
-  /// moment, so a pointer to it would be no good.
+  /// Returns true if a mesh of this content exists under this id, used or not. It returns no pointer, since
+  /// an unused mesh may be freed at any moment.
   bool holds(MeshId id, std::uint64_t hash) const;
 
-  /// Frees what nobody uses and no frame after `shownFrame` will draw. App, once a frame.
+  /// Frees meshes without uses that no frame after `shownFrame` will draw. App, once a frame.
   void collect(std::uint64_t shownFrame);
 
-  /// How many meshes have been freed so far. While it stays the same, every mesh that was found is still
-  /// there.
+  /// Returns the number of meshes freed so far. While it stays the same, every mesh found earlier still
+  /// exists.
   std::uint64_t freedCount() const;
 
   std::size_t size() const;

@@ -1,9 +1,8 @@
 #pragma once
-/// The folders that a show's assets may come from; nothing outside them is opened.
+/// The folders from which a show's assets may come; nothing outside them is opened.
 ///
-/// Order      the script's folder, then `../assets` beside it, then what `--asset-root` names. The first root
-/// that has
-///            the file wins.
+/// Order      the script's folder, then `../assets` beside it, then the folders of `--asset-root`. The first
+///            root that has the file wins.
 /// Ownership  holds each folder open, so renaming one while the show runs changes nothing.
 /// Threads    immutable once filled; open() may be called from any thread.
 

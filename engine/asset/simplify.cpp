@@ -96,7 +96,7 @@ std::vector<std::uint32_t> placesOf(const Mesh& mesh) {
   return place;
 }
 
-/// Who belongs together: each to its representative.
+/// Union-find: maps each element to the representative of its group.
 class Groups {
 public:
   explicit Groups(std::size_t count) : parent_(count) { std::iota(parent_.begin(), parent_.end(), 0U); }
@@ -131,7 +131,7 @@ std::vector<Piece> piecesOf(const Mesh& mesh, const std::vector<std::uint32_t>& 
 /// Which of a piece's vertices are at a place.
 using AtPlace = std::multimap<std::uint32_t, std::uint32_t>;
 
-/// Of the vertices at the corner's place, the one whose normal is nearest to the triangle's.
+/// Returns the vertex at the corner's place with the normal nearest to the triangle's.
 std::uint32_t vertexFor(const Mesh& mesh, const AtPlace& vertices, std::uint32_t place, const Vec3& normal) {
   const auto [first, last] = vertices.equal_range(place);
   std::uint32_t best = first->second;

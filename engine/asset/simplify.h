@@ -1,12 +1,12 @@
 #pragma once
-/// Simplified levels of a mesh: fewer triangles over the same vertices, and how far they are from the full
+/// Simplified levels of a mesh: fewer triangles over the same vertices, and their distance from the full
 /// surface.
 ///
-/// The surface is taken apart into pieces that hang together. Which triangles of a piece go is
-/// meshoptimizer's choice (edges collapse in the order of their quadric error, which is a mean). How great
-/// the error is, is measured: from every vertex of the piece, and from points on its triangles, to what is
-/// left of it, and back again; the greatest of these distances counts. A piece that cannot be simplified
-/// within a level's error stays as it is, and one whose colours or picture would change where it is seen.
+/// The surface is divided into connected pieces. meshoptimizer chooses the triangles of a piece to remove
+/// (edges collapse in the order of their quadric error, which is a mean). The error itself is measured. It is
+/// the greatest distance from every vertex of the piece, and from points on its triangles, to the simplified
+/// piece, and back. A piece stays as it is if it cannot be simplified within a level's error, or if its
+/// visible colours or textures would change.
 ///
 /// Threads  pure; the loader's, while the show runs.
 

@@ -89,7 +89,7 @@ Result<Sound> readSound(int file, const std::string& path) {
   sound.samples.resize(wanted * sound.info.channels);
   const sf_count_t got =
       sf_readf_short(opened.value().file.get(), sound.samples.data(), static_cast<sf_count_t>(wanted));
-  // What the file says it has and does not have is silence, so that the length is the same for all.
+  // Missing samples are silence, so that the length is the same on every host.
   if (got < 0) return Result<Sound>::failure(fmt::format("\"{}\" cannot be decoded", path));
   return sound;
 }

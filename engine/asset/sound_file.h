@@ -1,8 +1,8 @@
 #pragma once
-/// Sound files: how long they are, and what is in them.
+/// Sound files: their lengths and their samples.
 ///
 /// WAV, AIFF, FLAC and Ogg Vorbis, through libsndfile. A show needs the length alone, which is a count of
-/// samples and so exact; the samples are for whoever makes them heard.
+/// samples and so exact; only the sound player needs the samples.
 ///
 /// Threads  free functions, any thread.
 /// Errors   one sentence with the file's name; hostile files included.
@@ -34,7 +34,7 @@ struct Sound {
 Result<SoundInfo> readSoundInfo(int file, const std::string& path);
 Result<Sound> readSound(int file, const std::string& path);
 
-/// What stands in for a file that cannot be read: so long nothing is heard [ns].
+/// Replaces a file that cannot be read: silence of this length [ns].
 constexpr Nanoseconds kSilentStandIn = 1'000'000'000;
 
 }  // namespace stadion

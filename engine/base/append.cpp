@@ -19,7 +19,7 @@ int appendWhole(int file, std::string_view text) {
     }
     if (written < 0 && errno == EINTR) continue;
     const int why = written < 0 ? errno : ENOSPC;
-    // What somebody else has added behind it stays.
+    // Keeps text that another process has added behind it.
     if (fstat(file, &now) == 0 && now.st_size == before.st_size + added)
       (void)!ftruncate(file, before.st_size);
     return why;

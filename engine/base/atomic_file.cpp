@@ -33,7 +33,7 @@ std::string temporaryFor(const fs::path& target) {
   return (target.parent_path() / name).string();
 }
 
-/// Whether "PID-NUMBER.part" is of a process that there is no more.
+/// Returns true if "PID-NUMBER.part" belongs to a process that has ended.
 bool isOfGoneProcess(std::string_view rest) {
   pid_t writer = 0;
   const auto [end, wrong] = std::from_chars(rest.data(), rest.data() + rest.size(), writer);
@@ -41,13 +41,13 @@ bool isOfGoneProcess(std::string_view rest) {
   return rest.ends_with(".part") && ::kill(writer, 0) != 0 && errno == ESRCH;
 }
 
-/// A link in /proc names a file that somebody has open: it cannot be replaced under him.
+/// A link in /proc names a file that a process has open: it must not be replaced.
 bool isOpenFile(const fs::path& link) {
   std::error_code none;
   return fs::canonical(link.parent_path(), none).string().starts_with("/proc/");
 }
 
-/// Opened for writing. A pipe that nobody reads is an error, and no reason to wait.
+/// Opens it for writing. A pipe without a reader is an error, and no reason to wait.
 std::FILE* openToWrite(const std::string& path) {
   const int file =
       ::open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC | O_NONBLOCK | O_NOCTTY, 0666);
@@ -58,7 +58,7 @@ std::FILE* openToWrite(const std::string& path) {
   return stream;
 }
 
-/// What the links of the path lead to. Nothing if that is an open file.
+/// Returns the target of the path's links. Returns nothing if that is an open file.
 std::optional<std::string> targetOf(fs::path path) {
   std::error_code none;
   for (int i = 0; i < kMostLinks && fs::is_symlink(path, none); ++i) {

@@ -1,13 +1,13 @@
 #pragma once
 /// A file that appears complete or not at all.
 ///
-/// What is written goes to a hidden temporary file in the same folder; commit() puts it in the place of the
-/// target in one step. Whoever opens the target sees the old content or the new, never half of one. A
-/// symbolic link stays: the target is what it leads to, there or not yet. A target that exists and is no
-/// plain file (a device, a pipe), or that a link names as an open file (/dev/stdout), is written directly.
+/// Text goes to a hidden temporary file in the same folder; commit() renames it to the target in one step. A
+/// reader of the target sees the old content or the new, never half of one. A symbolic link stays: its target
+/// is replaced, or created. A target that is no plain file (a device, a pipe), or an open file behind a link
+/// (/dev/stdout), is written directly.
 ///
-/// Ownership  owns the temporary file; without commit() it is removed again. Only a writer that is killed
-///            leaves it: .NAME.PID-NUMBER.part.
+/// Ownership  owns the temporary file; without commit() it is removed again. Only a killed writer leaves it:
+///            .NAME.PID-NUMBER.part.
 /// Threads    one thread at a time.
 /// Errors     the first one is kept and reported by commit(); writing after it does nothing.
 
@@ -24,7 +24,7 @@ namespace stadion {
 
 class AtomicFile {
 public:
-  /// What becomes of a text that cannot be finished.
+  /// The treatment of a text that cannot be finished.
   enum class Unfinished {
     Goes,
     KeepsLines,  ///< its whole lines are kept as PATH.partial, in the place of an older one
@@ -40,10 +40,10 @@ public:
   /// Records a failure from elsewhere (an encoder, for instance), so that commit() discards the file.
   void fail(const std::string& why);
   bool failed() const { return error_.has_value(); }
-  /// Why it has failed so far, such as a folder that is not there.
+  /// Returns why it has failed so far, such as a missing folder.
   const std::optional<Diagnostic>& error() const { return error_; }
 
-  /// Finishes the file. Nothing if all went well, else why there is none; the old target is then untouched.
+  /// Finishes the file. Returns nothing on success, else the error; the old target is then unchanged.
   std::optional<Diagnostic> commit();
 
 private:
@@ -58,10 +58,11 @@ private:
   std::optional<Diagnostic> error_;
 };
 
-/// What writers of that file have left which are gone: they were killed, or the machine died.
+/// Returns the temporary files that ended writers of that file have left: they were killed, or the machine
+/// crashed.
 std::vector<std::string> partsOfKilledWriters(const std::string& path);
 
-/// The whole content at once.
+/// Writes the whole content at once.
 std::optional<Diagnostic> writeFile(const std::string& path, std::string_view content);
 
 }  // namespace stadion

@@ -8,17 +8,17 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-/// About what it takes to wake a thread and to wait for it again.
+/// Approximate cost of waking a thread and waiting for it again.
 constexpr std::chrono::nanoseconds kWaking{50'000};
 
 }  // namespace
 
-// With fewer threads than were wanted, or none, the same is done.
+// With fewer threads than requested, or none, the result is the same.
 Crew::Crew(std::size_t threads) {
   try {
     for (std::size_t i = 1; i < threads; ++i) threads_.emplace_back([this] { help(); });
   } catch (const std::exception&) {
-    // The system has no more of them, or no memory.
+    // The system has no more threads, or no memory.
   }
 }
 
@@ -44,7 +44,7 @@ void Crew::run(std::size_t count, const std::function<void(std::size_t)>& piece)
   takePieces();
   std::unique_lock lock(mutex_);
   end_.wait(lock, [this] { return helping_ == 0; });
-  piece_ = nullptr;  // who wakes up late finds nothing to do
+  piece_ = nullptr;  // a thread that wakes late finds no work
   worthIt_ = work_ > kWaking.count();
   for (const std::exception_ptr& e : thrown_)
     if (e) std::rethrow_exception(e);

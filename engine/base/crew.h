@@ -1,13 +1,12 @@
 #pragma once
-/// Threads that help App with independent pieces of work.
+/// A worker pool: threads that help App with independent pieces of work.
 ///
-/// Threads    one caller at a time; run() returns when every piece is done. Pieces are taken in order by
-/// whoever is
-///            free, the caller among them, so nothing may depend on who does what.
-///            To be woken takes a thread longer than small pieces take: the others are called when the
-///            pieces of the run before took longer than that, all together.
+/// Threads    One caller at a time; run() returns when every piece is done. Idle threads, including the
+///            caller, take pieces in order, so results must not depend on the thread of a piece. Waking a
+///            thread takes longer than a small piece: the others are woken only if all pieces of the previous
+///            run together took longer than that.
 /// Ownership  owns its threads; they sleep between runs.
-/// Errors     what a piece throws is thrown by run(), the first one by number.
+/// Errors     run() throws the exceptions of pieces, the first one by number.
 
 #include <atomic>
 #include <chrono>
@@ -22,7 +21,7 @@ namespace stadion {
 
 class Crew {
 public:
-  /// `threads` in all, the caller included: 1 has nobody else.
+  /// `threads` includes the caller: with 1 there are no others.
   explicit Crew(std::size_t threads);
   ~Crew();
   Crew(const Crew&) = delete;
@@ -44,7 +43,7 @@ private:
   bool leaving_ = false;
   std::atomic<std::size_t> next_ = 0;
   std::atomic<std::chrono::nanoseconds::rep> work_ = 0;  ///< of all pieces of the run [ns]
-  bool worthIt_ = true;                                  ///< to call the others
+  bool worthIt_ = true;                                  ///< waking the others pays
   std::vector<std::exception_ptr> thrown_;               ///< by piece
   std::vector<std::thread> threads_;
 };

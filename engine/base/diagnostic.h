@@ -21,7 +21,7 @@ enum class Severity { Error, Warning, Note };
 struct Diagnostic {
   Severity severity = Severity::Error;
   SourcePosition where;
-  std::string message;  ///< one sentence, no trailing full stop; says what to do when that is known
+  std::string message;  ///< one sentence, no trailing full stop; says what to do if that is known
   std::string excerpt;  ///< the source line, empty if there is none
 };
 

@@ -1,8 +1,8 @@
 #pragma once
-/// Where the files and programs that belong to Stadion lie, in a checkout and in an installed copy alike.
+/// The places of Stadion's files and programs, in a checkout and in an installed copy.
 ///
-/// Each is looked for from the folder of the running program; then, since a program that embeds Stadion may
-/// lie anywhere, beside the first `stadion` in PATH. An environment variable counts more than both.
+/// Each is looked for from the folder of the running program, then beside the first `stadion` in PATH, since
+/// a program that embeds Stadion may be anywhere. An environment variable takes precedence over both.
 ///
 /// Threads  any; the environment must not change meanwhile.
 
@@ -15,10 +15,9 @@ namespace stadion {
 /// upwards, that has walls/ or share/stadion/walls/. Empty if there is none.
 std::string shareFolder();
 
-/// A program that another one starts, such as "stadion-import": in STADION_PROGRAMS; else beside the running
-/// program, in
-/// ../lib/stadion, or (for a program that lies there) in ../../bin. The bare name if there is none: starting
-/// it then fails, and says so.
+/// Returns a program that another one starts, such as "stadion-import". It is looked for in STADION_PROGRAMS,
+/// else beside the running program, in ../lib/stadion, or (for a program there) in ../../bin. Returns the
+/// bare name if there is none: starting it then fails, and says so.
 std::filesystem::path helperProgram(const std::string& name);
 
 }  // namespace stadion

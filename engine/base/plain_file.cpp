@@ -42,14 +42,14 @@ Result<std::string> readPlainFile(int file, const std::string& path, std::size_t
     if (got < 0 && errno == EINTR) continue;
     if (got < 0) return cannotRead(path, std::strerror(errno));
     if (got == 0) return bytes;
-    // It may have grown, and what the kernel makes up on reading has no size beforehand.
+    // It may have grown, and files that the kernel generates on reading have no size beforehand.
     if (bytes.size() + static_cast<std::size_t>(got) > limit) return cannotRead(path, tooLarge(limit));
     bytes.append(part.data(), static_cast<std::size_t>(got));
   }
 }
 
 Result<std::string> readPlainFile(const std::string& path, std::size_t limit) {
-  // Without O_NONBLOCK a named pipe would hold us until somebody writes to it.
+  // Without O_NONBLOCK, opening a named pipe would wait for a writer.
   const FileDescriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NOCTTY | O_NONBLOCK));
   if (!file) return cannotRead(path, std::strerror(errno));
   return readPlainFile(file.get(), path, limit);

@@ -1,9 +1,8 @@
 #pragma once
-/// Reads whole files of the user's: plain ones of a bounded size, and nothing that could make us wait.
+/// Reads the user's files as a whole: plain files of a bounded size, and nothing that could block.
 ///
-/// Errors   one sentence with the file's name: it is not there, is a folder, a pipe or a device, is too
-/// large,
-///          cannot be read.
+/// Errors   one sentence with the file's name: it does not exist, is a folder, a pipe or a device, is too
+///          large, or cannot be read.
 /// Threads  free functions, any thread.
 
 #include "engine/base/diagnostic.h"

@@ -1,6 +1,6 @@
 #pragma once
-/// Asks for memory before it is needed. Who walks through much that other threads have driven out of the
-/// cache waits for every line of it otherwise.
+/// Requests memory before it is needed. Otherwise a loop over data that other threads have driven out of the
+/// cache waits for every line of it.
 ///
 /// Threads  any. It changes nothing and may point anywhere.
 

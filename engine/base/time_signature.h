@@ -15,7 +15,7 @@ constexpr Nanoseconds fromSeconds(double s) {
   return static_cast<Nanoseconds>(s * 1e9 + (s >= 0 ? 0.5 : -0.5));
 }
 
-/// A clock has found that something takes too long: what is given up from a frame on (engine/core/load_control.h).
+/// A decision about overload: a degradation from a frame on (engine/core/load_control.h).
 struct LoadDecision {
   std::uint32_t load = 0,
                 position = 0;  ///< the node, by load number and position in its file; 0, 0 = the show
@@ -26,7 +26,7 @@ struct LoadDecision {
 constexpr std::uint32_t kStressLevelsAnOctave = 4;
 constexpr std::uint32_t kMostStress = 16;  ///< the highest level of stress: 16 times
 
-/// Those that take effect with one frame. More than so many wait for the next one.
+/// The decisions that take effect with one frame. Further ones wait for the next frame.
 struct FrameLoad {
   static constexpr std::size_t kMost = 4;
   std::array<LoadDecision, kMost> decisions{};
@@ -48,7 +48,7 @@ struct TimeSignature {
   std::uint64_t frame = 0;  ///< index, from 0
   Nanoseconds time = 0;     ///< end of this frame's step [ns]
   Nanoseconds step = 0;     ///< [ns]; 0 in frame 0, which shows the scene as it was loaded
-  FrameLoad load{};         ///< what is given up or taken back from this frame on
+  FrameLoad load{};         ///< degradations that begin or end with this frame
 };
 
 /// Frame n of a show at `rate` frames per second, without accumulated rounding.

@@ -1,9 +1,9 @@
 #pragma once
-/// Takes values, as they lie in memory, from the front of bytes that somebody else wrote and that may be
+/// Reads values, as they lie in memory, from the front of bytes that another process wrote and that may be
 /// damaged.
 ///
-/// Bounds   a count is compared with what is left before anything is allocated: one that lies costs nothing.
-/// Errors   false once something is missing; what was to be read is unspecified then.
+/// Bounds   a count is compared with the remaining bytes before allocation: a false one costs nothing.
+/// Errors   false once bytes are missing; the values read are then unspecified.
 /// Bytes    of this machine's order and layout: between processes of one machine only.
 
 #include <cstdint>

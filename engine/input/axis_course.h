@@ -1,8 +1,8 @@
 #pragma once
-/// How one axis of a device goes inside a frame.
+/// The values of one axis of a device inside a frame.
 ///
-/// Times    non-decreasing; it goes evenly from knot to knot, and two knots of the same time are a jump.
-///          Before the first knot it is as that says, after the last one likewise.
+/// Times    non-decreasing; the value changes evenly from knot to knot, and two knots of the same time are a
+///          jump. Before the first knot it is that knot's value, after the last one likewise.
 /// Units    from -1 to 1.
 
 #include "engine/input/input_sample.h"
@@ -25,8 +25,8 @@ struct AxisKnot {
 };
 using AxisCourse = std::vector<AxisKnot>;
 
-/// What the axis of the device says from `start` to `end`, the time of the sample. Of a device that is lost
-/// or that nobody knows it is 0. Never empty.
+/// Returns the device's axis from `start` to `end`, the time of the sample. It is 0 for a device that is lost
+/// or unknown. Never empty.
 AxisCourse axisCourse(const InputSample& input, std::string_view device, std::size_t axis, Nanoseconds start,
                       Nanoseconds end);
 

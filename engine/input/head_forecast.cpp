@@ -8,7 +8,7 @@
 namespace stadion {
 namespace {
 
-/// What is believed of a velocity: little of one below `rest`, nothing above `most`.
+/// Limits a velocity: little of one below `rest` counts, and nothing above `most`.
 Vec3 believed(const Vec3& v, double rest, double most) {
   const double squared = v.squaredNorm();
   if (!(squared > 0)) return Vec3::Zero();

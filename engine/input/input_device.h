@@ -1,9 +1,9 @@
 #pragma once
-/// Where input comes from: a recorded log, a script, live trackers.
+/// A source of input: a recorded log, a script, live trackers.
 ///
 /// Threads  App calls sampleFrame(), once a frame and with increasing time; a live device fills its samples
-///          on a thread of its own and answers from what has arrived.
-/// Errors   a device that has nothing yet answers with trackers that are not valid; it never waits.
+///          on a thread of its own and answers from the data that has arrived.
+/// Errors   a device without data answers with trackers that are not valid; it never waits.
 
 #include "engine/input/input_sample.h"
 
@@ -11,7 +11,7 @@
 
 namespace stadion {
 
-/// A head, and what it is known by.
+/// A head pose and its times.
 struct HeadNow {
   Pose X_RH;
   Nanoseconds measured = 0;  ///< as TrackerSample has it
@@ -21,7 +21,7 @@ class InputDevice {
 public:
   virtual ~InputDevice() = default;
 
-  /// The input at `showTime`. The sample is refilled, so that a caller who keeps it allocates nothing.
+  /// Returns the input at `showTime`. The sample is refilled, so a caller that keeps it allocates nothing.
   virtual void sampleAt(Nanoseconds showTime, InputSample& sample) = 0;
 
   /// The same for a frame from `start` to `end`, with the corners of the trackers' ways inside it. A device
@@ -37,26 +37,27 @@ public:
     return sample;
   }
 
-  /// What it says at this moment, while show time stands still: for the pictures alone. False: as before.
+  /// Returns the input at this moment while show time stands still, for the pictures alone. False: unchanged.
   virtual bool sampleNow(InputSample& sample) {
     (void)sample;
     return false;
   }
-  /// The head as it will be so long from now [ns], by what its tracker has said until now: for pictures that
-  /// are about to be drawn. On any thread, also while App samples. Nothing: a frame's sample is all there is.
+  /// Predicts the head for `ahead` from now [ns], from its tracker's data until now, for pictures that are
+  /// about to be drawn. On any thread, also while App samples. Returns nothing if the device knows only a
+  /// frame's sample.
   virtual std::optional<HeadNow> headSoon(Nanoseconds ahead) {
     (void)ahead;
     return {};
   }
-  /// From the next sample on the head is told as it will be so much later [ns], when its picture is seen (see
-  /// forecast.h). Before a frame.
+  /// From the next sample on, the head is predicted by this much [ns], for the time at which its picture is
+  /// seen (see forecast.h). Call it before a frame.
   virtual void aimHead(Nanoseconds ahead) { (void)ahead; }
-  /// The head stays where it is, or is let go. Before a frame.
+  /// Freezes the head, or releases it. Call it before a frame.
   virtual void freezeHead(bool frozen) { (void)frozen; }
-  /// The show begins again: its times count from 0. Before the first frame.
+  /// Restarts: the show's times count from 0 again. Call it before the first frame.
   virtual void restart() {}
 
-  /// When it has no more to say [ns]; 0 = never.
+  /// Returns the end of its input [ns]; 0 = none.
   virtual Nanoseconds end() const { return 0; }
 
 protected:

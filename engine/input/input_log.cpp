@@ -26,14 +26,14 @@ constexpr std::size_t kMostKnots = 1000;       ///< of one tracker in one frame;
 constexpr Nanoseconds kLongestLeap = 50'000'000;  ///< [ns]
 constexpr double kLeapSpeed = 15;                 ///< faster than before and after, too [m/s]
 
-/// How it goes from the stamp before `i` to it; nothing where it is not known to move.
+/// Returns the velocity from the previous stamp to `i`; nothing if it is not known.
 Vec3 velocityTo(const InputTrack& track, std::size_t i) {
   if (i == 0 || i >= track.stamps.size()) return Vec3::Zero();
   const InputStamp &a = track.stamps[i - 1], &b = track.stamps[i];
   return a.valid && b.valid ? Vec3((b.X_RT.p - a.X_RT.p) / toSeconds(b.time - a.time)) : Vec3::Zero();
 }
 
-/// Whether it came to stamp `i` as no hand or foot does: faster than before and after, and in one step.
+/// Returns true if it reached stamp `i` as no hand or foot can: in one step, faster than before and after.
 bool leaps(const InputTrack& track, std::size_t i) {
   if (i == 0 || i >= track.stamps.size() || track.stamps[i].smooth) return false;
   if (track.stamps[i].time - track.stamps[i - 1].time > kLongestLeap) return false;
@@ -64,7 +64,7 @@ double progress(const InputStamp& a, const InputStamp& b, Nanoseconds time) {
 /// Between two stamps, a.time < time < b.time; `leap`: it does not go, but is at b from b.time on.
 void blend(const InputStamp& a, const InputStamp& b, Nanoseconds time, bool leap, TrackerSample& sample) {
   copy(a, sample);
-  if (!wholeWay(a, b)) return;  // a lost tracker stays where it was last seen
+  if (!wholeWay(a, b)) return;  // a lost tracker stays at its last known place
   const double s = progress(a, b, time);
   if (!leap && a.valid) sample.X_RT = det::interpolate(a.X_RT, b.X_RT, s);
   for (std::size_t i = 0; i < kTrackerAxes; ++i)

@@ -2,7 +2,7 @@
 /// Recorded or written input: time-stamped records of any number of named trackers, as text.
 ///
 ///     stadion-input 1
-///     # a visitor who looks left and kicks
+///     # a visitor looks left and kicks
 ///     pose head 0      0 0 1.7  1 0 0 0
 ///     pose head 0.5    0 0 1.7  0.9659258262890683 0 0 0.25881904510252074
 ///     key  foot 1      0 0 0.1
@@ -20,11 +20,11 @@
 ///     lost NAME SECONDS
 ///         the tracker is not valid until its next record
 /// SECONDS has at most nine decimals and increases strictly within each tracker. `smooth` eases the way from
-/// the record before (at rest at both ends); without it the speed is constant. `buttons` is a bit mask
-/// (decimal or 0x...), `axes` up to eight numbers from -1 to 1; both are 0 where not given. Other kinds of
-/// record are reserved for later versions and are errors in this one.
+/// the previous record (at rest at both ends); without it the speed is constant. `buttons` is a bit mask
+/// (decimal or 0x...), `axes` up to eight numbers from -1 to 1; both are 0 if omitted. Other kinds of record
+/// are reserved for later versions and are errors in this one.
 ///
-/// A log of version 2 may also hold what a clock decided while a live run was recorded, for replays to obey:
+/// A log of version 2 may also hold decisions of the recorded live run, which a replay applies:
 ///     rate HZ
 ///         frames a second of the recorded run
 ///     frame N SECONDS
@@ -36,21 +36,21 @@
 ///         from frame N on: black 0|1, swap-eyes 0|1, eye-separation METRES or volume 0..1
 ///
 ///     relief N LOAD POSITION LEVEL
-///         from frame N on the node at that position of that load has to do without what the level of its
-///         ladder says (see load_control.h); 0 = without nothing
+///         from frame N on the node at that position of that load applies that level of its degradation
+///         ladder (see load_control.h); 0 = no degradation
 ///     stress N LEVEL
-///         from frame N on everything counts as 2^(LEVEL/4) times farther away, when levels are chosen
+///         from frame N on all distances count 2^(LEVEL/4) times, when levels of detail are chosen
 ///
-/// A tracker leaps where it would go faster than 15 m/s between two records less than 50 ms apart, and more
+/// A tracker leaps if it would move faster than 15 m/s between two records less than 50 ms apart, and more
 /// than 15 m/s faster than both before and after: it was taken for another, or lost. Until the later record
-/// it stays where it was. (A fast swing comes and goes in several records, and is no leap.)
+/// it stays where it was. (A fast swing starts and ends over several records, and is no leap.)
 ///
-/// Between two records poses and axes are interpolated, buttons are those of the record before. An eased way
+/// Between two records poses and axes are interpolated, buttons are those of the earlier record. An eased way
 /// is eased at whole multiples of 5 ms of show time and straight between them. Before the first record the
 /// first is held, after the last one the last.
 ///
 /// Frames, units  see input_sample.h.
-/// Threads        a log that nobody changes may be read from any thread.
+/// Threads        a log that no thread changes may be read from any thread.
 /// Errors         reading collects them with line and column; a log with errors is not returned.
 
 #include "engine/base/diagnostic.h"

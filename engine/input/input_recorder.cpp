@@ -21,7 +21,7 @@ InputStamp stampOf(const TrackerSample& tracker, Nanoseconds time) {
   return stamp;
 }
 
-/// A device may call a tracker anything; a log has names of one plain word.
+/// A device may give a tracker any name; a log has names of one plain word.
 std::string logName(const std::string& name) {
   std::string plain = name.substr(0, 32);
   for (char& c : plain) {
@@ -61,7 +61,7 @@ void InputRecorder::order(std::uint64_t frame, const OperatorCommand& order) {
 }
 
 std::optional<Diagnostic> InputRecorder::commit() {
-  // So that a replay ends where the run did, whatever the trackers said.
+  // Lets a replay end with the run, whatever the trackers sent.
   if (!lastIsWritten_) file_.write(formatFrameTime(lastFrame_.frame, lastFrame_.time));
   lastIsWritten_ = true;
   return file_.commit();

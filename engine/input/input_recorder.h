@@ -1,16 +1,16 @@
 #pragma once
-/// Writes what the devices say to an input log, frame by frame.
+/// Writes the devices' input to an input log, frame by frame.
 ///
-/// Replaying the log at the same times gives the same samples to the bit; what happened inside a frame is
-/// written as records of its own.
+/// Replaying the log at the same times gives the same samples to the bit; changes inside a frame are written
+/// as records of their own.
 ///
-/// Ownership  owns the file, which appears under its name only with commit(); without it nothing is left
-///            behind, unless the process is killed.
+/// Ownership  owns the file, which gets its name only with commit(). Without it no file is left, unless the
+///            process is killed.
 /// Threads    one thread.
-/// Errors     kept until commit(): a full disk does not end the show, and what could be written is kept as
-///            PATH.partial, a log of its own. A tracker that is not
-///            valid or whose pose is not finite is recorded as lost; a pose out of true is normalised; a
-///            sample that is not later than the tracker's last one is left out.
+/// Errors     Kept until commit(): a full disk does not end the show, and the complete records are kept as
+///            PATH.partial, a log of its own. A tracker that is not valid, or with a pose that is not finite,
+///            is recorded as lost. A pose with an inexact rotation is normalised. A sample not later than the
+///            tracker's last one is left out.
 
 #include "engine/base/atomic_file.h"
 #include "engine/input/input_log.h"
@@ -21,20 +21,20 @@ namespace stadion {
 
 class InputRecorder {
 public:
-  /// With a rate, what a clock decides is recorded as well.
+  /// With a rate, decisions of the run are recorded as well.
   explicit InputRecorder(const std::string& path, double rate = 0);
 
-  /// Why nothing can be recorded, known as soon as it is made: the file cannot be written.
+  /// Returns why recording is impossible, known from the start: the file cannot be written.
   const std::optional<Diagnostic>& refusal() const { return file_.error(); }
 
   void record(const InputSample& sample);
-  /// Every frame's signature, in order: written down where it is not on the tick after the last one.
+  /// Takes every frame's signature, in order, and writes it if it is not on the next tick.
   void frame(const TimeSignature& now);
   /// Load `number` came late and took effect at `time`.
   void lateLoad(std::uint32_t number, Nanoseconds time);
-  /// The operator asked for something that changes pictures and sounds, from frame `frame` on.
+  /// Records an operator's command about pictures and sounds, from frame `frame` on.
   void order(std::uint64_t frame, const OperatorCommand& order);
-  /// Finishes the file; nothing if all went well.
+  /// Finishes the file; returns nothing on success.
   std::optional<Diagnostic> commit();
 
 private:

@@ -1,9 +1,8 @@
 #pragma once
-/// What the visitor's devices say at one moment.
+/// The state of the visitor's devices at one moment.
 ///
 /// Frames   R is the rig; T is a tracked device. X_RT places the device in the rig. The axes of a head or
-/// wand:
-///          +X to its right, +Y the way it points, +Z up.
+///          wand: +X to its right, +Y the way it points, +Z up.
 /// Units    metres, show time in nanoseconds, axes from -1 to 1.
 /// Threads  plain values, any thread.
 
@@ -38,7 +37,7 @@ struct TrackerSample {
   Pose X_RT;                               ///< while not valid: the last one known
   std::uint32_t buttons = 0;               ///< one bit a button
   std::array<float, kTrackerAxes> axes{};  ///< joypad and triggers
-  Nanoseconds stamp = 0;                   ///< when the newest measurement in it was made [ns]
+  Nanoseconds stamp = 0;                   ///< time of its newest measurement [ns]
   bool valid = true;                       ///< false: its pose is not known at the moment
   /// The device sends buttons and axes and has never sent a pose: they count, although it is not valid.
   bool controlsOnly = false;
@@ -50,9 +49,8 @@ struct TrackerSample {
   /// frame's end. Two of the same time are a jump of the axes. Empty if the device does not know: then
   /// buttons were pressed at the frame's end and axes were all the while as they are.
   std::vector<ControlKnot> controls;
-  /// When the newest measurement in it was made, by the clock of the machine that plays [ns]; 0: nobody
-  /// knows, as in a replay. It tells how old a picture is. Nothing of the show depends on it, and samples are
-  /// equal without it.
+  /// Time of its newest measurement, by the clock of the playing machine [ns]; 0: unknown, as in a replay. It
+  /// gives the age of a picture. The show does not depend on it, and comparisons of samples ignore it.
   Nanoseconds measured = 0;
 
   /// Whether its buttons and axes count.

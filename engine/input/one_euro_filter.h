@@ -1,10 +1,9 @@
 #pragma once
-/// Smooths a tracker that trembles: strongly while it is still, hardly while it moves fast, so that it lags
-/// little when that would be noticed.
+/// Smooths a trembling tracker: strongly while it is still, hardly while it moves fast, when lag would be
+/// noticed.
 ///
-/// The one-euro filter (Casiez, Roussel, Vogel 2012): a first-order low pass whose cutoff is
-/// cutoff + beta * speed. The speed is itself smoothed, at 10 Hz. Position and orientation have a filter
-/// each.
+/// The one-euro filter (Casiez, Roussel, Vogel 2012): a first-order low pass with the cutoff c + beta *
+/// speed. The speed is itself smoothed, at 10 Hz. Position and orientation have a filter each.
 ///
 /// Units    seconds, metres, radians, Hz.
 /// Threads  plain value.

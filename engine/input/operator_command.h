@@ -1,7 +1,7 @@
 #pragma once
-/// What the person at the desk can ask of a show that is running.
+/// The operator's commands to a running show.
 ///
-/// Keys of a terminal or a window and messages of a network all become these.
+/// Keys of a terminal or a window and messages of a network all become commands.
 ///
 /// Threads  plain values.
 
@@ -17,12 +17,12 @@ enum class OperatorAction : std::uint8_t {
   Pause,          ///< on: show time stands still; the visitor can still look around
   Step,           ///< one frame of show time, while it is paused
   Black,          ///< on: all walls are black; the show goes on unless it is paused too
-  NextGroup,      ///< the show begins again, as if the program had been started anew
+  NextGroup,      ///< the show restarts, as if the program had been restarted
   SwapEyes,       ///< on: left and right are exchanged on every wall
   EyeSeparation,  ///< between the eyes [m]
-  FreezeHead,     ///< on: the head stays where it is, whatever its tracker says
+  FreezeHead,     ///< on: the head stays where it is, and its tracker is ignored
   Volume,         ///< of all sounds, from 0 to 1
-  Latency,        ///< frames that are under way at most between pose and picture: 1 to 4
+  Latency,        ///< limit of frames in flight between pose and picture: 1 to 4
   End,            ///< the run ends after this frame
 };
 

@@ -1,11 +1,11 @@
 #pragma once
-/// Where a room is in its trackers' coordinates, from a few poses held still.
+/// Finds a room in its trackers' coordinates, from a few poses held still.
 ///
 ///     middle   a tracker lies on the mark in the middle of the floor
 ///     ahead    the same tracker lies farther ahead, on the line to the front wall
-///     head     somebody stands on the mark with the glasses on and looks straight ahead, level
+///     head     a person stands on the mark with the glasses on and looks straight ahead, level
 ///
-/// The first two give origin and yaw, the third where the eyes are from the sensor on the glasses:
+/// The first two give origin and yaw, the third the place of the eyes relative to the sensor on the glasses:
 ///
 ///     p_SR = middle,   yaw = atan2(-d.x, d.y) of d = ahead - middle,   X_DT = (X_RS X_SD)^-1 X_RT.
 ///
@@ -28,7 +28,7 @@ HeldPose meanOf(const std::vector<Pose>& measured);
 
 /// The rig with another origin and yaw.
 Result<RigFile> calibrateRoom(RigFile rig, const Pose& middle, const Pose& ahead);
-/// The rig with another sensor-to-eyes pose of `tracker`, of somebody whose eyes are so high [m].
+/// Returns the rig with another sensor-to-eyes pose of `tracker`, for a person with eyes at this height [m].
 Result<RigFile> calibrateEyes(RigFile rig, const std::string& tracker, const Pose& head, double eyeHeight);
 
 }  // namespace stadion

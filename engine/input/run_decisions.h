@@ -1,8 +1,9 @@
 #pragma once
-/// What a clock and an operator decided in a live run, as its input log keeps it, so that a replay obeys it.
+/// The decisions of clock and operator in a live run, as its input log keeps them, so that a replay applies
+/// them.
 ///
-/// Most frames follow each other at 1/rate, and most files are ready when they are due: only what differs is
-/// written down.
+/// Most frames follow each other at 1/rate, and most files are ready when they are due: only differences are
+/// written.
 ///
 /// Units    show time [ns], from the start of the show.
 /// Threads  plain values.
@@ -16,10 +17,10 @@
 
 namespace stadion {
 
-/// What the operator asked for, by the frame in which it took effect.
+/// The operator's commands, by the frame in which they took effect.
 using RunOrders = std::multimap<std::uint64_t, OperatorCommand>;
 
-/// What was given up because something took too long, by the frame from which on it was.
+/// Degradations because of overload, by their first frame.
 using LoadDecisions = std::multimap<std::uint64_t, LoadDecision>;
 
 struct RunDecisions {
@@ -42,7 +43,7 @@ class FrameClock {
 public:
   explicit FrameClock(double rate, std::map<std::uint64_t, Nanoseconds> decided = {})
       : rate_(rate), decided_(std::move(decided)) {}
-  /// One whose last frame was `last`.
+  /// Continues after the frame `last`.
   FrameClock(double rate, const TimeSignature& last, std::map<std::uint64_t, Nanoseconds> decided = {});
 
   /// The next frame, `ticks` after the previous one; a decision made earlier counts more.

@@ -2,13 +2,14 @@
 /// Input written by a program: key poses per tracker. (People write `key` records in a log, input_log.h.)
 ///
 ///     ScriptedInput visitor;
-///     visitor.key("head", 0, {0, 0, 1.7}).key("foot", 1, {0, 0, 0.1}).key("foot", 1.25, {0, 0.8, 0.3}, {25,
-///     0, 0});
+///     visitor.key("head", 0, {0, 0, 1.7}).key("foot", 1, {0, 0, 0.1})
+///         .key("foot", 1.25, {0, 0.8, 0.3}, {25, 0, 0});
 ///
-/// Frames, units  see input_sample.h; times in seconds, angles in degrees (about the rig's X, then Y, then
-/// Z). Threads        built by one thread, then used as any device. Errors         a key that is not later
-/// than the tracker's last one, or not finite, is refused (add() is false)
-///                and changes nothing.
+/// Frames, units  see input_sample.h; times in seconds, angles in degrees (about the rig's X, then Y,
+///                then Z).
+/// Threads        built by one thread, then used as any device.
+/// Errors         a key that is not later than the tracker's last one, or not finite, is refused (add() is
+///                false) and changes nothing.
 
 #include "engine/input/input_log.h"
 

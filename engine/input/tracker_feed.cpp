@@ -43,7 +43,7 @@ double lagAt(const RigFile& rig, double speed) {
   return rig.cutoff > 0 ? 1 / (kTwoPi * (rig.cutoff + rig.beta * speed)) : 0;
 }
 
-/// Whether the way from the last stamp to X at `time` may be taken for a leap when the log is read.
+/// Returns true if the way from the last stamp to X at `time` may count as a leap when the log is read.
 bool mayLeap(const InputTrack& track, const Pose& X, Nanoseconds time) {
   const InputStamp& last = track.stamps.back();
   if (!last.valid || time - last.time > kLongestLeap) return false;
@@ -216,8 +216,8 @@ std::optional<Pose> TrackerFeed::poseAt(const Channel& c, Nanoseconds clock, Nan
   return along(X, {*c.tracker->safe, Quat::Identity()}, rig_.ease > 0 ? (age - rig_.hold) / rig_.ease : 1);
 }
 
-/// What happened between the frames, in the order in which it came. What was measured before the last frame
-/// and came after it happens at the beginning of this one.
+/// Adds the changes between the frames, in the order of their arrival. A change measured before the last
+/// frame that came after it happens at the beginning of this one.
 void TrackerFeed::addChanges(std::span<const Change> changes, const InputStamp& now, InputTrack& track,
                              Nanoseconds clock, Nanoseconds start) const {
   const InputStamp first = track.stamps.back();

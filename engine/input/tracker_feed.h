@@ -29,7 +29,7 @@
 
 namespace stadion {
 
-/// What has become of measurements.
+/// Counts of measurements.
 struct FeedCounts {
   std::uint64_t taken = 0;
   std::uint64_t unknown = 0;  ///< of trackers that the rig file does not have
@@ -43,8 +43,8 @@ public:
   TrackerFeed(const TrackerFeed&) = delete;
   TrackerFeed& operator=(const TrackerFeed&) = delete;
 
-  // Measurements, in whatever order they come. False: refused, and counted.
-  // Those whose time is not known to be right: see SenderClock (pipeline/device/sender_clock.h).
+  // Adds measurements, in any order. Returns false if one was refused, which is counted. Use SenderClock
+  // (pipeline/device/sender_clock.h) for times that may be wrong.
   bool pose(std::string_view tracker, Nanoseconds clock, const Pose& X_SD);
   bool button(std::string_view tracker, Nanoseconds clock, std::int64_t index, bool down);
   bool axis(std::string_view tracker, Nanoseconds clock, std::int64_t index, double value);
@@ -52,12 +52,12 @@ public:
   /// Counts a measurement that came later than a newer one, and is left out.
   void late() { ++counts_.late; }
 
-  /// From now on the tracker is told as it will be so much later than asked for [ns] (forecast.h).
+  /// From now on the tracker is predicted by this much more [ns] (forecast.h).
   void aim(std::string_view tracker, Nanoseconds ahead);
-  /// Where it will be so long after `clock`, whatever it is aimed at; nothing while it is lost.
+  /// Returns its predicted pose at `ahead` after `clock`, independent of its aim; nothing while it is lost.
   std::optional<HeadNow> soon(std::string_view tracker, Nanoseconds clock, Nanoseconds ahead) const;
 
-  /// The tracker stays where it is, whatever it says, or is let go and eases back.
+  /// Freezes the tracker, or releases it, and it eases back.
   void freeze(std::string_view tracker, Nanoseconds clock, bool frozen);
 
   /// The show begins, or begins again: its time counts from 0.
@@ -73,13 +73,13 @@ public:
     bool heard = false;
     double silent = 0;  ///< for so long [s]
   };
-  /// What of that is new at `clock`. Of a tracker that comes and goes, once in ten seconds.
+  /// Returns the new ones at `clock`. For a tracker that comes and goes, once in ten seconds.
   std::vector<Hearing> hearings(Nanoseconds clock);
 
   const FeedCounts& counts() const { return counts_; }
   const RigFile& rig() const { return rig_; }
 
-  /// How a tracker does, for people who set one up.
+  /// A tracker's state, for people setting one up.
   struct Status {
     std::string name;
     bool heard = false;  ///< within `hold`
@@ -129,7 +129,7 @@ private:
   /// Whether it is there without a pose.
   bool controlled(const Channel& c, Nanoseconds clock) const;
   bool there(const Channel& c, Nanoseconds clock) const { return heard(c, clock) || controlled(c, clock); }
-  /// When, for whom it is told to at `clock`; 0 if it is long since.
+  /// Returns the time of its measurement, for the samples at `clock`; 0 if it is long ago.
   Nanoseconds measuredBy(const Channel& c, Nanoseconds clock) const { return heard(c, clock) ? c.last : 0; }
   std::optional<Pose> poseAt(const Channel& c, Nanoseconds clock, Nanoseconds ahead) const;
   std::optional<Pose> poseAt(const Channel& c, Nanoseconds clock) const { return poseAt(c, clock, c.ahead); }

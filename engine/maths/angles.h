@@ -1,5 +1,5 @@
 #pragma once
-/// Angles are radians everywhere but where somebody reads or writes them.
+/// Angles are radians everywhere, except where people read or write them.
 
 namespace stadion {
 

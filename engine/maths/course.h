@@ -1,8 +1,8 @@
 #pragma once
-/// Where something is at any time of a frame: straight ways and even turns between knots, and jumps.
+/// A motion inside a frame: straight ways and even turns between knots, and jumps.
 ///
-/// Times    non-decreasing. Before the first knot it is where that knot says, after the last one likewise.
-/// Frames   whatever the owner says; all knots of a course are in the same one.
+/// Times    non-decreasing. Before the first knot it is at that knot's pose, after the last one likewise.
+/// Frames   given by the owner; all knots of a course are in the same one.
 
 #include "engine/base/time_signature.h"
 #include "engine/maths/maths.h"
@@ -34,19 +34,19 @@ struct PoseKnot {
 
 using Course = std::vector<PoseKnot>;
 
-/// What turns or bends on its way is followed by chords of this length, on a grid of show time [ns].
+/// Turning or curved ways are approximated by chords of this length, on a grid of show time [ns].
 constexpr Nanoseconds kChord = 2'000'000;
 
-/// On which side of a jump at the very time that is asked for.
+/// The side of a jump at exactly the requested time.
 enum class Limit { Before, After };
 
 /// Expects at least one knot.
 Pose poseOn(const Course& course, Nanoseconds time, Limit limit);
 
-/// Whether it is ever anywhere else than at first.
+/// Returns true if it is ever at another place than at first.
 bool moves(const Course& course);
 
-/// Whether it jumps at exactly `time`.
+/// Returns true if it jumps at exactly `time`.
 bool jumpsAt(const Course& course, Nanoseconds time);
 
 }  // namespace stadion

@@ -1,11 +1,10 @@
 #pragma once
-/// Eigen as every file of ours sees it: for the baseline instruction set, whatever the compiler is told to
-/// use.
+/// Eigen for all our files: for the baseline instruction set, whatever the compiler's options.
 ///
-/// Where Eigen sees AVX or FMA, it multiplies and adds in one (which `-ffp-contract=off` does not forbid),
-/// adds in another order, and aligns its types otherwise, so that those in FCL's interfaces are other types
-/// than the library was built with. What the compiler itself makes of such instructions
-/// changes no result.
+/// If Eigen sees AVX or FMA, it fuses multiplications and additions (which `-ffp-contract=off` does not
+/// forbid), adds in another order, and aligns its types differently. The types in FCL's interfaces would then
+/// differ from those with which the library was built. Such instructions from the compiler itself change no
+/// result.
 
 #pragma push_macro("__SSE3__")
 #pragma push_macro("__SSSE3__")

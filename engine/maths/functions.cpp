@@ -73,7 +73,7 @@ struct Angle {
   int quadrant;   ///< 0..3
 };
 
-/// x - n pi/2 with pi/2 in parts whose multiples by n are exact (Cody and Waite).
+/// x - n pi/2 with pi/2 in parts that have exact multiples by n (Cody and Waite).
 Angle reduceBy(double x, double n, const double* parts, int count) {
   double hi = x - n * parts[0], lo = 0;
   for (int i = 1; i < count; ++i) {

@@ -1,5 +1,5 @@
 #pragma once
-/// Elementary functions whose results are the same on every machine.
+/// Elementary functions with the same results on every machine.
 ///
 /// The C library chooses variants of these by processor and rounds differently from one to the next, which
 /// would let replicas drift apart. Simulated state therefore calls these, and from the C library only sqrt

@@ -19,12 +19,12 @@ std::string_view entityOf(char c) {
   }
 }
 
-/// How many bytes the character takes that `text` begins with, by its first byte; 0: none begins so.
+/// Returns the length of the first character of `text` by its first byte; 0: it is no first byte.
 std::size_t lengthBy(unsigned char first) {
   return first < 0x80 ? 1 : first < 0xC2 ? 0 : first < 0xE0 ? 2 : first < 0xF0 ? 3 : first < 0xF5 ? 4 : 0;
 }
 
-/// Bytes of the character that `text` begins with; 0: it is no UTF-8, or none that XML knows.
+/// Returns the bytes of the first character of `text`; 0: it is not UTF-8, or not allowed in XML.
 std::size_t characterAt(std::string_view text) {
   const std::size_t length = lengthBy(static_cast<unsigned char>(text[0]));
   if (length == 0 || length > text.size()) return 0;

@@ -8,8 +8,8 @@
 
 namespace stadion {
 
-/// &, <, > and both quotes are escaped. What XML cannot hold is replaced: control characters by blanks, bytes
-/// that are no UTF-8 and characters that are none by U+FFFD; names of files and nodes may be anything.
+/// Escapes &, <, > and both quotes. Characters that XML cannot hold are replaced: control characters by
+/// blanks, invalid UTF-8 and invalid characters by U+FFFD. Names of files and nodes may contain anything.
 std::string markupText(std::string_view text);
 
 }  // namespace stadion

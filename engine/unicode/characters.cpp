@@ -17,14 +17,14 @@ bool among(std::span<const Range> ranges, char32_t code) {
   return after != ranges.begin() && code <= std::prev(after)->last;
 }
 
-/// The row of a table that is about `code`; null if there is none.
+/// Returns the row of a table that contains `code`; null if there is none.
 template <class Row>
 const Row* rowOf(std::span<const Row> rows, char32_t Row::*key, char32_t code) {
   const auto at = std::ranges::lower_bound(rows, code, {}, key);
   return at != rows.end() && (*at).*key == code ? &*at : nullptr;
 }
 
-/// Arabic, Syriac, Thaana, N'Ko, Mandaic and the like, whose letters are joined in writing.
+/// Arabic, Syriac, Thaana, N'Ko, Mandaic and the like, which join letters in writing.
 bool isJoinedLetter(char32_t c) {
   return ((c >= 0x620 && c < 0x900) || (c >= 0xFB50 && c < 0xFE00) || (c >= 0xFE70 && c < 0xFEFF) ||
           (c >= 0x1800 && c < 0x18B0) || (c >= 0x10D00 && c < 0x10D30) || (c >= 0x1E900 && c < 0x1E950)) &&
@@ -35,13 +35,13 @@ bool isJoiner(char32_t c) {
   return c == kJoinNot || c == kJoin;
 }
 
-/// Whether a script needs a joiner between these two.
+/// Returns true if a script needs a joiner between these two.
 bool mayJoin(char32_t before, char32_t after) {
   if (after == 0 || isHidden(after)) return false;
   return among(kViramas, before) || (isJoinedLetter(before) && isJoinedLetter(after));
 }
 
-/// Letters that are plain ASCII ones in another dress; 0 if it is none of them.
+/// Returns the plain ASCII form of a letter variant; 0 if it is none.
 char32_t plainOf(char32_t c) {
   if (c >= 0xFF01 && c <= 0xFF5E) return c - 0xFF01 + 0x21;  // full width
   if (c >= 0x1D400 && c <= 0x1D6A3) {                        // mathematical alphabets
@@ -59,7 +59,7 @@ void appendLook(std::string& look, char32_t c) {
   append(look, c);
 }
 
-/// Of the characters that can be seen.
+/// Returns the visible characters.
 std::u32string visibleIn(std::string_view word) {
   std::u32string codes;
   for (std::size_t bytes = 0; !word.empty(); word.remove_prefix(bytes))

@@ -1,12 +1,12 @@
 #pragma once
-/// Characters of UTF-8 text: which of them cannot be seen, and which look like others.
+/// Characters of UTF-8 text: invisible ones, and ones that look alike.
 ///
 /// A *hidden* character leaves no mark or only a gap: ignorable, format and control characters and all blanks
-/// but those of ASCII. In a name it is a mistake that cannot be seen. Only the joiners U+200C and
-/// U+200D may stand in words, where their script needs them: between letters of Arabic and its relatives, and
-/// after the virama of an Indic script.
+/// but those of ASCII. In a name it is a mistake that cannot be seen. Only the joiners U+200C and U+200D may
+/// stand in words, where their script needs them: between letters of Arabic and its relatives, and after the
+/// virama of an Indic script.
 ///
-/// Text     well-formed UTF-8; a byte that is none counts as one character with the code U+FFFD.
+/// Text     well-formed UTF-8; an invalid byte counts as one character with the code U+FFFD.
 /// Threads  no state.
 
 #include <cstddef>
@@ -27,13 +27,13 @@ std::optional<std::size_t> hiddenIn(std::string_view word);
 
 std::string withoutHidden(std::string_view text);
 
-/// "U+200B ZERO WIDTH SPACE", or the number alone of one whose name is not known here.
+/// "U+200B ZERO WIDTH SPACE", or the number alone if its name is not known here.
 std::string nameOf(char32_t code);
 /// The same of the character that `text` begins with.
 std::string nameOfFirst(std::string_view text);
 
-/// What a word looks like: letters that look alike replaced by one of them, accents apart from their letters,
-/// and without what cannot be seen. Words that look alike have the same one.
+/// Returns the look of a word: letters that look alike replaced by one of them, accents separated from their
+/// letters, and without invisible characters. Words that look alike have the same skeleton.
 std::string skeleton(std::string_view word);
 /// How two words differ that look alike: "U+0430 CYRILLIC SMALL LETTER A stands for U+0061 LATIN SMALL LETTER
 /// A".

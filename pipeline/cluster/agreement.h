@@ -1,5 +1,6 @@
 #pragma once
-/// What all machines of a cluster must have alike to play one show, and what follows where they have not.
+/// The files and settings that all hosts of a cluster must share to play one show, and the checks for
+/// differences between them.
 ///
 /// Threads  plain values.
 
@@ -13,28 +14,28 @@ namespace stadion::cluster {
 
 struct Agreement {
   std::uint64_t script = 0;   ///< hash of its text
-  std::uint64_t input = 0;    ///< hash of the input log; 0: nobody plays one
+  std::uint64_t input = 0;    ///< hash of the input log; 0: no log is played
   std::uint64_t cluster = 0;  ///< hashOf() the cluster file
   std::uint64_t walls = 0;    ///< hash of the wall file
   std::string pictures{};     ///< what they look like; may differ where machines do [120 bytes at most]
   std::string plugins{};      ///< names, versions and hashes of its plugins; empty: none [250 bytes at most]
 
-  /// Who leads anew goes on with a show of the same script and input only.
+  /// Hash of the script and the input log. A new leader continues a show only if this hash is the same.
   std::uint64_t show() const;
 };
 
-/// Of what the file says to all; which interface a machine has is its own.
+/// Hashes what the file says for all hosts. The interface is left out: each host has its own.
 std::uint64_t hashOf(const ClusterFile& file);
 
 stadion_wire_Agreement written(const Agreement& agreement);
 Agreement read(const stadion_wire_Agreement& agreement);
 
-/// Why `ours` cannot follow `lead`; empty: it can. An input log is played by who leads alone.
+/// Returns why `ours` cannot follow `lead`; empty if it can. Only the leader plays an input log.
 std::string refusal(const Agreement& lead, const Agreement& ours, const std::string& nameOfLead);
-/// What will be seen to differ; empty: nothing.
+/// Returns the settings that will look different; empty if there are none.
 std::string remark(const Agreement& lead, const Agreement& ours, const std::string& nameOfLead);
 
-/// What to tell where one of another cluster is heard in the network of ours.
+/// Returns the message to log if a host of another cluster is heard in our network.
 std::string inTheWay(const ClusterFile& ours);
 
 }  // namespace stadion::cluster

@@ -20,17 +20,17 @@ dds_duration_t durationOf(double seconds) {
   return static_cast<dds_duration_t>(seconds * 1e9);
 }
 
-/// Cyclone's own configuration. A second without a sign of life is the network's business, the deadline ours.
-/// What was lost is asked for again at once: somebody waits for it. And nobody waits for one who does not
-/// confirm what it was sent (by itself Cyclone would, after a kilobyte or two: a machine that dies would hold
-/// all others for a second).
+/// Cyclone's own configuration. It ignores a silence of up to a second; our deadline judges silent hosts. A
+/// reader asks for lost data again at once, because a node waits for it. A writer never waits for a reader
+/// that does not acknowledge. Cyclone's default would wait after a kilobyte or two, and one crashed host
+/// would then stop all others for a second.
 std::string configurationOf(const ClusterFile& o) {
   in_addr address{};
   const bool byAddress = inet_pton(AF_INET, o.interface.c_str(), &address) == 1;
   const std::string interface = o.interface.empty()
                                     ? "name=\"lo\""
                                     : fmt::format("{}=\"{}\"", byAddress ? "address" : "name", o.interface);
-  // The loopback interface knows no multicast: whoever is there is looked for one by one.
+  // The loopback interface has no multicast, so each participant is looked for one by one.
   const std::string found = o.interface.empty()
                                 ? "<ParticipantIndex>auto</ParticipantIndex><MaxAutoParticipantIndex>31</"
                                   "MaxAutoParticipantIndex><Peers><Peer address=\"127.0.0.1\"/></Peers>"
@@ -79,7 +79,7 @@ void Bus::take(dds_entity_t reader, void* of) {
       const T& sample = *static_cast<const T*>(samples[i]);
       if (!infos[i].valid_data) continue;
       if constexpr (std::is_same_v<T, Presence>) {
-        if (infos[i].instance_state != DDS_IST_ALIVE) continue;  // what it said last is out of date
+        if (infos[i].instance_state != DDS_IST_ALIVE) continue;  // its last sample is out of date
         const std::lock_guard lock(bus.speakersMutex_);
         bus.speakers_[infos[i].publication_handle] = {sample.node, sample.incarnation};
       }
@@ -188,7 +188,7 @@ void Bus::tell(const SceneHash& hash) {
 void Bus::tell(const Difference& difference) {
   write(writers_[kDifference], &difference);
 }
-// Whoever is slow to confirm a large state holds its parts up, for a second each time.
+// A reader that acknowledges a large state slowly delays its parts, each by a second.
 bool Bus::tell(const StatePart& part) {
   constexpr int kMostTries = 10;
   for (int tries = 0; tries < kMostTries; ++tries) {

@@ -1,14 +1,14 @@
 #pragma once
-/// The network between the machines of a cluster: Eclipse Cyclone DDS, with the topics of wire.idl.
+/// The network between the hosts of a cluster: Eclipse Cyclone DDS, with the topics of wire.idl.
 ///
-/// Everything is delivered, in order, to everybody who is there; Session and Presence also to who comes
-/// later. What a machine says does not come back to it.
+/// Every sample is delivered in order to every host that is connected. Session and Presence also reach hosts
+/// that connect later. A host does not receive its own samples.
 ///
 /// Ownership  owns the participant; the listener must outlive it.
-/// Threads    tell() from any. The listener is called on threads of the network's own, several at a time for
-///            several topics; it may tell() something, and should return soon.
-/// Errors     open() says why there is no network. What cannot be delivered for a second, because somebody no
-///            longer listens, is left to who watches whether they are there.
+/// Threads    tell() from any. The network's own threads call the listener, several at a time for several
+///            topics. The listener may call tell(), and should return soon.
+/// Errors     open() says why there is no network. A sample that cannot be delivered for a second is dropped,
+///            since its reader has stopped. The caller watches which hosts are present.
 
 #include "engine/base/diagnostic.h"
 #include "pipeline/cluster/cluster_file.h"
@@ -33,15 +33,15 @@ using SceneHash = stadion_wire_SceneHash;
 using Difference = stadion_wire_Difference;
 using StatePart = stadion_wire_StatePart;
 
-/// What a node is at (Presence).
+/// A node's phase, as its Presence reports it.
 enum class Phase : std::uint8_t {
   Waiting,  ///< for a session, or opening the show
-  Asking,   ///< the show is under way: it needs the scene's state
-  Ready,    ///< it has obeyed all orders that it knows of
+  Asking,   ///< the show is under way, and the node needs the scene's state
+  Ready,    ///< it has applied all orders that it knows of
   Leaving,  ///< it plays no longer
 };
 
-/// In place of a node's number (Session::giver).
+/// No node; stands in place of a node's number (Session::giver).
 constexpr std::uint8_t kNobody = 255;
 
 class BusListener {
@@ -55,15 +55,15 @@ public:
   virtual void hear(const SceneHash&) {}
   virtual void hear(const Difference&) {}
   virtual void hear(const StatePart&) {}
-  /// Nobody has heard of that incarnation of the node for the deadline, or it said good-bye.
+  /// The node's incarnation was silent for the deadline, or it said good-bye.
   virtual void left(std::uint8_t node, std::uint64_t incarnation) { (void)node, (void)incarnation; }
 };
 
 class Bus {
 public:
-  /// Interface, domain, partition and deadline of the file count.
+  /// Uses the file's interface, domain, partition and deadline.
   static Result<std::unique_ptr<Bus>> open(const ClusterFile& cluster, BusListener& listener);
-  /// One that reaches nobody.
+  /// Returns a bus without a network: nothing is sent or received.
   static std::unique_ptr<Bus> none() { return std::unique_ptr<Bus>(new Bus); }
   ~Bus();
   Bus(const Bus&) = delete;
@@ -76,14 +76,15 @@ public:
   void tell(const Go& go);
   void tell(const SceneHash& hash);
   void tell(const Difference& difference);
-  /// May take long. False: it cannot be delivered.
+  /// May take long. Returns false if the part cannot be delivered.
   bool tell(const StatePart& part);
-  /// Waits until everybody has heard everything, a second at most.
+  /// Waits until every reader has received everything; a second at most.
   void flush();
-  /// Waits until whoever hears anything of ours hears all of it, a second at most: who has just come is known
-  /// channel by channel, the scene's parts last.
+  /// Waits until each connected host reads all our topics; a second at most. A new host is discovered topic
+  /// by topic, and the scene's parts come last.
   void waitForReaders() const;
-  /// Waits for whoever is in the listener just now; then it is called no more, and nobody hears anything.
+  /// Waits for listener calls that are running now. Afterwards the listener is called no more, and other
+  /// hosts receive nothing.
   void close();
 
 private:
@@ -110,7 +111,8 @@ private:
   BusListener* listener_ = nullptr;
   dds_entity_t domain_ = 0, participant_ = 0;
   std::array<dds_entity_t, kChannels> writers_{};
-  /// Who writes presences, and as whom: of two that are the same node one may die. By handles of the network.
+  /// The writer of a presence and the node that it writes for. Two programs may be the same node, and one of
+  /// them may crash. Keyed by the network's handles.
   struct Speaker {
     std::uint8_t node = 0;
     std::uint64_t incarnation = 0;

@@ -15,8 +15,8 @@ namespace {
 constexpr std::size_t kMostBytes = 1 << 20;
 constexpr std::size_t kMostInterface = 15;  // of Linux, and of an IPv4 address
 
-/// A name of a network interface, or an IPv4 address. The network's configuration, which is XML, takes it as
-/// it is.
+/// A name of a network interface, or an IPv4 address. It goes unescaped into the network's configuration,
+/// which is XML.
 bool canBeInterface(std::string_view text) {
   constexpr std::string_view kCharacters =
       "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789_.:@-";

@@ -1,5 +1,5 @@
 #pragma once
-/// Cluster files: which machine shows which walls of one show, as text.
+/// Cluster files: text that says which host shows which walls of one show.
 ///
 ///     # Four machines, a wall each; the first one leads.
 ///     walls cave4
@@ -11,20 +11,20 @@
 /// One statement a line; `#` begins a comment.
 ///
 ///     walls FILE|NAME             the room (without this line cave4); a file is looked for beside this one
-///     node NAME [WALL...]         a machine and the walls that it shows; none: it shows nothing
-///     lead NAME                   whose clock and trackers count (the first one)
-///     interface NAME|ADDRESS      of the network between them (the loopback interface: all on one machine);
-///                                 whether there is one, checkInterface() says
+///     node NAME [WALL...]         a host and the walls that it shows; none: it shows nothing
+///     lead NAME                   the host that provides clock and trackers (the first one)
+///     interface NAME|ADDRESS      of the network between them (the loopback interface: all on one host);
+///                                 checkInterface() looks for it
 ///     domain N                    of DDS, 0 to 230 (0); clusters in one network need different ones, or
 ///     partition NAME              different names (stadion)
-///     deadline SECONDS            a node silent for so long is left out, 0.1 to 60 (0.5)
+///     deadline SECONDS            a node that is silent for so long is left out, 0.1 to 60 (0.5)
 ///     hash-every FRAMES           how often the scenes are compared, 1 to 1000 (30)
 ///     on-difference resync|stop   a node with another state takes over the leader's (resync), or all end
 ///
-/// Each wall of the room is shown by at most one node. A cluster has 1 to 24 nodes.
+/// At most one node shows each wall of the room. A cluster has 1 to 24 nodes.
 ///
 /// Threads  plain values, any thread.
-/// Errors   go to the Diagnostics with line, column and a fix where one is known; there may be several.
+/// Errors   go to the Diagnostics with line, column and a fix if one is known; there may be several.
 
 #include "engine/base/diagnostic.h"
 #include "engine/display/wall_file.h"
@@ -62,12 +62,12 @@ struct ClusterFile {
   std::uint64_t hashEvery = 30;
   bool stopOnDifference = false;
 
-  /// The index of that node.
+  /// Returns the index of the node with that name.
   std::optional<std::size_t> find(std::string_view name) const;
   std::vector<std::string> names() const;
 };
 
-/// Reads the text; nothing if it has errors. Whether the room has such walls, checkWalls() says.
+/// Reads the text; returns nothing if it has errors. checkWalls() checks whether the room has these walls.
 std::optional<ClusterFile> parseCluster(std::string_view text, const std::string& file, Diagnostics& out);
 std::optional<ClusterFile> loadCluster(const std::string& file, Diagnostics& out);
 

@@ -17,7 +17,7 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 constexpr double kLeastRate = 1, kMostRate = 1000;  ///< of shows [1/s]
-constexpr std::size_t kMostOrders = 1U << 16U;      ///< heard and not obeyed: minutes of them
+constexpr std::size_t kMostOrders = 1U << 16U;      ///< received and not applied: minutes of them
 
 }  // namespace
 
@@ -47,7 +47,7 @@ Follower::~Follower() {
     giving.swap(giving_);
   }
   for (std::thread& thread : giving) thread.join();
-  if (bus_) bus_->close();  // nobody calls any more; who does so still looks at bus_
+  if (bus_) bus_->close();  // stops all calls, which still use bus_
 }
 
 Result<std::unique_ptr<Follower>> Follower::open(FollowerOptions options) {
@@ -68,7 +68,7 @@ std::unique_ptr<Follower> Follower::unconnected(FollowerOptions options, std::ui
   return follower;
 }
 
-// With the mutex.
+// Expects the lock.
 void Follower::announce(Phase phase) {
   told_ = phase, toldSerial_ = obeyed_;
   Presence p{};
@@ -81,12 +81,12 @@ void Follower::announce(Phase phase) {
   bus_->tell(p);
 }
 
-// With the mutex, while nothing comes: who leads anew is to know which scene is the newest.
+// Expects the lock, while no orders come: a new leader must learn which scene is the newest.
 void Follower::announceProgress() {
   if (plays_ && toldSerial_ != obeyed_) announce(told_);
 }
 
-// With the mutex. On a thread of its own, for a state may be large.
+// Expects the lock. Sends on a thread of its own, because a state may be large.
 void Follower::giveIfAsked() {
   if (!bus_ || !kept_ || session_.giver != options_.node || session_.resumes != kept_->parcel.session) return;
   if (std::exchange(given_, session_.number) == session_.number) return;
@@ -95,7 +95,7 @@ void Follower::giveIfAsked() {
   giving_.emplace_back([this, parcel = std::move(parcel)] { send(*bus_, parcel); });
 }
 
-/// False: nobody waits any longer.
+/// Returns false if the wait was stopped.
 template <class Ready>
 bool Follower::await(std::unique_lock<std::mutex>& lock, const char* what, const Ready& ready) {
   const auto begin = Clock::now();
@@ -120,7 +120,7 @@ std::optional<Joining> Follower::join() {
   }
 }
 
-/// With the lock.
+/// Expects the lock.
 std::optional<Joining> Follower::joinSession(std::unique_lock<std::mutex>& lock) {
   const std::string& lead = options_.cluster.nodes[options_.cluster.lead].name;
   const auto known = [&] {
@@ -163,8 +163,8 @@ std::optional<Joining> Follower::joinSession(std::unique_lock<std::mutex>& lock)
   return joining;
 }
 
-/// With the lock. While who leads counts on one of our name it is one that has just died, for which the
-/// deadline waits, or it lives: then it is heard of, and we end.
+/// Expects the lock. The leader may still count a node of our name. If that program has crashed, the deadline
+/// passes. If it lives, we hear it and end.
 void Follower::awaitDouble(std::unique_lock<std::mutex>& lock) {
   const auto until = Clock::now() + std::chrono::duration<double>(2 * options_.cluster.deadline);
   while (isMember_.value_or(true) && !hasEnded() && !options_.stop() && Clock::now() < until)
@@ -196,7 +196,7 @@ std::optional<FrameOrder> Follower::next() {
   if (isNew) announce(told_);
   if (heard.order.last && !over_) frames_ = frame_ + 1;
   heard.order.drawn = (heard.numbers.members >> options_.node & 1U) != 0;
-  // Left out, for being late: whoever has caught up is taken back.
+  // The leader left us out for being late. A node that has caught up is taken back.
   if (!heard.order.drawn && told_ == Phase::Ready && orders_.empty()) announce(Phase::Ready);
   shows_.emplace_back(obeyed_, heard.order.drawn);
   sample_ = std::move(heard.input), sampled_ = heard.sampled;
@@ -204,11 +204,11 @@ std::optional<FrameOrder> Follower::next() {
   return heard.order;
 }
 
-/// With the lock. True: the scene differs.
+/// Expects the lock. Returns true if the scene differs.
 bool Follower::explain(std::unique_lock<std::mutex>& lock) {
   std::uint64_t received = 0;
   auto since = Clock::now();
-  bool late = false;  // part of it was lost: who joins again asks for it as often as it takes
+  bool late = false;  // part of it was lost: the node asks again each time it joins
   const auto has = [&] {
     if (std::exchange(received, incoming_.received()) != incoming_.received()) since = Clock::now();
     late = Clock::now() - since > kLong;
@@ -242,7 +242,8 @@ bool Follower::mayShow(const TimeSignature& now) {
   const Drawn told{static_cast<std::uint8_t>(options_.node), joined_, serial};
   bus_->tell(told);
   const auto drawn = Clock::now();
-  // Said again after a while: who has just come is not heard on all channels at once, nor hears all of them.
+  // Repeated after a while: a host that has just connected does not use all topics at once, in either
+  // direction.
   while (go_ < serial && !hasEnded() && !options_.stop())
     if (changed_.wait_for(lock, kLook) == std::cv_status::timeout) bus_->tell(told), announceProgress();
   if (go_ == serial && latest_ == options_.node)
@@ -294,7 +295,8 @@ bool Follower::isOver() const {
   return over_;
 }
 
-/// With the mutex: whether it is the one that we play, or, as long as we play none, goes on with ours.
+/// Expects the lock. Returns true if it is the session that we play. If we play none, returns true if it
+/// continues our show.
 bool Follower::isOurs(const Session& session) const {
   if (joined_ != 0) return session.number == joined_;
   return options_.played != 0 && (session.number == options_.played || session.resumes == options_.played);
@@ -303,9 +305,9 @@ bool Follower::isOurs(const Session& session) const {
 void Follower::hear(const Session& session) {
   {
     const std::lock_guard lock(mutex_);
-    // Whoever looks for a show that is under way does not know its rate yet.
+    // A leader that looks for a show under way does not know its rate yet.
     if (session.giver == kNobody && !(session.rate >= kLeastRate && session.rate <= kMostRate)) return;
-    // Who led before, was taken for dead and comes back leads no more.
+    // An earlier leader that was taken for dead and comes back leads no more.
     if (session.number < session_.number && (hasShow(session_) || (session.over && !isOurs(session)))) return;
     session_ = session;
     if (session.over && isOurs(session)) {
@@ -313,7 +315,7 @@ void Follower::hear(const Session& session) {
       if (!std::exchange(over_, true))
         options_.tell(options_.cluster.nodes[options_.cluster.lead].name + " has ended the show");
     }
-    // While another one is asked for its scene, we keep ours.
+    // While another node is asked for its scene, we keep ours.
     const bool holds =
         session.resumes == joined_ && session.giver != kNobody && session.giver != options_.node;
     if (joined_ != 0 && session.number != joined_ && !holds) again_ = true;
@@ -322,8 +324,8 @@ void Follower::hear(const Session& session) {
   changed_.notify_all();
 }
 
-// Of two programs that are the same node the one ends that has no scene yet; if that does not tell them
-// apart, the one that came later.
+// If two programs are the same node, the one without a scene ends. If both or neither have one, the later
+// program ends.
 void Follower::hear(const Presence& other) {
   {
     const std::lock_guard lock(mutex_);
@@ -345,7 +347,7 @@ void Follower::hear(const Order& order) {
     const std::lock_guard lock(mutex_);
     if (joined_ != 0 && order.session != joined_) return;
     isMember_ = (order.members >> options_.node & 1U) != 0;
-    if (orders_.size() >= kMostOrders) return;  // then one is missing, as where it makes no sense
+    if (orders_.size() >= kMostOrders) return;  // then an order is missing; the same if it makes no sense
     if (auto heard = readOrder(order)) orders_.push_back(std::move(*heard));
   }
   changed_.notify_all();

@@ -1,14 +1,13 @@
 #pragma once
-/// A machine that plays what another one orders: the same show, frame by frame.
+/// Follows the leader's orders: plays the same show, frame by frame.
 ///
-/// It opens the show from its own files; if that is under way already, it goes on from the leading machine's
-/// scene. Where an order is missing, or another program leads now, it has to join again, with a follower of
-/// its own. Who leads anew has lost the show: then the follower that has come farthest gives it its scene. So
-/// each keeps the scene that it had until it obeys the first order after another one: who leads may die while
-/// there is no other.
+/// It opens the show from its own files. If the show is under way, it continues from the leader's scene. If
+/// an order is missing or another program leads, the node has to join again, with a new follower. A new
+/// leader has no scene: the follower that has come farthest sends it one. So each follower keeps its scene
+/// until it has applied the first order after a change. The leader may crash while there is no other.
 ///
 /// Threads  join(), next(), simulated() and sampling on the App thread (join() before there is one);
-///          mayShow() on the Draw thread that arrived last; the rest on the network's. Scenes are given on
+///          mayShow() on the Draw thread that arrived last; the rest on the network's. Scenes are sent on
 ///          threads of their own.
 
 #include "engine/input/input_device.h"
@@ -35,62 +34,62 @@ struct FollowerOptions {
   std::size_t node = 0;
   Agreement terms;
   std::function<void(const std::string&)> tell;
-  std::function<bool()> stop;               ///< nobody waits any longer
-  std::function<bool()> leave{};            ///< no further order is to be obeyed
-  std::shared_ptr<const KeptScene> kept{};  ///< by the follower before
-  std::uint64_t played = 0;                 ///< the session of that; 0: there was none
+  std::function<bool()> stop;               ///< the wait is no longer wanted
+  std::function<bool()> leave{};            ///< no further order is to be applied
+  std::shared_ptr<const KeptScene> kept{};  ///< the scene that the previous follower kept
+  std::uint64_t played = 0;                 ///< the previous follower's session; 0: there was none
 };
 
 /// How the show is to be opened.
 struct Joining {
   double rate = 60;     ///< [1/s]
-  TimeSignature after;  ///< with a state: of what was simulated last
-  /// What the scene goes on from; null: the show begins.
+  TimeSignature after;  ///< with a state: of the frame simulated last
+  /// The state from which the scene continues; null: the show begins.
   std::shared_ptr<const std::vector<std::uint8_t>> state;
   std::uint64_t files = 0;  ///< with a state: Scene::files() there
-  bool playsLog = false;    ///< an input log, which we have, too
+  bool playsLog = false;    ///< the leader plays an input log, which this host has, too
 };
 
 class Follower final : public FrameOrders, public BusListener {
 public:
   static Result<std::unique_ptr<Follower>> open(FollowerOptions options);
-  /// One that hears only what hear() is given.
+  /// Returns a follower without a network, which receives only what hear() is given.
   static std::unique_ptr<Follower> unconnected(FollowerOptions options, std::uint64_t incarnation);
   ~Follower() override;
 
-  /// Waits for who leads, and for the scene's state if the show is under way. Nothing: nobody waits any
-  /// longer, or the shows differ; then it has been told.
+  /// Waits for the leader, and for the scene's state if the show is under way. Returns nothing if the wait
+  /// was stopped, or if the shows differ. A difference has been logged by then.
   std::optional<Joining> join();
-  /// Where the scene differs from one that was written down elsewhere: its place and field, here, there;
-  /// nothing: it does not. Called on the App thread, between two frames.
+  /// The first difference between the scene and one saved on another host: its place and field, the value
+  /// here, the value there. Nothing if they are equal. Called on the App thread, between two frames.
   struct Differs {
     std::string where, here, there;
   };
   using Compare = std::function<std::optional<Differs>(const SavedScene& there)>;
   void compareWith(Compare compare) { compare_ = std::move(compare); }
-  /// What the leading machine has sampled for the frame that next() has given.
+  /// The leader's input sample for the frame that next() returned.
   InputDevice& input() { return *input_; }
   bool compares(std::uint64_t frame) const { return frame % options_.cluster.hashEvery == 0; }
-  /// The scene's digest() after that frame.
+  /// Reports the scene's digest() after that frame.
   void simulated(std::uint64_t frame, std::uint64_t digest);
-  /// Orders are missing: the run has ended, and the show is to be joined again.
+  /// Returns true if orders are missing: the run has ended, and the node is to join again.
   bool isToJoinAgain() const;
-  /// Another program is this node already: ours is to end.
+  /// Returns true if another program is this node already: ours must end.
   bool hasDouble() const;
-  /// Who leads has other files than we have.
+  /// Returns true if the leader has other files than this host.
   bool isRefused() const;
-  /// Who leads has ended the show for all.
+  /// Returns true if the leader has ended the show for all.
   bool isOver() const;
-  /// The show is over, and its last frame was not shown here: we were still catching up, or had been left
-  /// out.
+  /// Returns true if the show is over and its last frame was not shown here: this node was still catching up,
+  /// or was left out.
   bool missedTheEnd() const;
-  std::uint64_t session() const;  ///< the number of the one that was joined; 0: none
-  /// The run has ended, and the scene is to be kept: for who leads anew and asks for it, or for the next
-  /// follower.
+  std::uint64_t session() const;  ///< the session that was joined; 0: none
+  /// Returns true if the run has ended and its scene must be kept. A new leader or the next follower may ask
+  /// for it.
   bool keepsScene() const;
-  /// The scene as it is now; `last` has been simulated last. Whoever asks gets it.
+  /// Keeps the current scene; `last` is the frame simulated last. Any node that asks gets it.
   void keep(const TimeSignature& last, SavedScene scene);
-  /// Null: there is none, or it is not that of the others.
+  /// Returns the kept scene; null if there is none, or if it differs from the others' scene.
   std::shared_ptr<const KeptScene> kept() const;
   Tally tally() const;
   void finish();
@@ -131,27 +130,28 @@ private:
   std::uint64_t joined_ = 0;  ///< the session that we play
   std::uint64_t show_ = 0;    ///< Agreement::show() of that
   std::deque<HeardOrder> orders_;
-  IncomingScene incoming_;        ///< of who leads
-  std::uint64_t frame_ = 0;       ///< obeyed last
-  Standstill still_{};            ///< whether the show stood with it
-  Presentation presentation_{};   ///< and so it was shown
-  std::optional<bool> isMember_;  ///< by the newest order, whoever of our name that is
+  IncomingScene incoming_;        ///< from the leader
+  std::uint64_t frame_ = 0;       ///< applied last
+  Standstill still_{};            ///< whether the show stood still then
+  Presentation presentation_{};   ///< how that frame was shown
+  std::optional<bool> isMember_;  ///< by the newest order, for any program with our name
   Compare compare_;
   std::uint64_t obeyed_ = 0, go_ = 0, shown_ = 0;
-  std::uint64_t framesShown_;  ///< the last frame that our walls have shown, and one; 0: none
-  std::uint64_t frames_ = 0;   ///< once the show is over: the last one that was shown anywhere, and one
+  std::uint64_t framesShown_;  ///< one more than the last frame that our walls have shown; 0: none
+  std::uint64_t frames_ = 0;   ///< once the show is over: one more than the last frame that any wall has
+                               ///< shown
   std::uint8_t latest_ = 0;
   Phase told_ = Phase::Waiting;
-  std::uint64_t announced_ = 0;  ///< how often
+  std::uint64_t announced_ = 0;  ///< number of announcements
   std::uint64_t toldSerial_ = 0;
   std::deque<std::pair<std::uint64_t, bool>>
-      shows_;  ///< orders obeyed and not shown yet: whether we draw them
+      shows_;  ///< orders applied and not yet shown: whether we draw them
   bool again_ = false, double_ = false, refused_ = false;
-  bool over_ = false;                      ///< who leads has ended the show
+  bool over_ = false;                      ///< the leader has ended the show
   bool plays_ = false;                     ///< there is a scene from which the show can go on
   bool differs_ = false;                   ///< but it is not that of the others
   std::shared_ptr<const KeptScene> kept_;  ///< until there is another one
-  std::uint64_t given_ = 0;                ///< the session to whose leader it has been
+  std::uint64_t given_ = 0;                ///< session of the leader to which it was sent
   std::vector<std::thread> giving_;
   InputSample sample_;
   bool sampled_ = false;

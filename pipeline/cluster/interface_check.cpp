@@ -19,7 +19,7 @@ struct Interface {
   bool multicast = false, loopback = false;
 };
 
-/// Those that can be used: they are up, and have an IPv4 address. Nothing if the system does not tell.
+/// Returns the usable interfaces: up, with an IPv4 address. Returns nothing if the system gives no list.
 std::optional<std::vector<Interface>> interfacesHere() {
   ifaddrs* first = nullptr;
   if (getifaddrs(&first) != 0) return std::nullopt;
@@ -41,7 +41,7 @@ std::optional<std::vector<Interface>> interfacesHere() {
 
 void checkInterface(const ClusterFile& cluster, Diagnostics& out) {
   const auto here = interfacesHere();
-  if (!here) return;  // then who opens the network has to say what is wrong
+  if (!here) return;  // then opening the network reports the error
   if (std::ranges::none_of(*here, &Interface::loopback))  // Cyclone DDS speaks to its own threads over it
     out.error({}, "this machine's loopback interface is not up: `ip link set lo up`");
   const std::string& wanted = cluster.interface;

@@ -1,5 +1,5 @@
 #pragma once
-/// Whether this machine has the network interface that a cluster file names. Only a machine that plays needs
+/// Checks that this host has the network interface that a cluster file names. Only a host that plays needs
 /// it: the file may be written and checked elsewhere.
 ///
 /// Threads  free function, any thread.
@@ -8,8 +8,8 @@
 
 namespace stadion {
 
-/// An error with the place in the file if there is none of that name or address (with those that there are),
-/// or if it has no multicast; and one if the loopback interface is not up.
+/// Reports an error with its place in the file if no interface has that name or address, and lists those that
+/// exist. Also reports an interface without multicast, and a loopback interface that is down.
 void checkInterface(const ClusterFile& cluster, Diagnostics& out);
 
 }  // namespace stadion

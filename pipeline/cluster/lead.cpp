@@ -14,10 +14,11 @@ namespace stadion::cluster {
 namespace {
 
 constexpr std::size_t kHashesKept = 64, kMostEarly = kHashesKept * ClusterFile::kMostNodes;
-constexpr std::chrono::milliseconds kSearch{1500};  ///< for others: so long until they are heard of
-constexpr std::chrono::seconds kGiving{5};          ///< a node may take so long to send its scene
-constexpr std::chrono::seconds kReturn{5};          ///< a show that goes on waits so long for the others
-constexpr std::chrono::seconds kLately{10};         ///< who died so long ago may be on its way back
+constexpr std::chrono::milliseconds kSearch{1500};  ///< time to discover other hosts
+constexpr std::chrono::seconds kGiving{5};          ///< limit for a node that sends its scene
+constexpr std::chrono::seconds kReturn{5};          ///< limit for a continued show that waits for the others
+constexpr std::chrono::seconds kLately{10};         ///< a node that crashed so recently may be on its way
+                                                    ///< back
 
 std::uint32_t bit(std::size_t node) {
   return std::uint32_t{1} << node;
@@ -25,7 +26,7 @@ std::uint32_t bit(std::size_t node) {
 
 }  // namespace
 
-/// The show's input, which all are told of.
+/// The show's input, which is sent to all nodes.
 class Lead::SampledInput final : public InputDevice {
 public:
   SampledInput(InputDevice& inner, Lead& lead) : inner_(inner), lead_(lead) {}
@@ -79,7 +80,7 @@ Lead::~Lead() {
   }
   changed_.notify_all();
   if (sender_.joinable()) sender_.join();
-  if (bus_) bus_->close();  // nobody calls any more; who does so still looks at bus_
+  if (bus_) bus_->close();  // stops all calls, which still use bus_
 }
 
 InputDevice& Lead::input(InputDevice& inner) {
@@ -87,7 +88,7 @@ InputDevice& Lead::input(InputDevice& inner) {
   return *input_;
 }
 
-// With the mutex. Of those nodes who has come farthest in this show.
+// Expects the lock. Returns which of those nodes has come farthest in this show.
 std::optional<std::size_t> Lead::newestOf(std::uint32_t nodes) const {
   std::optional<std::size_t> best;
   const auto at = [this](std::size_t node) {
@@ -101,19 +102,19 @@ std::optional<std::size_t> Lead::newestOf(std::uint32_t nodes) const {
   return best;
 }
 
-// Of another program that leads already we hear no later than of those that follow it. Until then nobody
-// hears of us: they would take us for the one that they have lost. They say meanwhile how far they have come.
+// Another leader is discovered no later than its followers. Until then we stay silent: its followers would
+// take us for the leader that they have lost. Meanwhile they announce how far they have come.
 std::optional<ShowUnderWay> Lead::takeOver() {
   std::unique_lock lock(mutex_);
   const auto wait = [&](Clock::time_point until, const auto& ready) {
     while (!ready() && Clock::now() < until && waits()) changed_.wait_for(lock, kLook);
   };
   const auto allAreNew = [&] {
-    return std::ranges::count(followers_, 0U, &Follower::incarnation) == 1 &&  // that is us
+    return std::ranges::count(followers_, 0U, &Follower::incarnation) == 1 &&  // it is this program
            std::ranges::count(followers_, 0U, &Follower::plays) == std::ssize(followers_);
   };
   wait(Clock::now() + kSearch, allAreNew);
-  // Whatever clock we have: what comes after a session has a higher number.
+  // Independent of our clock: a later session always has a higher number.
   for (const Follower& f : followers_)
     session_.number = std::max({session_.number, f.session + 1, f.plays + 1});
   std::uint32_t untried = ~std::uint32_t{0};
@@ -156,7 +157,7 @@ bool Lead::hasBegun() const {
   return session_.begun;
 }
 
-// With the mutex.
+// Expects the lock.
 std::vector<std::string> Lead::missing() const {
   std::vector<std::string> names;
   for (std::size_t i = 0; i < followers_.size(); ++i) {
@@ -226,7 +227,7 @@ void Lead::send(const InputSample* input) {
   tally_.mostOrderBytes = std::max(tally_.mostOrderBytes, bytes);
 }
 
-// Between two frames: the scene is as it was after the order before.
+// Runs between two frames: the scene is as it was after the previous order.
 void Lead::answerWhoAsks() {
   std::vector<std::uint64_t> asking;
   SceneParcel parcel;
@@ -252,7 +253,7 @@ void Lead::answerWhoAsks() {
   changed_.notify_all();
 }
 
-// On a thread of its own, for a state may be large.
+// Runs on a thread of its own, because a state may be large.
 void Lead::sendParcels() {
   for (std::unique_lock lock(mutex_); !ending_;) {
     if (parcels_.empty()) {
@@ -286,7 +287,7 @@ bool Lead::mayShow(const TimeSignature&) {
   return go_ >= serial && !double_;
 }
 
-// With the mutex. Who lives and does not draw what all others have drawn would hold them for ever.
+// Expects the lock. A node that lives but does not draw what all others have drawn would hold them forever.
 void Lead::leaveOutWhoIsStuck() {
   if (rounds_.empty() || !rounds_.front().drawnHere) return;
   const double seconds = std::chrono::duration<double>(Clock::now() - *rounds_.front().drawnHere).count();
@@ -297,7 +298,7 @@ void Lead::leaveOutWhoIsStuck() {
       leaveOut(i, fmt::format("lives, but has drawn nothing for {:.1f} s", seconds));
 }
 
-// With the mutex: what all have drawn is shown.
+// Expects the lock. Lets all nodes show what all have drawn.
 void Lead::release() {
   bool released = false;
   while (!rounds_.empty() && rounds_.front().awaited == 0 && rounds_.front().drawnHere) {
@@ -315,7 +316,7 @@ void Lead::hear(const Session& other) {
     const std::lock_guard lock(mutex_);
     if (other.over || other.number == session_.number || double_) return;
     if (!supersedes(other, session_)) {
-      // Who follows may have heard the other one last; but when ours is over, it is the other one's.
+      // Our followers may have heard the other leader last. If our show is over, they are the other's.
       if (session_.rate > 0 && !session_.over) bus_->tell(session_);
       return;
     }
@@ -336,11 +337,11 @@ bool Lead::hasDouble() const {
 void Lead::hear(const Presence& p) {
   std::unique_lock lock(mutex_);
   if (p.node >= followers_.size() || p.node == options_.cluster.lead) return;
-  if (p.cluster != options_.terms.cluster) return;  // it will be told that its file is another one
+  if (p.cluster != options_.terms.cluster) return;  // another check tells it that its cluster file differs
   Follower& f = followers_[p.node];
-  // Another one that has just come may end again at once, because there is this one.
+  // Another leader that has just started may end at once, because we lead.
   if (f.member && f.incarnation != p.incarnation && static_cast<Phase>(p.phase) == Phase::Waiting) return;
-  // Once found again, a node's last word is told again; it may be out of date.
+  // A node that is discovered again repeats its last sample, which may be out of date.
   Word& word = words_[p.node];
   if (word.incarnation == p.incarnation && p.count <= word.count) return;
   word.incarnation = p.incarnation, word.count = p.count;
@@ -370,7 +371,7 @@ void Lead::hear(const Drawn& d) {
   if (d.session != session_.number || d.node >= followers_.size()) return;
   const auto at = std::ranges::find(rounds_, d.serial, &Round::serial);
   if (at == rounds_.end()) {
-    if (d.serial <= go_) bus_->tell(Go{session_.number, go_, latest_});  // it has not heard that it may
+    if (d.serial <= go_) bus_->tell(Go{session_.number, go_, latest_});  // it has not received permission yet
     return;
   }
   at->awaited &= ~bit(d.node);
@@ -389,22 +390,22 @@ void Lead::hear(const StatePart& part) {
 void Lead::left(std::uint8_t node, std::uint64_t incarnation) {
   const std::lock_guard lock(mutex_);
   if (node >= followers_.size() || node == options_.cluster.lead) return;
-  if (followers_[node].incarnation != incarnation) return;  // another one is this node now
+  if (followers_[node].incarnation != incarnation) return;  // another program is this node now
   if (followers_[node].member && !pending_.last)
     leaveOut(node, fmt::format("has not been heard of for {:g} s", options_.cluster.deadline));
-  letGo(node);  // when the show is over they go, and nobody needs to be told
+  letGo(node);  // when the show is over, nodes leave, and no message is needed
   followers_[node] = {};
   changed_.notify_all();
 }
 
-// With the mutex.
+// Expects the lock.
 void Lead::leaveOut(std::size_t node, const std::string& why) {
   ++tally_.leftOut;
   options_.tell(fmt::format("{} {}; the others go on", nameOf(node), why));
   letGo(node);
 }
 
-// With the mutex: nobody waits for it.
+// Expects the lock. Stops waiting for the node.
 void Lead::letGo(std::size_t node) {
   if (std::exchange(followers_[node].member, false)) words_[node].gone = Clock::now();
   for (Round& round : rounds_) round.awaited &= ~bit(node);
@@ -431,7 +432,7 @@ void Lead::hear(const SceneHash& h) {
     early_.push_back(h);
 }
 
-// With the mutex.
+// Expects the lock.
 void Lead::compare(std::size_t node, std::uint64_t frame, std::uint64_t hash) {
   const auto ours = std::ranges::find(hashes_, frame, &std::pair<std::uint64_t, std::uint64_t>::first);
   ++tally_.compared;
@@ -453,12 +454,12 @@ void Lead::hear(const Difference& d) {
                               printable(d.here, kMostTold), printable(d.there, kMostTold)));
   else
     options_.tell(fmt::format("the scene of {} is like ours after frame {}", nameOf(d.node), d.frame));
-  followers_[d.node].differs = d.found;  // what differs later is news again
+  followers_[d.node].differs = d.found;  // a later difference is reported again
   stop_ = stop_ || (d.found && options_.cluster.stopOnDifference);
   if (stop_) tally_.stopped = 1;
 }
 
-// That it is over must not be heard before the last orders.
+// The end must not be received before the last orders.
 void Lead::finish(bool over) {
   bus_->flush();
   {

@@ -1,14 +1,14 @@
 #pragma once
-/// The machine whose clock and trackers count: says what frame comes next, and when all may show it.
+/// The cluster's leader: its clock and trackers count. It orders the next frame, and says when all hosts may
+/// show it.
 ///
-/// A frame is shown once all members have drawn it. Who is not heard of for the deadline is left out, and the
-/// others go on; who comes later gets the scene's state between two frames, and is a member again once it has
-/// caught up. If another program led before and has died, the others hold their picture, and the show goes on
-/// from the scene of one of them.
+/// A frame is shown once all members have drawn it. If a node is silent for the deadline, the leader leaves
+/// it out, and the others go on. A node that comes later gets the scene's state between two frames. It is a
+/// member again once it has caught up. If a previous leader has crashed, the others hold their picture, and
+/// the show continues from the scene of one of them.
 ///
 /// Threads  takeOver() and begin() before there is an App thread; issue(), simulated() and sampling on the
-/// App thread; mayShow() on the Draw thread that
-///          arrived last; the rest on the network's.
+///          App thread; mayShow() on the Draw thread that arrived last; the rest on the network's.
 
 #include "engine/input/input_device.h"
 #include "pipeline/cluster/agreement.h"
@@ -32,15 +32,16 @@ namespace stadion::cluster {
 struct LeadOptions {
   ClusterFile cluster;
   Agreement terms;
-  std::chrono::seconds patience{};  ///< with nodes that have not come; then the show begins without them
+  std::chrono::seconds patience{};  ///< limit for nodes that have not come; then the show begins without them
   std::function<void(const std::string&)> tell;
-  std::function<bool()> stop;  ///< nobody waits any longer
-  std::uint64_t above = 0;     ///< the session's number is: that of the show before
-  /// Nodes, by bits, that are waited for; another one only if it is there. After a show: who was there.
+  std::function<bool()> stop;  ///< the wait is no longer wanted
+  std::uint64_t above = 0;     ///< the session's number is higher than this, the previous show's
+  /// The nodes to wait for, one bit each; another node takes part only if it is present. After a show: the
+  /// nodes that were present.
   std::uint32_t expected = ~std::uint32_t{0};
 };
 
-/// The operator's, with nodes that have not come.
+/// The operator's choice about nodes that have not come.
 enum class Patience {
   Lasts,
   Ends,     ///< the show is to begin without them
@@ -48,49 +49,49 @@ enum class Patience {
 };
 using OperatorsPatience = std::function<Patience(bool told)>;
 
-/// A show that the others play already.
+/// A show that the other nodes play already.
 struct ShowUnderWay {
-  TimeSignature last;                                      ///< of the frame after which it goes on
+  TimeSignature last;                                      ///< of the last frame before the show continues
   std::shared_ptr<const std::vector<std::uint8_t>> state;  ///< of its scene
   std::uint64_t files = 0;                                 ///< Scene::files()
-  Standstill still{};                                      ///< whether it stood
+  Standstill still{};                                      ///< whether the show stood still
   Presentation shown{};                                    ///< how that frame was shown
 };
 
 class Lead final : public FrameOrders, public BusListener {
 public:
-  /// Deadlines: a node that lives but draws nothing is left out after so many.
+  /// Number of deadlines after which a node that lives but draws nothing is left out.
   static constexpr double kStuck = 10;
 
   static Result<std::unique_ptr<Lead>> open(LeadOptions options);
-  /// One that hears only what hear() is given, and sends no scene to anybody.
+  /// Returns a leader without a network, which receives only what hear() is given and sends no scene.
   static std::unique_ptr<Lead> unconnected(LeadOptions options, std::uint64_t session);
   ~Lead() override;
 
-  /// Looks for a show that the others play, since who led them has died, and has one of them send its scene.
-  /// Nothing: there is none, so the show begins. Takes two seconds at most where nodes are missing. Expects
-  /// that none of our own has begun.
+  /// Looks for a show that the other nodes play since its leader crashed, and has one of them send its scene.
+  /// Returns nothing if there is none: the show begins. Takes at most two seconds if nodes are missing.
+  /// Expects that no show of our own has begun.
   std::optional<ShowUnderWay> takeOver();
-  /// Waits until all nodes have opened the show, or patience is at its end; `operators` is asked for the
-  /// operator's again and again, and told whether he has heard for whom is waited. `rate` in 1/s. False: he
-  /// gives up, and nothing has begun.
+  /// Waits until all nodes have opened the show, or until the time limit has passed. Calls `operators`
+  /// repeatedly for the operator's choice, with whether he has heard which nodes are missing. `rate` in 1/s.
+  /// Returns false if the operator gives up: nothing has begun.
   bool begin(
       double rate, const OperatorsPatience& operators = [](bool) { return Patience::Lasts; });
-  /// The nodes that played with us at the end or shortly before, by bits. After finish().
+  /// The nodes that played with us at the end or shortly before, one bit each. Call it after finish().
   std::uint32_t played() const;
   bool hasBegun() const;
   std::uint64_t session() const;  ///< its number
-  /// What becomes of the show's input: each sample goes to all. `inner` must outlive it.
+  /// Wraps the show's input: each sample also goes to all nodes. `inner` must outlive it.
   InputDevice& input(InputDevice& inner);
-  /// How the scene's state is written down, between two frames.
+  /// Sets how the scene's state is saved, between two frames.
   void saveWith(std::function<SavedScene()> save) { save_ = std::move(save); }
-  /// The scene after a frame, where it is compared: its digest().
+  /// Returns true if the scene is compared after that frame, by its digest().
   bool compares(std::uint64_t frame) const { return frame % options_.cluster.hashEvery == 0; }
   void simulated(std::uint64_t frame, std::uint64_t digest);
   Tally tally() const;
-  /// Another program leads this cluster already: ours is to end.
+  /// Returns true if another program leads this cluster already: ours must end.
   bool hasDouble() const;
-  /// Waits until all have heard what there was to hear; `over`: and that the show has been ended for all.
+  /// Waits until all nodes have received everything. With `over`, also ends the show for all.
   void finish(bool over);
 
   bool leads() const override { return true; }
@@ -112,21 +113,21 @@ private:
   using Clock = std::chrono::steady_clock;
 
   struct Follower {
-    std::uint64_t incarnation = 0;  ///< 0: it is not there
-    std::uint64_t session = 0;      ///< that it is in; 0: none
-    std::uint64_t plays = 0;        ///< the session of which it has a scene; 0: none
-    std::uint64_t serial = 0;       ///< of the order after which that is
+    std::uint64_t incarnation = 0;  ///< 0: the node is absent
+    std::uint64_t session = 0;      ///< the session that it is in; 0: none
+    std::uint64_t plays = 0;        ///< the session of its scene; 0: it has none
+    std::uint64_t serial = 0;       ///< of the last order that its scene has applied
     std::uint64_t show = 0;         ///< Agreement::show() of that session
     Phase phase = Phase::Waiting;
     bool member = false, asks = false;
-    bool differs = false;  ///< its scene, and it has not joined again since
+    bool differs = false;  ///< its scene, and the node has not joined again since
   };
-  /// What was heard last of a node, there or not.
+  /// The last sample from a node, present or not.
   struct Word {
     std::uint64_t incarnation = 0, count = 0;
-    std::optional<Clock::time_point> gone{};  ///< when it played no longer
+    std::optional<Clock::time_point> gone{};  ///< when it stopped playing
   };
-  /// An order that not all have drawn.
+  /// An order that not all nodes have drawn.
   struct Round {
     std::uint64_t serial = 0, frame = 0;
     std::uint32_t awaited = 0;
@@ -156,15 +157,15 @@ private:
   std::uint32_t played_ = ~std::uint32_t{0};
   FrameOrder pending_;
   bool awaitsInput_ = false;   ///< an order waits for its input
-  std::uint32_t explain_ = 0;  ///< who is to say with it where its scene differs
-  bool stop_ = false;          ///< scenes differ, and that is to end the show
+  std::uint32_t explain_ = 0;  ///< nodes that must say with it where their scene differs
+  bool stop_ = false;          ///< scenes differ, and this ends the show
   std::uint64_t serial_ = 0, go_ = 0, shown_ = 0;
   std::deque<Round> rounds_;                                    ///< by serial
-  std::uint8_t latest_ = 0;                                     ///< who has drawn last
+  std::uint8_t latest_ = 0;                                     ///< the node that has drawn last
   std::deque<std::pair<std::uint64_t, std::uint64_t>> hashes_;  ///< ours: frame, hash
   std::vector<SceneHash> early_;                                ///< of frames that we have not simulated yet
   std::deque<SceneParcel> parcels_;
-  IncomingScene incoming_;  ///< of who gives us the show
+  IncomingScene incoming_;  ///< from the node that sends us the show
   bool ending_ = false, double_ = false;
   std::function<SavedScene()> save_;
   std::unique_ptr<SampledInput> input_;

@@ -1,6 +1,7 @@
 #pragma once
-/// Keeps sockets that a library opens to the loopback interface. Cyclone DDS sends from the interface that it
-/// is given, but listens on every one: without this, other machines could talk to a cluster that is on one.
+/// Binds the sockets that a library opens to the loopback interface. Cyclone DDS sends from the interface
+/// that it is given, but listens on all of them. Without this class, other hosts could talk to a cluster on
+/// one host.
 ///
 /// Threads  one at a time; no other thread should open sockets for the network meanwhile.
 
@@ -11,16 +12,16 @@ namespace stadion::cluster {
 
 class LoopbackSockets {
 public:
-  /// Those that this process has already are somebody else's.
+  /// Remembers the process's current sockets, which other code owns.
   LoopbackSockets();
-  /// The sockets for UDP that have been opened since hear of the loopback interface alone. Empty, or why not.
+  /// Restricts the UDP sockets opened since then to the loopback interface. Returns empty, or why it failed.
   std::string bind() const;
 
 private:
   std::set<int> before_;
 };
 
-/// This process's descriptors that are sockets for UDP over IP.
+/// Returns this process's descriptors that are sockets for UDP over IP.
 std::set<int> udpSockets();
 
 }  // namespace stadion::cluster

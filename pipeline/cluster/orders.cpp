@@ -16,7 +16,7 @@ Pose read(const stadion_wire_Pose& X) {
   return {Vec3(X.p[0], X.p[1], X.p[2]), Quat(X.q[3], X.q[0], X.q[1], X.q[2])};
 }
 
-/// What the sequence borrows must stay where it is.
+/// The sequence borrows its elements, so they must not move.
 template <class Sequence, class T>
 void lend(std::vector<T>& from, Sequence& to) {
   to._buffer = from.data(), to._release = false;
@@ -37,7 +37,7 @@ stadion_wire_Tracker written(const TrackerSample& t) {
   return w;
 }
 
-constexpr double kFarthest = 1e7;  ///< from the rig: ten times what input logs may say [m]
+constexpr double kFarthest = 1e7;  ///< from the rig: ten times the limit of input logs [m]
 constexpr double kWidestEyes = 1;  ///< [m]
 
 bool isPlace(const Pose& X) {

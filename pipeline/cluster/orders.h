@@ -1,5 +1,5 @@
 #pragma once
-/// A frame's order and input, as they travel (wire.idl).
+/// Conversion of a frame's order and input to and from their network form (wire.idl).
 ///
 /// Threads  plain values.
 
@@ -13,19 +13,19 @@
 
 namespace stadion::cluster {
 
-/// Numbers of an order that the frame loop does not know.
+/// The fields of an order that the frame loop does not know.
 struct OrderNumbers {
   std::uint64_t session = 0, serial = 0;
   std::uint32_t members = 0;  ///< bit n: node n shows it
-  std::uint32_t explain = 0;  ///< bit n: node n is to say where its scene differs
+  std::uint32_t explain = 0;  ///< bit n: node n must say where its scene differs
 };
 
-/// An order that can be told; refilled, so that nothing is allocated once it is large enough.
+/// An order in network form. It is refilled, so that it allocates nothing once it is large enough.
 class WrittenOrder {
 public:
-  /// `input`: null, nobody has said anything. Valid until the next one.
+  /// `input`: null if there is no input. The result is valid until the next call.
   const Order& write(const OrderNumbers& numbers, const FrameOrder& order, const InputSample* input);
-  /// What it takes on the network, without what the protocol adds.
+  /// Size on the network, without the protocol's additions [byte].
   std::size_t bytes() const;
 
 private:
@@ -36,22 +36,22 @@ private:
   std::vector<std::vector<stadion_wire_ControlKnot>> controls_;
 };
 
-/// An order that was heard.
+/// An order that was received.
 struct HeardOrder {
   OrderNumbers numbers;
   FrameOrder order;
   bool sampled = false;
-  InputSample input;  ///< `measured` is 0: it is another machine's clock
+  InputSample input;  ///< `measured` is 0, since it would come from another host's clock
 };
-/// Nothing, if it says what no machine that leads says: poses and axes that are no numbers or far out of
-/// range, times that do not follow each other, one tracker twice.
+/// Returns nothing if no leader sends such an order: poses and axes that are not finite or far out of range,
+/// times that go backwards, or one tracker twice.
 std::optional<HeardOrder> readOrder(const Order& order);
 stadion_wire_Presentation written(const Presentation& shown);
-/// Nothing, if eyes are nowhere.
+/// Returns nothing if an eye's position is not valid.
 std::optional<Presentation> read(const stadion_wire_Presentation& shown);
-/// Nothing, if it is none.
+/// Returns nothing if the value is not a Standstill.
 std::optional<Standstill> readStandstill(std::uint8_t still);
-/// Whether a show can be there: not before its beginning, nor for thirty years.
+/// Returns true if a show can have that time: not before its beginning, and at most thirty years after.
 bool isTime(Nanoseconds time);
 
 }  // namespace stadion::cluster

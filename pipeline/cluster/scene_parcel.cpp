@@ -23,7 +23,7 @@ void send(Bus& bus, const SceneParcel& parcel) {
   part.files = parcel.scene.files, part.size = bytes.size();
   do {
     const std::size_t size = std::min(kPart, bytes.size() - part.offset);
-    // It is borrowed, and only read.
+    // The sequence borrows the bytes and only reads them.
     part.bytes._buffer = const_cast<std::uint8_t*>(bytes.data()) + part.offset;
     part.bytes._release = false;
     part.bytes._length = part.bytes._maximum = static_cast<std::uint32_t>(size);
@@ -35,7 +35,7 @@ void send(Bus& bus, const SceneParcel& parcel) {
 void IncomingScene::add(const StatePart& part) {
   const std::uint64_t length = part.bytes._length;
   if (part.size > kMostState) return;
-  // One that nobody has taken gives way to a newer one.
+  // A complete scene that was never taken is replaced by a newer one.
   if (complete_ && part.session == parcel_.session && part.serial == parcel_.serial) return;
   if (complete_ && part.offset != 0) return;
   if (part.offset == 0) {
@@ -50,7 +50,7 @@ void IncomingScene::add(const StatePart& part) {
   if (part.serial != parcel_.serial || part.session != parcel_.session || part.size != size_) return;
   if (part.frame != parcel_.frame || part.time != parcel_.time || part.to != parcel_.to) return;
   if (part.offset != received_ || length > part.size - part.offset) return;
-  // As it comes: who says that much is to come need not be right.
+  // Grows with each part: the announced size may be wrong.
   parcel_.scene.bytes.insert(parcel_.scene.bytes.end(), part.bytes._buffer, part.bytes._buffer + length);
   received_ += length;
   complete_ = received_ == part.size;

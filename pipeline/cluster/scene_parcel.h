@@ -1,5 +1,5 @@
 #pragma once
-/// A scene's state on its way from one machine to another, in parts.
+/// A scene's state on its way from one host to another, in parts.
 ///
 /// Threads  plain values; the caller locks.
 
@@ -12,41 +12,41 @@
 
 namespace stadion::cluster {
 
-/// A scene between two frames, as it can be taken over.
+/// A scene's state between two frames, from which another program can continue.
 struct SavedScene {
   std::uint64_t files = 0;          ///< Scene::files()
   std::vector<std::uint8_t> bytes;  ///< SceneSnapshot::save()
 };
 
 struct SceneParcel {
-  std::uint64_t to = 0;                   ///< an incarnation, or the session of who leads
-  std::uint64_t session = 0, serial = 0;  ///< it is the scene after that order
+  std::uint64_t to = 0;                   ///< an incarnation, or the leader's session
+  std::uint64_t session = 0, serial = 0;  ///< the state is the scene after that order
   std::uint64_t frame = 0;                ///< simulated last
-  Nanoseconds time = 0;                   ///< of that
+  Nanoseconds time = 0;                   ///< of that frame
   Standstill still{};                     ///< whether the show stood then
   Presentation shown{};                   ///< how that frame was shown
   SavedScene scene;
 };
 
-/// One that a machine holds ready while it has no show, lest it be lost with who leads. `parcel` says after
-/// which order of which session it is.
+/// A scene that a host keeps ready while it plays no show, so that a crashed leader does not lose it.
+/// `parcel` names its session and its last order.
 struct KeptScene {
   SceneParcel parcel;
   std::uint64_t show = 0;         ///< Agreement::show() of that session
   std::uint64_t framesShown = 0;  ///< Follower::framesShown_ then
 };
 
-/// May take long: it is large.
+/// May take long, because the scene is large.
 void send(Bus& bus, const SceneParcel& parcel);
 
-/// One that is received.
+/// A scene that is being received.
 class IncomingScene {
 public:
-  /// The next part; what does not follow the one before, or is of another scene, is passed over.
+  /// Adds the next part. Ignores a part that does not follow the previous one or belongs to another scene.
   void add(const StatePart& part);
   bool complete() const { return complete_; }
   std::uint64_t received() const { return received_; }  ///< [byte]
-  /// Only what has come whole. Afterwards there is none.
+  /// Returns a scene only if it is complete. Afterwards there is none.
   SceneParcel take();
   std::uint64_t session() const { return parcel_.session; }
   std::uint64_t serial() const { return parcel_.serial; }

@@ -1,5 +1,5 @@
 #pragma once
-/// What a machine of a cluster has told and how long it has waited.
+/// What a host of a cluster has sent, and how long it has waited.
 ///
 /// Threads  plain values.
 
@@ -11,8 +11,8 @@ namespace stadion::cluster {
 
 struct Tally {
   std::uint64_t orders = 0, orderBytes = 0, mostOrderBytes = 0;
-  /// Of frames for which all others waited for this machine: from when it had drawn to when it may show that
-  /// [ms].
+  /// Waits of frames for which all others waited for this host: from the end of its drawing to the permission
+  /// to show [ms].
   DurationSeries barrier;
   std::uint64_t leftOut = 0, joined = 0, compared = 0, differed = 0, stopped = 0;
 };

@@ -1,5 +1,5 @@
 #pragma once
-/// What who leads and who follows hold to alike.
+/// Constants and rules that the leader and its followers share.
 
 #include "pipeline/cluster/bus.h"
 
@@ -10,12 +10,12 @@
 
 namespace stadion::cluster {
 
-constexpr std::size_t kMostTold = 200;           ///< of what another machine says [characters]
-constexpr std::chrono::milliseconds kLook{100};  ///< how often a wait looks whether it is still wanted
-constexpr std::chrono::seconds kLong{2};         ///< who waits so long says what for
+constexpr std::size_t kMostTold = 200;           ///< limit for text from another host [characters]
+constexpr std::chrono::milliseconds kLook{100};  ///< how often a wait checks whether it is still wanted
+constexpr std::chrono::seconds kLong{2};         ///< a wait of this length logs its reason
 
-/// A number that no other session or machine has; never 0. Of two the one that was taken earlier is lower, as
-/// far as the machines' clocks agree.
+/// Returns a number that no other session or host has; never 0. Of two numbers the earlier one is lower, as
+/// far as the hosts' clocks agree.
 inline std::uint64_t anyNumber() {
   const auto now = std::chrono::system_clock::now().time_since_epoch();
   const auto ms =
@@ -23,12 +23,12 @@ inline std::uint64_t anyNumber() {
   return ms << 20U | (std::random_device{}() & 0xfffffU) | 1U;
 }
 
-/// Whether there is a show in a session: it has begun, or goes on with that of another one.
+/// Returns true if a session has a show: it has begun, or continues another session's show.
 inline bool hasShow(const Session& s) {
   return s.begun || s.resumes != 0;
 }
-/// Of two programs that lead, whether `other` goes on: of two that have a show the later one, which has
-/// looked for the earlier one in vain; of two that have none the earlier one.
+/// Returns true if `other` leads on, of two leaders. If both have a show, it is the later one, which has
+/// looked for the earlier one in vain. If neither has one, it is the earlier one.
 inline bool supersedes(const Session& other, const Session& ours) {
   return other.number > ours.number ? hasShow(other) : !hasShow(ours);
 }

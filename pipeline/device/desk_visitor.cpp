@@ -11,12 +11,12 @@ namespace {
 
 const Vec3 kHandAtRest{0.22, 0.45, -0.4};  ///< from the head [m]
 constexpr double kReach = 0.9;             ///< of an arm, from the head [m]
-constexpr double kHandTime = 0.03;         ///< in which the hand does most of its way [s]
+constexpr double kHandTime = 0.03;         ///< time constant of the hand's motion [s]
 constexpr double kHandSpeed = 14;          ///< at most [m/s]
-constexpr double kEaseBack = 0.5;          ///< a head that was frozen [s]
+constexpr double kEaseBack = 0.5;          ///< duration, after the head was frozen [s]
 constexpr double kStepSpeed = 1.2;         ///< [m/s]
 constexpr double kReturnSpeed = 5;         ///< [m/s]
-constexpr double kRoom = 20;               ///< how far from the rig's middle one may walk [m]
+constexpr double kRoom = 20;               ///< walking distance from the rig's middle, at most [m]
 constexpr double kLowest = 0.2;            ///< height of the head at least [m]
 constexpr double kSteepest = 1.5;          ///< [rad]
 
@@ -28,7 +28,7 @@ Vec3 orZero(const Vec3& v) {
   return v.allFinite() ? v : Vec3(Vec3::Zero());
 }
 
-/// The way, cut off after so many metres.
+/// Limits the length of a way to `most` metres.
 Vec3 notFarther(const Vec3& way, double most) {
   const double far = way.norm();
   return far > most ? Vec3(most / far * way) : way;
@@ -141,7 +141,7 @@ void DeskVisitor::advance(double seconds) {
 
 void DeskVisitor::sampleAt(Nanoseconds showTime, InputSample& sample) {
   const std::lock_guard lock(mutex_);
-  // A frame after a long halt is no time in which somebody could have walked.
+  // Time in a long halt does not count, since the visitor could not walk.
   if (sampled_ >= 0 && showTime > sampled_) advance(std::min(toSeconds(showTime - sampled_), 0.25));
   sampled_ = showTime;
   fill(showTime, sample);

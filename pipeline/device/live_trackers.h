@@ -1,9 +1,8 @@
 #pragma once
-/// Trackers of a live show: a feed that devices fill on threads of their own and App reads.
+/// Trackers of a live show: devices fill a feed on threads of their own, and App reads it.
 ///
-/// Threads  post functions and headSoon() from any thread; the rest of the InputDevice is App's. Nobody waits
-/// longer than a few
-///          microseconds for the others.
+/// Threads  post functions and headSoon() from any thread; the rest of the InputDevice is App's. No thread
+///          waits longer than a few microseconds for the others.
 
 #include "engine/input/input_device.h"
 #include "engine/input/tracker_feed.h"
@@ -22,20 +21,20 @@ class LiveTrackers final : public InputDevice {
 public:
   using Tell = std::function<void(const std::string&)>;
 
-  /// `tell` learns once of each unknown name and of the first thing refused, and of trackers that fall silent
-  /// and are heard of again. `clock` for tests.
+  /// `tell` gets a message once for each unknown name and for the first refused measurement. It also gets a
+  /// message when a tracker falls silent and when it returns. `clock` is for tests.
   LiveTrackers(const RigFile& rig, Tell tell, std::function<Nanoseconds()> clock = steadyNow);
 
   void pose(std::string_view tracker, Nanoseconds clock, const Pose& X_SD);
   void button(std::string_view tracker, Nanoseconds clock, std::int64_t index, bool down);
   void axis(std::string_view tracker, Nanoseconds clock, std::int64_t index, double value);
-  /// A measurement came later than a newer one, and is left out.
+  /// Reports a measurement that came later than a newer one, and is left out.
   void late(std::string_view tracker);
-  /// The clock of the tracker's sender was set by so much [ns], which is told once.
+  /// Reports that the clock of the tracker's sender was set by this much [ns]; logged once.
   void clockWasSet(std::string_view tracker, Nanoseconds by);
-  /// Whether the rig file has it.
+  /// Returns true if the rig file has this tracker.
   bool knows(std::string_view tracker) const { return feed_.rig().find(tracker) != nullptr; }
-  /// Something came that is no measurement at all.
+  /// Reports a message that is no measurement.
   void misunderstood(const std::string& what);
 
   using InputDevice::sampleAt;

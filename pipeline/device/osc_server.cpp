@@ -12,9 +12,9 @@
 namespace stadion {
 namespace {
 
-constexpr int kLookForEnd = 50;  ///< how often the thread looks whether it is to end [ms]
+constexpr int kLookForEnd = 50;  ///< interval at which the thread checks whether it must end [ms]
 
-/// Arguments lie in the packet as they came, on multiples of four bytes.
+/// Arguments lie in the packet in network byte order, on multiples of four bytes.
 template <class T>
 double read(const lo_arg* a) {
   T value;
@@ -22,7 +22,7 @@ double read(const lo_arg* a) {
   return static_cast<double>(value);
 }
 
-/// An argument as a number; nothing if it is none.
+/// Returns an argument as a number; nothing if it is none.
 std::optional<double> numberOf(char type, const lo_arg* a) {
   switch (type) {
   case LO_INT32: return read<std::int32_t>(a);
@@ -105,14 +105,14 @@ Result<std::unique_ptr<OscServer>> OscServer::open(std::uint16_t port, Handler h
   if (!socket->server)
     return Result<std::unique_ptr<OscServer>>::failure(
         "UDP port " + name + " cannot be listened to; does another program have it?");
-  // A time tag says when something was measured, not when it is to be done.
+  // A time tag is the time of measurement, not a time for execution.
   lo_server_enable_queue(socket->server, 0, 1);
   lo_server_add_method(socket->server, nullptr, nullptr, &Socket::receive, socket.get());
   return std::unique_ptr<OscServer>(new OscServer(std::move(socket)));
 }
 
 void OscServer::hear(std::span<const std::uint8_t> packet) {
-  std::vector<std::uint8_t> bytes(packet.begin(), packet.end());  // liblo turns numbers round in place
+  std::vector<std::uint8_t> bytes(packet.begin(), packet.end());  // liblo swaps bytes in place
   if (lo_server_dispatch_data(socket_->server, bytes.data(), bytes.size()) < 0) ++socket_->malformed;
 }
 

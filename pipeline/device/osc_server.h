@@ -2,9 +2,8 @@
 /// Listens to Open Sound Control messages on a UDP port (liblo).
 ///
 /// Ownership  owns its socket and its thread; both end with it.
-/// Threads    one of its own, on which the handler is called; bundles with a time in the future are not held
-///            back.
-/// Errors     what is no OSC message is counted and otherwise ignored; the handler must not throw.
+/// Threads    one of its own, which calls the handler; bundles with a time in the future are not delayed.
+/// Errors     packets that are no OSC messages are counted and otherwise ignored; the handler must not throw.
 
 #include "engine/base/diagnostic.h"
 #include "engine/base/time_signature.h"
@@ -33,17 +32,17 @@ class OscServer {
 public:
   using Handler = std::function<void(const OscMessage&)>;
 
-  /// Port 0 takes any that is free. Fails if the port is taken.
+  /// Port 0 takes any free port. Fails if the port is taken.
   static Result<std::unique_ptr<OscServer>> open(std::uint16_t port, Handler handler);
   ~OscServer();
   OscServer(const OscServer&) = delete;
   OscServer& operator=(const OscServer&) = delete;
 
-  /// As if that packet had come over the network, but on the caller's thread.
+  /// Handles a packet as if it came over the network, but on the caller's thread.
   void hear(std::span<const std::uint8_t> packet);
 
   std::uint16_t port() const;
-  /// Packets that were no OSC messages.
+  /// Returns the number of packets that were no OSC messages.
   std::uint64_t malformed() const;
 
 private:

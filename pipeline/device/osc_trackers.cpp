@@ -10,8 +10,9 @@ namespace stadion {
 namespace {
 
 constexpr std::size_t kMostStreams = 256;          ///< that are told apart
-constexpr std::size_t kMostLate = 64;              ///< buttons and axes whose sender may have set its clock
-constexpr Nanoseconds kWorthTelling = 50'000'000;  ///< by so much a clock was set [ns]
+constexpr std::size_t kMostLate = 64;              ///< buttons and axes kept in case their sender has set its
+                                                   ///< clock
+constexpr Nanoseconds kWorthTelling = 50'000'000;  ///< smaller corrections of a clock are not logged [ns]
 
 std::int64_t wholeNumber(double x) {
   return std::fabs(x) < 1e6 && x == std::floor(x) ? static_cast<std::int64_t>(x) : -1;

@@ -5,12 +5,12 @@
 ///     /tracker/NAME/button  i down                i from 1 to 32, down 1 or 0
 ///     /tracker/NAME/axis    i value               i from 0 to 7, value from -1 to 1
 ///
-/// Numbers may be of any OSC type. A bundle's time tag, if it has one, says when something was measured, by
-/// the sender's clock: it orders and spaces measurements better than their arrival does. Each sender has a
-/// clock of its own, and may set it (sender_clock.h).
+/// Numbers may be of any OSC type. A bundle's time tag, if it has one, is the time of measurement by the
+/// sender's clock. It orders and spaces measurements better than their arrival does. Each sender has a clock
+/// of its own, and may set it (sender_clock.h).
 ///
 /// Threads  the server's own.
-/// Errors   whatever comes that is none of these is counted and told of once.
+/// Errors   other messages are counted, and the first one is logged.
 
 #include "pipeline/device/live_trackers.h"
 #include "pipeline/device/osc_server.h"
@@ -23,15 +23,16 @@ namespace stadion {
 
 class OscTrackers {
 public:
-  /// Hears of nothing but what take() is given. The trackers must outlive it.
+  /// Makes an instance without a network, which receives only what take() is given. The trackers must outlive
+  /// it.
   explicit OscTrackers(LiveTrackers& trackers) : trackers_(trackers) {}
-  /// One that listens. Fails if the port is taken.
+  /// Makes an instance that listens. Fails if the port is taken.
   static Result<std::unique_ptr<OscTrackers>> open(std::uint16_t port, LiveTrackers& trackers);
 
-  /// Of one that listens.
+  /// Expects an instance that listens.
   std::uint16_t port() const { return server_->port(); }
   void take(const OscMessage& m);
-  /// Messages that were no measurements, packets that were no messages.
+  /// Returns the number of messages that were no measurements and of packets that were no messages.
   std::uint64_t misunderstood() const { return misunderstood_ + (server_ ? server_->malformed() : 0); }
 
 private:
@@ -40,7 +41,7 @@ private:
     Kind kind;
     std::array<double, 7> numbers;
   };
-  /// What one sender says of one tracker: its poses, or its buttons and axes.
+  /// One sender's data for one tracker: its poses, or its buttons and axes.
   struct Stream {
     std::string host, tracker;
     bool poses;
@@ -56,7 +57,7 @@ private:
   LiveTrackers& trackers_;
   std::vector<Stream> streams_;
   std::atomic<std::uint64_t> misunderstood_ = 0;
-  std::unique_ptr<OscServer> server_;  ///< the last one: its thread uses the others
+  std::unique_ptr<OscServer> server_;  ///< declared last: its thread uses the others
 };
 
 }  // namespace stadion

@@ -5,10 +5,11 @@
 namespace stadion {
 namespace {
 
-constexpr Nanoseconds kWindow = 250'000'000;        ///< the least delay of so long a time counts [ns]
+constexpr Nanoseconds kWindow = 250'000'000;        ///< the least delay within this time counts [ns]
 constexpr Nanoseconds kLongestDelay = 250'000'000;  ///< of a datagram behind one that overtook it [ns]
-constexpr Nanoseconds kOvertaken = 100'000'000;     ///< it arrives so soon after the other, at most [ns]
-constexpr int kCopies = 1;                          ///< of a datagram, that a network makes
+constexpr Nanoseconds kOvertaken = 100'000'000;     ///< the overtaken datagram arrives at most this much
+                                                    ///< later [ns]
+constexpr int kCopies = 1;                          ///< duplicates of a datagram that a network may make
 
 }  // namespace
 
@@ -25,7 +26,7 @@ SenderClock::Reading SenderClock::read(Nanoseconds sent, Nanoseconds arrived) {
   if (sent < newest_) return olderThanLast(sent, arrived);
   if (sent == newest_ && what_ == Stamped::Poses) {
     if (++repeats_ <= kCopies) return {};
-    // A clock that stands still, or ticks slower than measurements come, does not say when they were made.
+    // The clock stands still, or ticks slower than measurements come, so it does not give their times.
     at_ = since_ = arrived, offset_ = least_ = arrived - sent;
     return {arrived};
   }
@@ -46,7 +47,7 @@ SenderClock::Reading SenderClock::read(Nanoseconds sent, Nanoseconds arrived) {
   return {sent + offset_};
 }
 
-/// The stamps still grow then. Delays change when measurements arrive, and not how they are stamped.
+/// The stamps still grow then. Delays change the arrival of measurements, but not their stamps.
 bool SenderClock::setBackWithinAPeriod(Nanoseconds sent, Nanoseconds arrived) const {
   return what_ == Stamped::Poses &&
          static_cast<double>(sent - newest_)<0.5 * period_&& static_cast<double>(arrived - at_)> 0.75 *

@@ -1,11 +1,12 @@
 #pragma once
-/// The clock of a sender that stamps its measurements, in terms of the machine's clock.
+/// Converts the time stamps of a sender's clock to the machine's clock.
 ///
-/// The least delay seen lately is taken for none, so clocks that drift apart are followed.
+/// The least recent delay counts as zero, so clocks that drift apart are followed.
 ///
-/// A sender's clock may be set while it sends, by NTP or by hand. Forwards, the next stamp shows it.
-/// Backwards, stamps get older than those before, as does the stamp of a datagram that another one overtook.
-/// One older stamp alone is late. A second one that is newer than the first one shows that the clock was set.
+/// A sender's clock may be set while it sends, by NTP or by hand. If it is set forwards, the next stamp shows
+/// it. If it is set backwards, stamps get older than the previous ones. A datagram that another one overtook
+/// also has an older stamp. One older stamp alone is late. A second one that is newer than the first one
+/// shows that the clock was set.
 ///
 /// Units    nanoseconds.
 /// Threads  one at a time.
@@ -18,19 +19,20 @@ namespace stadion {
 
 class SenderClock {
 public:
-  /// What is stamped.
+  /// The kind of stamped data.
   enum class Stamped {
-    Poses,    ///< sent all the time: of two with one stamp, the second one is a copy
-    Controls  ///< buttons and axes: several may have one stamp, and what is sent may be sent only once
+    Poses,    ///< sent continuously: the second of two with one stamp is a copy
+    Controls  ///< buttons and axes: several may have one stamp, and each may be sent only once
   };
   explicit SenderClock(Stamped what = Stamped::Poses) : what_(what) {}
 
   struct Reading {
-    std::optional<Nanoseconds> ours;   ///< when it was measured, by the machine's clock; none: it is late
-    std::optional<Nanoseconds> set{};  ///< the sender's clock was set by so much, and late ones were not late
+    std::optional<Nanoseconds> ours;   ///< measurement time by the machine's clock; none: it is late
+    std::optional<Nanoseconds> set{};  ///< the sender's clock was set by this much, and late ones were not
+                                       ///< late
   };
-  /// Of what was stamped `sent`, by the sender's clock, and has arrived just now, by the machine's. The
-  /// machine's clock never goes back.
+  /// Reads a stamp `sent` (sender's clock) of data that arrived at `arrived` (machine's clock). The machine's
+  /// clock never goes back.
   Reading read(Nanoseconds sent, Nanoseconds arrived);
 
 private:
@@ -41,9 +43,9 @@ private:
   Stamped what_;
   bool known_ = false;
   Nanoseconds offset_ = 0;              ///< machine's clock minus sender's
-  Nanoseconds newest_ = 0, at_ = 0;     ///< the newest stamp, and when it came
-  Nanoseconds since_ = 0, least_ = 0;   ///< the least offset since then
-  std::optional<Nanoseconds> older_{};  ///< the last stamp that was late
+  Nanoseconds newest_ = 0, at_ = 0;     ///< the newest stamp, and its arrival
+  Nanoseconds since_ = 0, least_ = 0;   ///< the start of the window, and the least offset in it
+  std::optional<Nanoseconds> older_{};  ///< the last late stamp
   double period_ = 0;                   ///< between stamps, smoothed
   int repeats_ = 0;                     ///< of the newest stamp
 };

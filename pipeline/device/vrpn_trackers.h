@@ -1,11 +1,11 @@
 #pragma once
-/// Trackers of VRPN servers, where the library was there when the program was built.
+/// Trackers of VRPN servers, if the library was installed when the program was built.
 ///
-/// `DEVICE@HOST` is a VRPN address; its sensors 0, 1, ... are the rig file's trackers, in their order. Its
-/// buttons and channels, if it has any, are the last of these trackers'.
+/// `DEVICE@HOST` is a VRPN address. Its sensors 0, 1, ... are the rig file's trackers, in their order. Its
+/// buttons and channels, if it has any, belong to the last of these trackers.
 ///
 /// Threads  one of its own.
-/// Errors   a server that is not there is waited for.
+/// Errors   it waits for a server that does not run.
 
 #include "pipeline/device/live_trackers.h"
 

@@ -1,5 +1,5 @@
 #pragma once
-/// What travels with a frame from App through its slot and its draw lists to the swap.
+/// A frame's times and flags, which travel with it from App through its slot and its draw lists to the swap.
 ///
 /// Threads  a plain value; each stage has its own copy.
 
@@ -12,15 +12,15 @@ namespace stadion {
 
 struct FrameTicket {
   TimeSignature signature;
-  std::chrono::steady_clock::time_point began{};  ///< when App began it, and sampled the poses
-  bool drawn = true;  ///< false: nobody looks at it, so it is neither culled nor drawn
+  std::chrono::steady_clock::time_point began{};  ///< start of App, which is also when it sampled the poses
+  bool drawn = true;  ///< false: the frame is never shown, so it is neither culled nor drawn
   Presentation shown{};
   bool last = false;  ///< no frame follows it
-  /// When the head's pose was measured that its pictures are drawn with; where nobody knows, when it was
-  /// sampled.
+  /// The measurement time of the head's pose with which its pictures are drawn. If that is unknown, the time
+  /// of sampling.
   std::chrono::steady_clock::time_point posed{};
 
-  /// Nothing could be drawn for so long, and it counts as begun so much later.
+  /// Drawing was not possible for this long, so the frame counts as begun that much later.
   void delay(std::chrono::steady_clock::duration by) { began += by, posed += by; }
 };
 

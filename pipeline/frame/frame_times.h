@@ -1,5 +1,5 @@
 #pragma once
-/// How long the stages took, and how old the pose was when its picture was shown.
+/// Durations of the stages, and the age of the head's pose when its picture was shown.
 ///
 /// Threads  each series is written by one thread at a time and read when the run is over.
 
@@ -11,10 +11,10 @@
 
 namespace stadion {
 
-/// The last durations of one kind [ms], in no particular order. Bounded, so that a show may run all day.
+/// The last durations of one kind [ms], in no particular order. Bounded, so that a show may run for days.
 class DurationSeries {
 public:
-  /// Room for all of them at once, so that a frame allocates nothing. What is not used takes no memory.
+  /// Reserves all room at once, so that a frame allocates nothing. Unused room takes no memory.
   void makeRoom() { values_.reserve(kCapacity); }
   void add(double ms) {
     if (values_.size() < kCapacity)
@@ -41,11 +41,11 @@ struct FrameTimes {
 
   DurationSeries app;
   std::vector<DurationSeries> cull, draw;  ///< by wall
-  DurationSeries swap;                     ///< showing: outputs of a frame handed on
+  DurationSeries swap;                     ///< handing a frame's outputs on
   DurationSeries period;                   ///< from swap to swap
-  /// Before the first frame is drawn [ms]: contexts, shaders, uploads. The other series are without it.
+  /// Time before the first frame is drawn [ms]: contexts, shaders, uploads. The other series exclude it.
   double warmUp = 0;
-  /// By wall: from the measurement of the head's pose that its picture was drawn with to the swap.
+  /// By wall: from the measurement of the head's pose, with which its picture was drawn, to the swap.
   std::vector<DurationSeries> latency;
 };
 

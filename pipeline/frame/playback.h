@@ -1,9 +1,9 @@
 #pragma once
-/// Whether show time goes on, and how fast: what somebody at the controls of a live run decides.
+/// The speed and pausing of show time, as the user of a live run controls them.
 ///
-/// While the show is paused its App stage rests; what it published last is still culled and drawn, so that
-/// cameras which are not the visitor's stay alive. In slow motion frames come as often as ever, and each
-/// takes the show less far. The times that come of it are in the frames' signatures, and so in the input log.
+/// While the show is paused, its App stage rests. The last published frame is still culled and drawn, so
+/// cameras other than the visitor's can move. In slow motion, frames come at the same rate, and each advances
+/// the show less. The resulting times are in the frames' signatures, and so in the input log.
 ///
 /// Threads  every function from any thread; FrameLoop asks once a frame.
 
@@ -20,9 +20,9 @@ public:
 
   void setPaused(bool paused) { paused_ = paused; }
   bool paused() const { return paused_; }
-  /// Lets nothing through, whoever wants to go on or to step, as long as it holds.
+  /// Stops show time while `holds` is true, also for steps.
   void hold(bool holds) { held_ = holds; }
-  /// A pause holds from this show time on: a show that goes on from further back comes to it first.
+  /// Pauses from this show time on. A show that continues from an earlier time first plays up to it.
   void standFrom(Nanoseconds time) { standsFrom_ = time; }
   Nanoseconds standsFrom() const { return standsFrom_; }
   /// Plays one frame at full speed, and pauses after it.
@@ -30,13 +30,13 @@ public:
     paused_ = true;
     ++steps_;
   }
-  /// Single frames that are still to come.
+  /// Returns the single frames still to be played.
   int stepsWaiting() const { return steps_; }
-  /// 1 = as the clock goes.
+  /// 1 = real time.
   void setSpeed(double speed) { speed_ = std::clamp(speed, kSlowest, 1.0); }
   double speed() const { return speed_; }
 
-  /// How far the frame after the one of that show time goes, in parts of a frame: 0 = the show stands still.
+  /// Returns how far show time advances after the frame at `time`, in parts of a frame; 0 = it stands still.
   double takeFrame(Nanoseconds time) {
     if (held_) return 0;
     if (!paused_) return speed_;

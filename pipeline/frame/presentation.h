@@ -1,6 +1,6 @@
 #pragma once
-/// What the operator has decided about a frame's pictures; it travels with the frame, so that all walls obey
-/// in the same one.
+/// The operator's decisions about a frame's pictures. They travel with the frame, so all walls apply them in
+/// the same one.
 ///
 /// Threads  a plain value.
 
@@ -10,7 +10,7 @@ namespace stadion {
 struct Presentation {
   bool black = false;
   bool swapEyes = false;
-  double eyeSeparation = -1;  ///< [m]; negative: as the wall file says
+  double eyeSeparation = -1;  ///< [m]; negative: from the wall file
 
   bool operator==(const Presentation&) const = default;
 };

@@ -1,11 +1,11 @@
 #pragma once
-/// What a graphics card is given is finite.
+/// Ensures that a graphics card gets only finite numbers.
 
 #include <cmath>
 
 namespace stadion {
 
-/// Zero for what is not finite.
+/// Returns zero for a number that is not finite.
 inline float finite(float x) {
   return std::isfinite(x) ? x : 0.0f;
 }

@@ -38,15 +38,15 @@ using GlVertexArray = GlObject<&GlTable::GenVertexArrays, &GlTable::DeleteVertex
 using GlFramebuffer = GlObject<&GlTable::GenFramebuffers, &GlTable::DeleteFramebuffers>;
 using GlRenderbuffer = GlObject<&GlTable::GenRenderbuffers, &GlTable::DeleteRenderbuffers>;
 
-/// Fills a buffer for one frame, and leaves it bound. New storage each time, so that no frame waits for one
-/// that still reads the old.
+/// Fills a buffer for one frame, and leaves it bound. It gets new storage each time, so no frame waits for
+/// one that still reads the old storage.
 template <class T>
 void stream(const GlTable& gl, GLenum target, const GlBuffer& buffer, std::span<const T> data) {
   gl.BindBuffer(target, buffer.name());
   gl.BufferData(target, static_cast<GLsizeiptr>(data.size_bytes()), data.data(), GL_STREAM_DRAW);
 }
 
-/// A place in the buffer that is bound, as OpenGL's calls take it.
+/// Returns a place in the bound buffer, as OpenGL's calls take it.
 inline const void* inBuffer(std::size_t bytes) {
   return reinterpret_cast<const void*>(bytes);
 }

@@ -15,7 +15,7 @@ std::string readLog(GLuint name, GetLength getLength, GetLog getLog) {
   return log;
 }
 
-/// A shader that goes with its scope; the program keeps what it needs.
+/// A shader that is deleted at the end of its scope; the program keeps its compiled form.
 class Shader {
 public:
   Shader(const GlTable& gl, GLenum kind, const std::string& source) : gl_(gl), name_(gl.CreateShader(kind)) {

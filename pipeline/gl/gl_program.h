@@ -1,7 +1,8 @@
 #pragma once
 /// A compiled and linked pair of shaders, with its uniform blocks and textures bound.
 ///
-/// Ownership  owns the GL program. Threads: the thread on which its context is current.
+/// Ownership  owns the GL program.
+/// Threads    the thread on which its context is current.
 
 #include "pipeline/gl/gl_table.h"
 
@@ -11,7 +12,7 @@
 
 namespace stadion {
 
-/// A name in the shaders, and the binding point or the texture unit that it gets.
+/// A name in the shaders, and its binding point or texture unit.
 struct GlBinding {
   const char* name;
   GLuint point;
@@ -23,7 +24,7 @@ struct GlBindings {
 
 class GlProgram {
 public:
-  /// Binds those of the names that the shaders use. Fails with the compiler's own words.
+  /// Binds those of the names that the shaders use. Fails with the compiler's message.
   static Result<GlProgram> build(const GlTable& gl, const std::string& vertex, const std::string& fragment,
                                  const GlBindings& bindings);
 
@@ -35,7 +36,7 @@ public:
   GlProgram& operator=(GlProgram&&) = delete;
 
   GLuint name() const { return name_; }
-  /// Where the uniforms "layers" and "area" are; -1 if it has none.
+  /// The locations of the uniforms "layers" and "area"; -1 if it has none.
   GLint layers() const { return layers_; }
   GLint area() const { return area_; }
 

@@ -1,8 +1,8 @@
 #pragma once
-/// The OpenGL functions that Stadion calls, as pointers that one provider handed out.
+/// The OpenGL functions that Stadion calls, as pointers from one provider.
 ///
 /// No GL library is linked: several implementations live in one process, and each fills a table of its own.
-/// The set is OpenGL 3.3 core, and a little more where there is more. To call one more, add its line here.
+/// The set is OpenGL 3.3 core, and some newer functions if they exist. To add a function, add its line here.
 ///
 /// Ownership  plain pointers into a library that stays loaded until the process ends.
 /// Threads    immutable once loaded; a call acts on the context that is current on the calling thread.
@@ -108,7 +108,7 @@ namespace stadion {
   X(PFNGLVERTEXATTRIBPOINTERPROC, VertexAttribPointer)                                                       \
   X(PFNGLVIEWPORTPROC, Viewport)
 
-/// What newer versions have; null where it is missing. Whether a context has it, its extension says.
+/// Functions of newer versions; null if missing. The extension tells whether a context has them.
 #define STADION_GL_MORE_FUNCTIONS(X)                                                                         \
   X(PFNGLCLEARBUFFERSUBDATAPROC, ClearBufferSubData)                                                         \
   X(PFNGLCLIPCONTROLPROC, ClipControl)                                                                       \
@@ -125,23 +125,23 @@ struct GlTable {
 using GlSymbol = void (*)();
 using GlResolver = GlSymbol (*)(const char* name);
 
-/// Asks `resolve` for every function of the table; fails with the name of the first one that is missing.
+/// Asks `resolve` for every function of the table; fails with the name of the first missing one.
 Result<GlTable> loadGlTable(GlResolver resolve);
 
-/// Whether the current context has the extension.
+/// Returns true if the current context has the extension.
 bool hasGlExtension(const GlTable& gl, const char* name);
 
-/// From clip coordinates to depths: z / w as it is, or (z / w + 1) / 2 in contexts that know nothing else.
+/// From clip coordinates to depths: z / w itself, or (z / w + 1) / 2 in contexts that support nothing else.
 enum class ClipDepth { ZeroToOne, MinusOneToOne };
 
-/// Makes the current context take z / w as the depth, if it can, and says what it does. Depths of single
-/// precision are exact near 0 then; otherwise they are right, but coarser far away.
+/// Makes the current context take z / w as the depth, if it can, and returns its mode. Depths of single
+/// precision are then exact near 0; otherwise they are correct, but coarser far away.
 ClipDepth settleClipDepth(const GlTable& gl);
 
-/// Whether the current context draws on the processor.
+/// Returns true if the current context draws on the processor.
 bool isSoftware(const GlTable& gl);
 
-/// What glGetError returned, in words.
+/// Returns the name of an error that glGetError returned.
 const char* glErrorName(GLenum error);
 
 }  // namespace stadion

@@ -1,5 +1,5 @@
 #pragma once
-/// How large a picture may be. OpenGL does not check the size of every buffer it is given, so we do.
+/// Limits of a picture's size. OpenGL does not check the size of every buffer, so we do.
 
 #include "engine/base/diagnostic.h"
 
@@ -11,7 +11,7 @@ namespace stadion {
 constexpr std::uint32_t kMaxPictureSide = 16384;         ///< [pixels]
 constexpr std::uint64_t kMaxPicturePixels = 1ull << 26;  ///< 8192 x 8192; about 2.5 GB of buffers
 
-/// What stands against a picture of this size, or nothing.
+/// Returns why a picture of this size is impossible, or nothing.
 std::optional<Diagnostic> checkPictureSize(std::uint32_t width, std::uint32_t height);
 
 }  // namespace stadion

@@ -1,5 +1,5 @@
 #pragma once
-/// An error that no place in a script stands for.
+/// An error without a place in a script.
 
 #include "engine/base/diagnostic.h"
 

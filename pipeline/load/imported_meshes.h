@@ -1,9 +1,8 @@
 #pragma once
-/// Models that stay in memory from one group's show to the next, so that the next one need not read them.
+/// Models that stay in memory from one group's show to the next, so that they need not be read again.
 ///
-/// A model is known by its file as it is on the disk (device, inode, size, time of change) and by how it was
-/// imported: one that has been edited is imported again. (A texture in a file of its own that has been edited
-/// is not noticed.)
+/// A model's key is its file on the disk (device, inode, size, time of change) and its import options. An
+/// edited model is imported again. (An edited texture in a file of its own is not noticed.)
 ///
 /// Ownership  owns the store that the shows use, and counts one use of each mesh in it.
 /// Threads    one loader's at a time.
@@ -26,10 +25,10 @@ public:
     std::int64_t changed = 0;  ///< [ns]
     double unit = 0;           ///< 0 = the file's own
     int up = -1;               ///< UpAxis; -1 = the file's own
-    std::uint32_t levels = 0;  ///< simplified ones that were asked for
+    std::uint32_t levels = 0;  ///< number of simplified levels requested
 
     auto operator<=>(const Key&) const = default;
-    /// Of an open file; nothing if it cannot be told.
+    /// Returns the key of an open file; nothing if it is unknown.
     static std::optional<Key> of(int file, const ImportOptions& options);
   };
 
@@ -38,7 +37,7 @@ public:
   ImportedMeshes& operator=(const ImportedMeshes&) = delete;
 
   MeshStore& store() { return store_; }
-  /// The mesh, with one use more of it, or kNoMesh.
+  /// Returns the mesh and counts one more use of it, or returns kNoMesh.
   MeshId find(const Key& key);
   void keep(const Key& key, MeshId mesh);
   std::size_t size() const { return known_.size(); }

@@ -39,14 +39,14 @@ void Loader::request(std::uint32_t number, const std::string& file, NodeRef owne
 }
 
 bool Loader::takesEffect(std::uint32_t number, Nanoseconds now) {
-  if (now == 0) return true;  // the show begins when all is there
+  if (now == 0) return true;  // the show begins when all files are loaded
   const auto decided = decided_.find(number);
   bool waits = decided != decided_.end() && now < decided->second;
   if (live_ && decided == decided_.end()) {
     const std::lock_guard lock(mutex_);
     waits = !done_.contains(number);
   }
-  // What has been passed over in a frame stays out of it, even if it arrives while the frame is made.
+  // A load that was skipped in a frame stays out of it, even if it finishes during that frame.
   const auto passedOver = awaited_.find(number);
   waits = waits || (passedOver != awaited_.end() && passedOver->second == now);
   if (waits)
@@ -66,7 +66,7 @@ std::unique_ptr<Load> Loader::take(std::uint32_t number) {
   std::unique_lock lock(mutex_);
   const bool waits = waitsTold_ && !done_.contains(number);
   if (waits) waitsTold_(true);
-  // A signal handler can set a flag, but wake nobody: look at it now and then.
+  // A signal handler can set a flag, but cannot wake a thread, so the flag is checked now and then.
   while (!changed_.wait_for(lock, std::chrono::milliseconds(20), [&] { return done_.contains(number); }))
     if (stopped()) throw RunStopped();
   if (waits) waitsTold_(false);
@@ -126,13 +126,13 @@ void Loader::work() {
   }
 }
 
-// What happens here must not end the process, but the run: App throws it again and knows what to do.
+// An exception here must end the run, not the process. App throws it again and handles it.
 Loader::Prepared Loader::prepareSafely(const Job& job) {
   const auto because = [&](const char* why) {
     try {
       return std::make_exception_ptr(std::runtime_error("loading " + job.file + ": " + why));
     } catch (...) {
-      return std::current_exception();  // not even enough memory for a sentence
+      return std::current_exception();  // not even enough memory for a message
     }
   };
   try {
@@ -155,7 +155,7 @@ std::vector<std::uint32_t> Loader::around(std::uint32_t outer) const {
   return numbers;
 }
 
-// The show's own file is where the user says; every other one lies below the show's roots.
+// The show's own file may be anywhere; every other file must be below the show's roots.
 Result<SourceText> Loader::read(const Job& job) {
   const ScriptTexts* texts = parts_.texts.get();
   if (!job.owner.valid()) {
@@ -169,7 +169,7 @@ Result<SourceText> Loader::read(const Job& job) {
   return source;
 }
 
-// Said where the scene node names its file.
+// Reported at the place where the scene node names its file.
 Diagnostic Loader::askedForBy(const Job& job, Diagnostic d) const {
   const auto outer = around_.find(job.owner.load);
   if (outer == around_.end()) return d;
@@ -231,7 +231,7 @@ std::unique_ptr<Load> Loader::build(const Job& job, std::unique_ptr<Document> do
   std::unique_ptr<Load> load = std::move(built.load);
   load->meshes = std::move(imports.counted);
   if (findings.hasErrors()) {
-    // Nobody has seen anything of it: it may go at once.
+    // No frame has shown them, so they may be freed at once.
     for (const MeshId mesh : load->meshes) parts_.meshes.release(mesh, 0);
     return nullptr;
   }
@@ -247,7 +247,7 @@ std::unique_ptr<Load> Loader::build(const Job& job, std::unique_ptr<Document> do
   return load;
 }
 
-// A hundred thousand objects with the same file: one import, and one word about it.
+// A hundred thousand objects with the same file cause one import, and one message about it.
 MeshId Loader::Imports::of(const Declaration& d, Loader& loader, Diagnostics& findings) {
   const auto up = d.optionalChoice<UpAxis>("up");
   const Key key(d.text("file"), d.optionalNumber("unit").value_or(0), up ? static_cast<int>(*up) : -1,
@@ -257,7 +257,7 @@ MeshId Loader::Imports::of(const Declaration& d, Loader& loader, Diagnostics& fi
   return at->second;
 }
 
-/// Under which key the model is kept from show to show, if any are.
+/// Returns the key under which the model is kept between shows, if models are kept.
 std::optional<ImportedMeshes::Key> Loader::keyOf(const std::string& file, const ImportOptions& options,
                                                  std::uint32_t levels) const {
   if (!parts_.kept) return {};

@@ -1,15 +1,14 @@
 #pragma once
-/// Prepares scene files beside the running show, on a thread of its own: reads, checks, imports meshes,
-/// builds nodes, writes the static chunk. App only installs the result.
+/// Prepares scene files while the show runs, on a thread of its own: reads, checks, imports meshes, builds
+/// nodes, writes the static chunk. App only installs the result.
 ///
 /// Threads   one worker; request, take, dispose and shown are App's.
-/// Errors    what is wrong with a file goes to the report function (on the worker's thread, or App's when the
-/// show
-///           is opened); the show goes on. What the worker throws, take() throws again, with the file's name.
+/// Errors    Errors in a file go to the report function, on the worker's thread, or on App's when the show is
+///           opened; the show goes on. take() throws the worker's exceptions again, with the file's name.
 ///
-/// A load takes effect when it is due, and take() waits for it, unless the show is live: then one that is not
-/// ready takes effect in the first frame in which it is, and that decision is told, so that it can be
-/// recorded. A replay is given those decisions and obeys them.
+/// A load takes effect when it is due, and take() waits for it. In a live show, a load that is not ready
+/// takes effect in the first frame in which it is ready. That decision is reported, so that it can be
+/// recorded. A replay gets these decisions and applies them.
 
 #include "engine/asset/import.h"
 #include "engine/build/builder.h"
@@ -40,12 +39,12 @@ struct LoaderParts {
   const NodeRegistry& types;
   NodeServices& services;  ///< of this show
   std::function<void(const Diagnostics&)> report;
-  const std::atomic<bool>* stop = nullptr;  ///< once true, nobody waits for a load any more
-  Nanoseconds step = 0;                 ///< of a frame, to warn of latencies that are shorter [ns]; 0: do not
+  const std::atomic<bool>* stop = nullptr;  ///< once true, no call waits for a load any more
+  Nanoseconds step = 0;                 ///< frame duration, to warn of shorter latencies [ns]; 0: no warning
   std::vector<std::string> trackers{};  ///< devices of the input log, to warn of other names
-  std::string log{};                    ///< the input log; empty: nobody knows which devices there will be
+  std::string log{};                    ///< the input log; empty: the devices are not known in advance
   ImportedMeshes* kept = nullptr;       ///< models that need not be imported again; null: none
-  /// The scripts as they are to be played; null: as their files are when they are loaded.
+  /// The scripts' texts at this point; null: each file is read when it is loaded.
   std::shared_ptr<const ScriptTexts> texts{};
 };
 
@@ -54,16 +53,16 @@ public:
   explicit Loader(LoaderParts parts);
   ~Loader() override;
 
-  /// Told of each load that came late: its number, and the show time at which it takes effect.
+  /// Called for each late load, with its number and the show time at which it takes effect.
   using LateLoad = std::function<void(std::uint32_t, Nanoseconds)>;
   void tellLateLoads(LateLoad told) { late_ = std::move(told); }
-  /// Told, by App, that it begins to wait for files (true), and that it has them (false).
+  /// Sets a function that App calls when it begins to wait for files (true), and when it has them (false).
   void tellWaiting(std::function<void(bool)> told) { waitsTold_ = std::move(told); }
-  /// The show is live: late loads do not hold it up. Before the first frame.
+  /// Declares the show live: late loads do not stop it. Call it before the first frame.
   void playLive() { live_ = true; }
-  /// The loads that are due and have not taken effect yet.
+  /// Returns the loads that are due and have not yet taken effect.
   std::vector<std::uint32_t> overdue() const;
-  /// The show is replayed: these loads came late. Before the first frame.
+  /// Declares the show a replay: these loads came late. Call it before the first frame.
   void obey(std::map<std::uint32_t, Nanoseconds> late) { decided_ = std::move(late); }
 
   void request(std::uint32_t number, const std::string& file, NodeRef owner, const Affine& X_WO) override;
@@ -73,7 +72,7 @@ public:
   void report(const Diagnostic& finding) override;
   std::string plugins() const override { return parts_.types.pluginsInWords(); }
 
-  /// All walls have shown `frame`: what was disposed of up to it may go.
+  /// Reports that all walls have shown `frame`: objects disposed of up to it may be freed.
   void shown(std::uint64_t frame);
 
 private:
@@ -87,16 +86,15 @@ private:
     NodeRef owner;
     Affine X_WO;
     std::map<std::uint32_t, Prepared>::node_type
-        place;  ///< among done_: taken beforehand, while App can be told
+        place;  ///< among done_: taken early, while App can still be notified
   };
   struct Garbage {
     std::unique_ptr<Load> load;
     std::uint64_t lastFrame;
   };
-  /// What a file's sub-scenes need to know of it to resolve names outwards. Kept only of files that have
-  /// sub-scenes.
+  /// The part of a file that its sub-scenes need to resolve outer names. Kept only for files with sub-scenes.
   struct Around {
-    std::uint32_t outer = 0;  ///< the load around it
+    std::uint32_t outer = 0;  ///< the enclosing load
     std::unique_ptr<const Document> document;
   };
 
@@ -128,16 +126,16 @@ private:
   std::condition_variable changed_;
   std::deque<Job> jobs_;
   std::map<std::uint32_t, Prepared> done_;
-  std::exception_ptr thrown_;                  ///< outside of a preparation
-  std::deque<Garbage> waiting_;                ///< for their last frame to be shown
-  std::deque<std::unique_ptr<Load>> garbage_;  ///< may go
+  std::exception_ptr thrown_;                  ///< outside a preparation
+  std::deque<Garbage> waiting_;                ///< until their last frame is shown
+  std::deque<std::unique_ptr<Load>> garbage_;  ///< may be freed
   bool ending_ = false;
   std::map<std::uint32_t, Around> around_;  ///< the worker's own
-  bool live_ = false;                       ///< this and the next four are App's
+  bool live_ = false;                       ///< this and the next four are used by App only
   LateLoad late_;
   std::function<void(bool)> waitsTold_;
   std::map<std::uint32_t, Nanoseconds> decided_;
-  std::map<std::uint32_t, Nanoseconds> awaited_;  ///< due, and passed over, last at this show time
+  std::map<std::uint32_t, Nanoseconds> awaited_;  ///< due and skipped; the show time of the last skip
   std::thread worker_;
 };
 

@@ -26,7 +26,7 @@ double millisecondsSince(Clock::time_point start) {
   return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
 }
 
-/// Times one stage of one frame, and tells the probe if there is one.
+/// Times one stage of one frame, and reports it to the probe if there is one.
 class StageSpan {
 public:
   StageSpan(DurationSeries& series, FrameProbe* probe, Span stage, std::uint64_t frame,
@@ -38,10 +38,10 @@ public:
     try {
       series_.add(millisecondsSince(start_));
     } catch (const std::bad_alloc&) {
-      // One duration less; what else needs memory will say so.
+      // One duration is lost. If memory is really short, other code will report it.
     }
   }
-  /// It was not finished: how long it took says nothing.
+  /// Leaves out a stage that did not finish, because its duration means nothing.
   void leaveOut() { counts_ = false; }
   StageSpan(const StageSpan&) = delete;
   StageSpan& operator=(const StageSpan&) = delete;
@@ -59,11 +59,11 @@ std::uint32_t numberOf(std::size_t wall) {
 
 }  // namespace
 
-/// What each kind of thread does in a pipelined run.
+/// The work of each kind of thread in a pipelined run.
 struct FrameLoop::StageThreads {
   std::function<void()> app;
   std::function<void(std::size_t wall)> cull, draw;
-  std::function<void()> stopAll;  ///< nobody waits for anybody any more
+  std::function<void()> stopAll;  ///< ends all waiting
 };
 
 FrameLoop::FrameLoop(Stages& stages, const FrameLoopOptions& options, const std::atomic<bool>& stopRequested,
@@ -76,18 +76,18 @@ FrameLoop::FrameLoop(Stages& stages, const FrameLoopOptions& options, const std:
   clock_ = FrameClock(options.rate, *options.after, options.frameTimes);
   lastSignature_ = *options.after, lastSignature_.load = {};
   nextIndex_ = options.after->frame + 1;
-  begun_ = true;  // it may stand still at that frame
+  begun_ = true;  // the show may stand still at that frame
 }
 
 FrameLoopOutcome FrameLoop::run() {
-  // Whoever waits for the outcome may stand at the bottom of a thread.
+  // The caller may be at the bottom of a thread, so exceptions must not leave.
   guard("the frame loop", kAllWalls, kNoFrame, [&]() -> Failure {
     options_.mode == Mode::Sequential ? runSequential() : runPipelined();
     return {};
   });
   outcome_.missedTicks = pacer_.missed();
   outcome_.stopped = stopped_;
-  return std::move(outcome_);  // to copy it may take memory
+  return std::move(outcome_);  // copying it may need memory
 }
 
 template <class Wait>
@@ -96,7 +96,7 @@ auto FrameLoop::waited(Span what, std::uint64_t frame, std::size_t wall, const W
   return wait();
 }
 
-// One frame after the other, one stage after the other.
+// Runs one frame after the other, one stage after the other.
 void FrameLoop::runSequential() {
   std::vector<DrawList> lists(options_.walls);
   bool well = true, warm = false;
@@ -125,19 +125,19 @@ void FrameLoop::runSequential() {
   for (std::size_t wall = 0; wall < options_.walls; ++wall) closeStage(wall);
 }
 
-// The same stages, overlapped: App fills slots, Cull turns slots into lists, Draw draws lists, all walls swap
+// Overlaps the same stages: App fills slots, Cull turns slots into lists, Draw draws lists, all walls swap
 // together.
 void FrameLoop::runPipelined() {
-  // What all machines show together none of them may leave out.
+  // No host may skip frames that all hosts show together.
   FrameSlots slots(options_.walls, options_.orders ? Delivery::Every : options_.delivery);
   std::deque<ListQueue> queues;
   while (queues.size() < options_.walls) queues.emplace_back(options_.drawBeginsEarly);
   SwapBarrier barrier(options_.walls);
-  // All walls and App: before all are ready none draws, since they may share a rasteriser, and show time
-  // stands still.
+  // All walls and App wait here. No wall draws before all are ready, since they may share a rasteriser.
+  // Meanwhile show time stands still.
   SwapBarrier opened(options_.walls + 1), warm(options_.walls + 1);
   std::once_flag warming;
-  Clock::time_point warmUpBegan{}, warmUpEnded{};  // settled before `warm` lets anything go on
+  Clock::time_point warmUpBegan{}, warmUpEnded{};  // set before `warm` opens
 
   StageThreads threads;
   threads.app = [&] {
@@ -169,7 +169,8 @@ void FrameLoop::runPipelined() {
   };
   threads.draw = [&](std::size_t wall) {
     if (!openStage(wall)) {
-      broken_ = true;  // given up, if it has not failed: App and the other walls would wait for this one
+      broken_ = true;  // stops the run even without a failure: App and the other walls would wait for this
+                       // one
       return;
     }
     if (!opened.arrive([] {})) return;
@@ -181,7 +182,7 @@ void FrameLoop::runPipelined() {
         if (list->filling->isWhole() && !warmUpStage(wall, *list)) return;
         const auto end = [&] { warmUpEnded = Clock::now(); };
         if (!waited(Span::ForWalls, kNoFrame, wall, [&] { return warm.arrive(end); })) return;
-        list->ticket.delay(warmUpEnded - warmUpBegan);  // on all walls the same: it is one frame
+        list->ticket.delay(warmUpEnded - warmUpBegan);  // equal on all walls, since it is one frame
       }
       if (!list->filling->isVoid() && !drawStage(wall, *list)) return;
       if (list->filling->isCutShort()) return;
@@ -205,7 +206,7 @@ void FrameLoop::runPipelined() {
   runThreads(threads);
 }
 
-// Whatever happens in one of the threads, the others must not wait for it.
+// A failure in one thread must not leave the others waiting for it.
 void FrameLoop::runThreads(const StageThreads& work) {
   std::vector<std::thread> threads;
   const auto start = [&](const char* what, std::size_t wall, std::function<void()> stage) {
@@ -240,9 +241,9 @@ std::optional<FrameLoop::Turn> FrameLoop::nextTurn() {
   const std::uint64_t ticks = waited(Span::ForTick, nextIndex_, kAllWalls, [&] { return pacer_.wait(); });
   if (!takeCommands()) return std::nullopt;
   const double speed = options_.playback && begun_ ? options_.playback->takeFrame(lastSignature_.time) : 1;
-  // A show that goes on after its last frame is over once this has been shown.
+  // A continued show that is past its last frame ends once this frame has been shown.
   if (speed == 0 || isPastEnd()) return told({lastSignature_, {}, standstill()});
-  // A single frame is one tick, however long the last one took.
+  // A single step is one tick, however long the last frame took.
   const bool single = options_.playback && options_.playback->paused();
   TimeSignature now = signatureAfter(single ? 1 : ticks, speed);
   if (options_.end > 0 && now.time > options_.end) return std::nullopt;
@@ -258,10 +259,10 @@ Standstill FrameLoop::standstill() const {
   return waits ? Standstill::Waiting : Standstill::Paused;
 }
 
-// What is to be shown, and whether it is the last; where this machine leads, all others hear of it.
+// Returns the frame to be shown, and whether it is the last. On the leader, also sends it to all hosts.
 FrameLoop::Turn FrameLoop::told(Turn turn) {
   if (options_.desk) turn.shown = options_.desk->state().shown;
-  // A waiting show plays its first frame, and a paused one each single step: after it, time stands again.
+  // A waiting show plays its first frame, and a paused one each single step. Then time stands still again.
   const bool stands = turn.still != Standstill::None || (options_.desk && options_.desk->state().still());
   if (stands) turn.standsAfter = standstill();
   if (!options_.orders) return turn;
@@ -270,7 +271,7 @@ FrameLoop::Turn FrameLoop::told(Turn turn) {
   return turn;
 }
 
-// Another machine has decided.
+// Returns the leader's order.
 std::optional<FrameLoop::Turn> FrameLoop::orderedTurn() {
   auto turn = waited(Span::ForTick, nextIndex_, kAllWalls, [&] { return options_.orders->next(); });
   if (!turn) {
@@ -281,7 +282,7 @@ std::optional<FrameLoop::Turn> FrameLoop::orderedTurn() {
   return turn;
 }
 
-// What a log has decided, and in a live run somebody who looks at the clock.
+// Returns the decision of the log, or in a live run of the decider, which measures time.
 FrameLoad FrameLoop::loadOf(std::uint64_t frame) {
   FrameLoad load = options_.decider ? options_.decider->decide(frame) : FrameLoad{};
   const auto [first, last] = options_.relief.equal_range(frame);
@@ -289,7 +290,7 @@ FrameLoad FrameLoop::loadOf(std::uint64_t frame) {
   return load;
 }
 
-// What the operator asked for takes effect now, in the whole of the coming frame. False: none is to come.
+// Applies the operator's commands to the whole coming frame. Returns false if no frame follows.
 bool FrameLoop::takeCommands() {
   if (!options_.desk) return true;
   options_.desk->beginFrame(nextIndex_);
@@ -304,33 +305,33 @@ std::size_t FrameLoop::framesUnderWay() const {
   return commanded ? static_cast<std::size_t>(options_.desk->state().latency) : options_.latency;
 }
 
-// With so few walls left at a frame, processors are idle. Where there are many of them, half of the walls is
-// enough: what begins early is old when it is shown.
+// With so few walls left to draw a frame, processors are idle. With many processors, half of the walls is
+// enough: a frame that begins too early is old when it is shown.
 std::size_t FrameLoop::lastWalls() const {
   const std::size_t processors = std::max(1u, std::thread::hardware_concurrency());
   return std::min(options_.walls / 2, processors - 1);
 }
 
-// Where every frame counts, time goes by frames; where the newest counts, by the clock's ticks.
+// If every frame counts, time advances by frames. If the newest counts, it advances by the clock's ticks.
 TimeSignature FrameLoop::signatureAfter(std::uint64_t ticks, double speed) {
   const std::uint64_t counted = options_.delivery == Delivery::Latest ? ticks : 1;
   if (speed == 1) return clock_.next(counted);
   return clock_.nextAfter(fromSeconds(speed * static_cast<double>(counted) / options_.rate));
 }
 
-// Asked once a frame, on the App thread, after App: so that the last frame is known before it is drawn.
+// Asked once a frame, on the App thread, after App: the last frame is then known before it is drawn.
 bool FrameLoop::noneFollows() {
   if (stopRequested_) stopped_ = true;
   return stopped_ || ending_ || isPastEnd();
 }
 
-/// Whether the show is no longer than what has been played.
+/// Returns true if the show has been played to its end.
 bool FrameLoop::isPastEnd() const {
   return (options_.frames != 0 && nextIndex_ >= options_.frames) ||
          (options_.end > 0 && clock_.timeOfNext() > options_.end);
 }
 
-/// Runs a piece of work; false, with the reason kept, if it did not succeed or threw something.
+/// Runs a piece of work. If it fails or throws, keeps the reason and returns false.
 template <class Work>
 bool FrameLoop::guard(const char* what, std::size_t wall, std::uint64_t frame, const Work& work) {
   try {
@@ -355,12 +356,12 @@ bool FrameLoop::fail(const char* what, std::size_t wall, std::uint64_t frame, co
     if (frame != kNoFrame) text += ", frame " + std::to_string(frame);
     return fail(Reason(text + ": " + why));
   } catch (...) {
-    return fail(Reason("out of memory"));  // not even enough for a sentence
+    return fail(Reason("out of memory"));  // not even enough memory for a message
   }
 }
 
-/// Whether a frame that nobody would see in time is not drawn; of those that follow each other one a second
-/// is.
+/// Returns true if a frame would be shown too late and is not drawn. Of such frames in a row, one a second is
+/// drawn.
 bool FrameLoop::passesOver(const FrameTicket& ticket) {
   const bool late = (options_.everyTick || pacer_.catchesUp()) && options_.mode == Mode::Sequential &&
                     !options_.orders && !ticket.last && pacer_.behind();
@@ -410,7 +411,7 @@ bool FrameLoop::openStage(std::size_t wall) {
   return well;
 }
 
-// Before a wall draws for the first time, so that its first frame takes no longer than others.
+// Runs before a wall draws for the first time, so that its first frame takes no longer than others.
 bool FrameLoop::warmUpStage(std::size_t wall, const DrawList& list) {
   const Clock::time_point began = Clock::now();
   const std::uint64_t frame = list.ticket.signature.frame;
@@ -420,10 +421,10 @@ bool FrameLoop::warmUpStage(std::size_t wall, const DrawList& list) {
   return well;
 }
 
-/// Show time stood still meanwhile; but a show that goes on after a crash has to catch up with that, too.
+/// Show time stood still meanwhile. A show that continues after a crash has to catch up with this time, too.
 void FrameLoop::warmedUp(Clock::duration took) {
   if (!options_.after) pacer_.hold(took);
-  // One wall after the other, or all at once.
+  // One entry per wall, for walls drawn one after the other or at once.
   for (const double ms : warmUps_)
     times_.warmUp = options_.mode == Mode::Sequential ? times_.warmUp + ms : std::max(times_.warmUp, ms);
 }
@@ -442,7 +443,7 @@ bool FrameLoop::drawStage(std::size_t wall, DrawList& list) {
   };
   if (guard("Draw", wall, frame, draw)) return true;
   span.leaveOut();
-  broken_ = true;  // given up, if it has not failed: the other walls would wait for this one
+  broken_ = true;  // stops the run even without a failure: the other walls would wait for this one
   return false;
 }
 
@@ -450,7 +451,7 @@ bool FrameLoop::swapStage(const FrameTicket& ticket) {
   const TimeSignature& now = ticket.signature;
   if (options_.orders && !options_.orders->mayShow(now)) {
     if (stopRequested_) stopped_ = true;
-    broken_ = true;  // nobody waits for this frame any longer
+    broken_ = true;  // no thread waits for this frame any longer
     return false;
   }
   {
@@ -476,7 +477,7 @@ void FrameLoop::noteShown(const FrameTicket& ticket) {
     times_.latency[wall].add(since(stages_.posed(wall).value_or(ticket.posed)));
 }
 
-/// The first frame takes as long as a driver needs to be ready, and what was begun meanwhile waits for it.
+/// The first frame waits until the driver is ready, and frames begun meanwhile wait for it.
 void FrameLoop::notePassedOver(const FrameTicket& ticket) {
   if (outcome_.framesShown == 1) ready_ = Clock::now();
   if (ticket.began < ready_) return;

@@ -34,54 +34,54 @@ struct FrameLoopOptions {
   Pace pace = Pace::Free;
   Delivery delivery = Delivery::Every;
   double rate = 60;  ///< [1/s]
-  /// Whoever is late leaves out no tick, but simulates frame after frame until it has caught up: the show is
-  /// the same however fast the machine is. One that is not pipelined does not draw meanwhile.
+  /// A late loop skips no tick, but simulates frame after frame until it has caught up. The show is then the
+  /// same on machines of any speed. A sequential loop does not draw meanwhile.
   bool everyTick = false;
   std::size_t walls = 1;
-  /// Frames under way at most, in pipelined mode (FrameSlots::limitUnderWay); the operator may change it.
+  /// Limit of frames in flight, in pipelined mode (FrameSlots::limitUnderWay); the operator may change it.
   std::size_t latency = 0;
   bool drawBeginsEarly = true;  ///< in pipelined mode: while Cull still fills the list (ListFilling)
-  /// The show goes on after this frame, which was that much earlier than the one to be shown now [ns]: it
-  /// catches up (Pacer::startLate). Nothing: it begins, late by as much.
+  /// The show continues after this frame, which is that much earlier than the present one [ns], and catches
+  /// up (Pacer::startLate). Nothing: the show begins, and is late by as much.
   std::optional<TimeSignature> after{};
   Nanoseconds late = 0;
   std::uint64_t frames = 0;  ///< 0 = until stopped
-  Nanoseconds end = 0;       ///< no frame after this show time; 0 = until stopped
-  /// Show times that a recorded run decided for some of its frames (see RunDecisions); they are obeyed.
+  Nanoseconds end = 0;       ///< last show time; 0 = until stopped
+  /// Show times that a recorded run chose for some of its frames (see RunDecisions); the loop applies them.
   std::map<std::uint64_t, Nanoseconds> frameTimes{};
-  /// What it decided because something took too long; it is obeyed.
+  /// A recorded run's decisions about overload; the loop applies them.
   LoadDecisions relief{};
-  LoadDecider* decider = nullptr;  ///< who decides that in a live run; null = nobody
-  Playback* playback = nullptr;    ///< who may pause a live run or slow it down; null = nobody
-  OperatorDesk* desk = nullptr;    ///< whose commands are taken at the start of each frame; null = nobody's
-  /// The other machines that play this show, which then is shown frame by frame; null = there are none.
+  LoadDecider* decider = nullptr;  ///< makes these decisions in a live run; null = none are made
+  Playback* playback = nullptr;    ///< pauses a live run or slows it down; null = never
+  OperatorDesk* desk = nullptr;    ///< its commands are taken at the start of each frame; null = none
+  /// The other hosts that play this show, which is then shown frame by frame; null = there are none.
   FrameOrders* orders = nullptr;
 };
 
 struct FrameLoopOutcome {
   std::uint64_t framesSimulated = 0, framesShown = 0;
   std::uint64_t framesDrawn = 0;      ///< of those shown
-  std::uint64_t missedTicks = 0;      ///< App's: it began no frame
+  std::uint64_t missedTicks = 0;      ///< ticks in which App began no frame
   std::uint64_t ticksPassedOver = 0;  ///< between frames shown, as below, in all
-  /// Ticks in a row between two frames shown, of those that were begun after the first one was shown.
+  /// Most ticks in a row between two shown frames that began after the first one was shown.
   std::uint64_t mostPassedOver = 0;
   bool stopped = false;    ///< by request, before all frames were done
-  bool nextGroup = false;  ///< the operator asked for the show to begin again
+  bool nextGroup = false;  ///< the operator asked to restart the show
   Failure failure;
 };
 
 class FrameLoop {
 public:
-  /// `stopRequested` may be set by a signal handler; it is looked at once a frame. The frame in which it is
-  /// seen is the last one, and drawn as such.
+  /// `stopRequested` may be set by a signal handler and is read once a frame. The frame that reads it is the
+  /// last one, and is drawn as such.
   FrameLoop(Stages& stages, const FrameLoopOptions& options, const std::atomic<bool>& stopRequested,
             FrameProbe* probe = nullptr);
 
   FrameLoopOutcome run();
   const FrameTimes& times() const { return times_; }
-  /// Ends the show after the frame that App is working on. For App's own thread.
+  /// Ends the show after App's current frame. For App's own thread.
   void endAfterThisFrame() { ending_ = true; }
-  /// Whether the show began late and has not caught up yet. For App's own thread.
+  /// Returns true if the show began late and has not caught up yet. For App's own thread.
   bool catchesUp() const { return pacer_.catchesUp(); }
 
 private:
@@ -91,11 +91,11 @@ private:
   void runPipelined();
   void runThreads(const StageThreads& work);
   void drawAndClose(const StageThreads& work, std::size_t wall);
-  /// What App does next.
+  /// App's next step.
   using Turn = FrameOrder;
   std::optional<Turn> nextTurn();
   std::optional<Turn> orderedTurn();
-  Standstill standstill() const;  ///< where show time does not go on
+  Standstill standstill() const;  ///< the reason for which show time stands still
   Turn told(Turn turn);
   template <class Wait>
   auto waited(Span what, std::uint64_t frame, std::size_t wall, const Wait& wait);
@@ -131,18 +131,18 @@ private:
   FrameTimes times_;
   FrameLoopOutcome outcome_;
   std::uint64_t nextIndex_ = 0;
-  std::uint64_t passedOver_ = 0;  ///< frames in a row that were late and not drawn
+  std::uint64_t passedOver_ = 0;  ///< late frames in a row that were not drawn
   FrameClock clock_;
   TimeSignature lastSignature_;
-  bool begun_ = false;   ///< a frame has been simulated, here or elsewhere: there is one to stand still at
-  bool ending_ = false;  ///< App was told to end after this frame
+  bool begun_ = false;   ///< a frame has been simulated, on any host: the show can stand still at it
+  bool ending_ = false;  ///< App must end after this frame
   bool ended_ = false;   ///< App has begun its last frame
   std::atomic<bool> stopped_ = false;
-  std::atomic<bool> broken_ = false;  ///< failed, or Draw gave up: all threads are to end at once
+  std::atomic<bool> broken_ = false;  ///< failed, or Draw stopped: all threads must end at once
   std::mutex failureMutex_;
-  std::chrono::steady_clock::time_point ready_{};  ///< the first frame was shown
-  std::vector<double> warmUps_;  ///< by wall: what getting ready took [ms]; each its Draw thread's own
-  // Of the frame shown last; whoever swaps has them.
+  std::chrono::steady_clock::time_point ready_{};  ///< time at which the first frame was shown
+  std::vector<double> warmUps_;  ///< by wall: duration of its warm-up [ms]; each used by its Draw thread only
+  // Of the frame shown last; used by the thread that swaps.
   std::chrono::steady_clock::time_point lastSwap_{};
   bool lastDrawn_ = false;
   std::optional<Nanoseconds> lastShown_;  ///< its show time

@@ -1,10 +1,10 @@
 #pragma once
-/// What frame comes next and when it may be shown, where several machines play one show: one of them leads,
-/// the others follow (cluster/).
+/// The next frame, and the permission to show it, when several hosts play one show: one leads, the others
+/// follow (cluster/).
 ///
 /// Threads  next() and issue() on the App thread; mayShow() on the Draw thread that arrived last.
-/// Errors   whoever is to wait no longer answers nothing, or false; the run then ends as if it had been asked
-///          to.
+/// Errors   If the wait is no longer wanted, the functions return nothing or false. The run then ends as if
+///          it had been asked to.
 
 #include "engine/base/time_signature.h"
 #include "pipeline/frame/presentation.h"
@@ -14,29 +14,28 @@
 
 namespace stadion {
 
-/// Why show time stands still.
+/// The reason for which show time stands still.
 enum class Standstill : std::uint8_t { None, Paused, Waiting };  ///< Waiting: for the operator's Start
 
-/// A frame, as the machine that leads has decided it for all.
+/// A frame, as the leader has decided it for all.
 struct FrameOrder {
   TimeSignature signature;
   Presentation shown{};
-  Standstill still = Standstill::None;        ///< if it stands, this is its last frame once more
-  Standstill standsAfter = Standstill::None;  ///< what a machine that leads in our place goes on with
+  Standstill still = Standstill::None;        ///< if show time stands still, this is the last frame again
+  Standstill standsAfter = Standstill::None;  ///< the state with which a new leader continues
   bool last = false;                          ///< no frame follows it
-  bool drawn = true;                          ///< false: this machine is not yet one of those that show it
+  bool drawn = true;                          ///< false: this host does not yet show frames
 };
 
 class FrameOrders {
 public:
   virtual ~FrameOrders() = default;
   virtual bool leads() const = 0;
-  /// Who leads: this is the next frame; it may be made the last one. Its input follows with the sample that
-  /// App takes for it.
+  /// Leader: issues the next frame; it may be changed into the last one. Its input follows with App's sample.
   virtual void issue(FrameOrder& order) = 0;
-  /// Who follows: waits for the next frame. Nothing: there is none.
+  /// Follower: waits for the next frame. Returns nothing if there is none.
   virtual std::optional<FrameOrder> next() = 0;
-  /// All walls of this machine have drawn that frame (or it is not drawn): waits until all machines have.
+  /// All walls of this host have drawn that frame (or it is not drawn). Waits until all hosts have.
   virtual bool mayShow(const TimeSignature& now) = 0;
 };
 

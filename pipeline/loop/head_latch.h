@@ -1,16 +1,16 @@
 #pragma once
-/// Late latch: just before a frame is drawn, the head's newest pose takes the place of the one that App
-/// sampled one or two frames earlier.
+/// Late latch: just before a frame is drawn, the head's newest pose replaces the one that App sampled one or
+/// two frames earlier.
 ///
 /// It is taken once a frame, by the wall that comes first, so that all views show the room from
 /// the same head and no edge between walls is seen. What was culled stays: Cull has looked for what may be
 /// seen from anywhere within the reach (WallViews::reach), and a head that has gone farther is drawn from its
 /// edge, and counted. Lights, shadows and the order of what is transparent are those of App's pose.
 ///
-/// Pictures then depend on when they were drawn.
+/// Pictures then depend on the time at which they were drawn.
 ///
 /// Frames   R is the rig; it stays where App has put it.
-/// Threads  latch() on any wall's Draw thread, all walls at the same frame; the counts when they are over.
+/// Threads  latch() on any wall's Draw thread, all walls at the same frame; the counts after the run.
 
 #include "engine/input/input_device.h"
 #include "pipeline/view/wall_views.h"
@@ -21,10 +21,10 @@
 
 namespace stadion {
 
-/// What became of the frames that were drawn.
+/// Counts of latched frames.
 struct LatchCounts {
   std::uint64_t latched = 0;  ///< had a newer pose
-  std::uint64_t beyond = 0;   ///< of these, went beyond the reach
+  std::uint64_t beyond = 0;   ///< of these, the head was beyond the reach
   double farthest = 0;        ///< [m]
   double widest = 0;          ///< [rad]
 };
@@ -33,7 +33,7 @@ class HeadLatch {
 public:
   using TimePoint = std::chrono::steady_clock::time_point;
 
-  /// Borrows the device, which must say headSoon().
+  /// Borrows the device, which must implement headSoon().
   HeadLatch(InputDevice& input, const HeadReach& reach) : input_(input), reach_(reach) {}
 
   /// Looks at the list's wall from the newest head there is, carried on to `seen`, the time at which pictures
@@ -44,7 +44,7 @@ public:
 
 private:
   struct Taken {
-    TimePoint frame{};  ///< when it began: no two frames have that in common
+    TimePoint frame{};  ///< start of the frame, which identifies it
     std::optional<Pose> X_RH;
     TimePoint measured{};
   };

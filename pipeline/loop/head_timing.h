@@ -1,5 +1,5 @@
 #pragma once
-/// How a head's pose is brought closer to the moment at which its picture is seen.
+/// Measures that bring a head's pose closer to the moment at which its picture is seen.
 ///
 /// Threads  plain values.
 
@@ -13,10 +13,10 @@ namespace stadion {
 struct HeadTiming {
   static constexpr Nanoseconds kToSwap = -1;
 
-  /// Late latch: Draw takes the newest pose, as far as it lies within. Nothing: it takes App's.
+  /// Late latch: Draw takes the newest pose within this reach. Nothing: it takes App's pose.
   std::optional<HeadReach> latch{};
-  /// How far ahead of its frame's start the head is told [ns]; kToSwap: as long as frames take to their swap.
-  /// Nothing: as it is.
+  /// Prediction of the head's pose after its frame's start [ns]; kToSwap: for the time until the swap.
+  /// Nothing: no prediction.
   std::optional<Nanoseconds> predict{};
 };
 

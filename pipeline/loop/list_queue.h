@@ -1,6 +1,6 @@
 #pragma once
-/// Draw lists on their way from a wall's Cull to its Draw: two of them, so that one is filled while the other
-/// is drawn.
+/// Draw lists on their way from a wall's Cull to its Draw. There are two: one is filled while the other is
+/// drawn.
 
 #include "pipeline/draw_list/draw_list.h"
 #include "pipeline/draw_list/list_filling.h"
@@ -14,7 +14,7 @@ namespace stadion {
 
 class ListQueue {
 public:
-  /// `early`: Draw may have a list while it is filled (ListFilling); else when that has finished.
+  /// `early`: Draw may take a list while it is filled (ListFilling), else only after that.
   explicit ListQueue(bool early)
       : fillings_{ListFilling([this] { give(handed_, &lists_[0]); }, early),
                   ListFilling([this] { give(handed_, &lists_[1]); }, early)},
@@ -23,13 +23,13 @@ public:
     for (std::size_t i = 0; i < lists_.size(); ++i) lists_[i].filling = &fillings_[i];
   }
 
-  /// For Cull: a list to fill; waits for one. Null after stop(). It goes to Draw by its ListFilling.
+  /// For Cull: waits for a list to fill. Null after stop(). It goes to Draw by its ListFilling.
   DrawList* takeEmpty() {
     DrawList* list = take(empty_);
     if (list) list->filling->restart();
     return list;
   }
-  /// For Draw: the next list; waits for it. Null after stop(), or when finished and nothing is left.
+  /// For Draw: waits for the next list. Null after stop(), or when finished and nothing is left.
   DrawList* takeHanded() { return take(handed_); }
   void giveEmpty(DrawList* list) { give(empty_, list); }
 
@@ -38,7 +38,7 @@ public:
     finished_ = true;
     changed_.notify_all();
   }
-  /// Nobody waits any more. What is not complete is void.
+  /// Ends all waiting. Incomplete lists are void.
   void stop() {
     {
       const std::lock_guard lock(mutex_);

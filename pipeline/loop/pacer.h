@@ -1,5 +1,5 @@
 #pragma once
-/// When the next frame may begin.
+/// Decides when the next frame may begin.
 
 #include "engine/base/time_signature.h"
 
@@ -8,35 +8,34 @@
 
 namespace stadion {
 
-/// What happens to the frame rate (IRIS Performer's phases).
+/// Policies of the frame rate (IRIS Performer's phases).
 enum class Pace {
   Free,   ///< as fast as possible
-  Lock,   ///< frames begin on ticks of the rate; after a missed tick the next one is waited for
+  Lock,   ///< frames begin on ticks of the rate; after a missed tick the loop waits for the next one
   Float,  ///< a frame that missed its tick begins at once, and the ticks move with it
 };
 
 class Pacer {
 public:
-  /// With `everyTick` none is left out: what is late begins at once, until it has caught up (Float: the ticks
-  /// wait).
+  /// With `everyTick` no tick is skipped: late frames begin at once until they have caught up (Float: the
+  /// ticks wait).
   Pacer(Pace pace, double rate, bool everyTick = false);
 
-  /// The first frame is that much late. It and those after it are simulated one by one until they have
-  /// caught up, for as long again at most; what is late still is then left out as ever. Before the first
-  /// wait(). Without effect where nobody waits for ticks.
+  /// Starts late by `by`. Frames are simulated tick by tick until they catch up, for at most `by`; later
+  /// ticks are skipped as usual. Call it before the first wait(). It has no effect on a pacer that waits for
+  /// no ticks.
   void startLate(std::chrono::nanoseconds by) {
     startsLate_ = std::chrono::duration_cast<Clock::duration>(by);
   }
-  /// Whether that is going on.
+  /// Returns true while frames catch up.
   bool catchesUp() const { return started_ && Clock::now() < catchUpUntil_; }
-  /// Waits until the next frame may begin. Returns how many ticks have passed since the previous one: 1 when
-  /// all is well.
+  /// Waits until the next frame may begin. Returns the number of ticks since the previous one; normally 1.
   std::uint64_t wait();
-  /// Nothing could go on for so long: the ticks to come are as much later.
+  /// The loop was stopped for so long: the coming ticks are moved by as much.
   void hold(std::chrono::steady_clock::duration by);
-  /// Whether the next frame is late already.
+  /// Returns true if the next frame is late already.
   bool behind() const { return pace_ != Pace::Free && started_ && Clock::now() > next_; }
-  /// Ticks that passed without a frame beginning.
+  /// Returns the ticks that passed without the start of a frame.
   std::uint64_t missed() const { return missed_; }
 
 private:

@@ -1,7 +1,7 @@
 #pragma once
-/// The newest frame's pictures, for whoever shows them at a pace of their own.
+/// The newest frame's pictures, for a thread that shows them at its own pace.
 ///
-/// Draw leaves them here and goes on; what nobody has fetched by the next frame is replaced.
+/// Draw leaves them here and goes on. The next frame replaces pictures that were not fetched.
 ///
 /// Threads  take() on the Draw threads, fetch() on any one other.
 
@@ -25,13 +25,13 @@ public:
     return {};
   }
 
-  /// Nobody can show anything any more: who draws on is told why.
+  /// Reports that no pictures can be shown any more. Later take() calls fail with this reason.
   void close(Reason why) {
     const std::lock_guard lock(mutex_);
     closed_ = std::move(why);
   }
 
-  /// True, and the pictures in the place of `walls`, if there are newer ones than those fetched last.
+  /// If there are newer pictures than those fetched last, puts them into `walls` and returns true.
   bool fetch(std::vector<EyePictures>& walls, TimeSignature& time) {
     const std::lock_guard lock(mutex_);
     if (!fresh_) return false;

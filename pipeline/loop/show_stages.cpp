@@ -71,7 +71,7 @@ void ShowStages::app(const TimeSignature& now, std::size_t slot) {
     parts_.input.sampleFrame(now.time - now.step, now.time, input);
     noteMeasured(input);
   }
-  // What is published goes into the slot as it is found, unless somebody wants to see it as a whole.
+  // Changes go into the slot as they are found, unless the probe wants to see them as a whole.
   const bool whole = parts_.probe && parts_.probe->wantsShares(now.frame, kNoWall);
   changes_.sink = whole ? nullptr : &parts_.state;
   parts_.state.begin(slot);
@@ -93,7 +93,7 @@ void ShowStages::app(const TimeSignature& now, std::size_t slot) {
   parts_.observer(now, input, parts_.scene);
 }
 
-/// For whom publishing was: the visitor's place goes with every frame.
+/// Reports the end of publishing; the visitor's place is part of every frame.
 void ShowStages::tellPublished() {
   std::vector<NodeRef> owners{NodeRef{}};
   for (const ChangeSet::Instance& i : changes_.instances)
@@ -127,7 +127,8 @@ void ShowStages::hear(const InputSample& input, bool still) {
   parts_.sounds->hear(heard_, {parts_.desk ? parts_.desk->state().volume : 1, still});
 }
 
-// The signature, sky and viewer of the last frame stay in the change set, but that the visitor looks around.
+// Signature, sky and viewer of the last frame stay in the change set, except that the visitor may look
+// around.
 void ShowStages::still(const TimeSignature& now, std::size_t slot) {
   changes_.sink = nullptr;
   if (published_)

@@ -32,25 +32,25 @@ struct EyePictures {
 
 /// Takes finished frames: files, hashes, a video, a window.
 ///
-/// Threads  take() on the Draw thread that arrived last, the others waiting; it should hand on and return.
+/// Threads  take() on the Draw thread that arrived last, while the others wait; it should hand on and return.
 class PictureSink {
 public:
   virtual ~PictureSink() = default;
-  /// Whether the pictures of this frame are wanted at all: reading them back costs time. Any thread.
+  /// Returns true if the pictures of this frame are wanted: reading them back costs time. Any thread.
   virtual bool wants(const TimeSignature& now) const = 0;
   virtual Failure take(const TimeSignature& now, const std::vector<EyePictures>& walls) = 0;
 };
 
-/// Sees the scene after each App stage, on the App thread.
+/// Called with the scene after each App stage, on the App thread.
 using AppObserver = std::function<void(const TimeSignature&, const InputSample&, const Scene&)>;
 
 /// Walls that are drawn by a process each (process/drawing_in_workers.h).
 struct WallWorkers {
   bool egl = false;                     ///< else OSMesa
   std::uint32_t rasteriserThreads = 0;  ///< of each process
-  bool everyFrame = true;               ///< else the newest counts, and nobody waits for a wall that is late
+  bool everyFrame = true;               ///< else the newest frame counts, and no wall waits for a late one
   double rate = 60;                     ///< [1/s]
-  std::function<void(const std::string&)> tell{};  ///< what became of a process; on Draw threads
+  std::function<void(const std::string&)> tell{};  ///< receives reports about processes; on Draw threads
 };
 
 struct ShowParts {
@@ -61,28 +61,30 @@ struct ShowParts {
   std::vector<WallViews> walls;
   GlProvider* provider = nullptr;  ///< null draws nothing
   PictureSink* sink = nullptr;
-  WallContexts* contexts = nullptr;  ///< that outlive the show; null: it makes its own
-  bool drawUnseen = true;            ///< false: only frames that the sink wants, and the last one, are drawn
+  WallContexts* contexts = nullptr;  ///< contexts that outlive the show; null: it makes its own
+  bool drawUnseen = true;            ///< false: draws only frames that the sink wants, and the last one
   AppObserver observer;
   FrameProbe* probe = nullptr;
-  /// Once true, Draw gives up what it is at and the run ends. Any thread; null = never.
+  /// Once it returns true, Draw stops and the run ends. Any thread; null = never.
   std::function<bool()> giveUp{};
-  std::function<void()> shown{};       ///< all walls have shown a frame; on the Draw thread that swaps
-  SoundPlayer* sounds = nullptr;       ///< null: nobody listens
-  const OperatorDesk* desk = nullptr;  ///< null: nobody commands
+  std::function<void()> shown{};       ///< called when all walls have shown a frame, on the Draw thread that
+                                       ///< swaps
+  SoundPlayer* sounds = nullptr;       ///< null: no sound
+  const OperatorDesk* desk = nullptr;  ///< null: no operator
   RenderQuality quality{};
   std::optional<WallWorkers> workers{};  ///< nothing: this process draws
-  std::vector<WallPixels> otherWalls{};  ///< of the room, that other machines draw: levels are chosen for all
-  /// By wall: where it is drawn; none: anywhere. Expects a thread or a process for each wall.
+  std::vector<WallPixels> otherWalls{};  ///< walls of the room that other hosts draw: detail levels are
+                                         ///< chosen for all walls
+  /// By wall: its processors; empty: any. Expects a thread or a process for each wall.
   std::vector<ProcessorSet> processors{};
   HeadTiming head{};  ///< the walls' views must have its reach, too
-  /// What became of a wall that this process draws; on Draw threads.
+  /// Receives reports about walls that this process draws; on Draw threads.
   std::function<void(const std::string&)> tell{};
 };
 
-/// How often a wall kept an older picture, because it was not drawn in time.
+/// Counts of frames in which a wall kept an older picture because the new one was late.
 struct WallLateness {
-  std::uint64_t frames = 0, inARow = 0;  ///< in all, and at most one after the other
+  std::uint64_t frames = 0, inARow = 0;  ///< in all; at most in a row
 };
 
 class ShowStages final : public Stages {
@@ -103,22 +105,22 @@ public:
   void closeWall(std::size_t wall) override;
   Failure swap(const TimeSignature& now) override;
 
-  /// Of the frame drawn last; their number says which that is. For when the run is over.
+  /// Returns the pictures of the frame drawn last, with its number. For use after the run.
   const std::vector<EyePictures>& lastPictures() const { return pictures_; }
   /// Of wall `wall`, by view: what it was drawn with in all. For when the run is over.
   const ViewTotals& drawn(std::size_t wall) const { return drawn_[wall].totals; }
   std::string glDescription() const { return glDescription_; }
-  /// For when the run is over.
+  /// For use after the run.
   const WallLateness& late(std::size_t wall) const { return drawn_[wall].late; }
-  /// What late latch did; null if there was none. For when the run is over.
+  /// Returns the counts of late latch; null without late latch. For use after the run.
   const LatchCounts* latched() const { return latch_ ? &latch_->counts() : nullptr; }
-  /// What prediction is aimed at now: so long after a frame's start [ns]. Any thread.
+  /// Returns the current prediction, as time after a frame's start [ns]. Any thread.
   Nanoseconds aimedAt() const;
-  /// The newest frame that all walls have shown. Any thread.
+  /// Returns the newest frame that all walls have shown. Any thread.
   std::uint64_t shownFrame() const { return shownFrame_; }
 
 private:
-  /// What a wall has drawn last.
+  /// The last picture of a wall.
   struct Drawn {
     std::uint32_t views = 0;
     std::uint64_t frame = 0;
@@ -139,9 +141,9 @@ private:
   ChangeSet changes_;
   bool published_ = false;  ///< the scene, whole
   StillCasters stillCasters_;
-  std::vector<WallPixels> wallPixels_;  ///< of the walls that show what the visitor sees
+  std::vector<WallPixels> wallPixels_;  ///< of the walls with the visitor's view
   RoomCull room_;
-  std::vector<WallCull> culls_;  ///< by wall, each its Cull's own
+  std::vector<WallCull> culls_;  ///< by wall, each used by its Cull only
   SoundScape heard_;
   std::unique_ptr<WallDrawing> drawing_;  ///< null draws nothing
   std::vector<Drawn> drawn_;              ///< by wall

@@ -1,5 +1,5 @@
 #pragma once
-/// All walls show the same frame together: nobody goes on before everybody has drawn.
+/// Lets all walls show the same frame together: each waits until all have drawn.
 
 #include "engine/base/time_signature.h"
 
@@ -13,8 +13,8 @@ class SwapBarrier {
 public:
   explicit SwapBarrier(std::size_t walls) : walls_(walls) {}
 
-  /// Waits for the other walls. The last one to arrive runs `show`, then all go on. False when the run was
-  /// stopped.
+  /// Waits for the other walls. The last one to arrive runs `show`, then all go on. Returns false if the run
+  /// was stopped.
   template <class Show>
   bool arrive(const Show& show) {
     std::unique_lock lock(mutex_);

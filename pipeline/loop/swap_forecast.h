@@ -1,7 +1,7 @@
 #pragma once
-/// How long after a frame's start its pictures are shown: what the last frames took, the middle one.
+/// Predicts the time from a frame's start to its swap: the median of the last frames.
 ///
-/// Threads  note() by whoever swaps; expected() by any.
+/// Threads  note() on the thread that swaps; expected() from any.
 
 #include "engine/base/time_signature.h"
 
@@ -17,7 +17,7 @@ public:
   using Clock = std::chrono::steady_clock;
 
   void note(Clock::duration startToSwap);
-  /// 0 until a frame has been shown [ns].
+  /// Returns 0 until a frame has been shown [ns].
   Nanoseconds expected() const { return expected_; }
 
 private:

@@ -1,11 +1,11 @@
 #pragma once
-/// The operator's place beside a running show: what was asked for, when it takes effect, and how things
-/// stand.
+/// The operator's controls of a running show: requested commands, the frame in which they take effect, and
+/// the current state.
 ///
 /// Commands take effect at the start of the next frame, on all walls together. Pausing, stepping, waiting and
-/// the next group decide when show time goes on, which is in the frames' times; the head's freezing is in
-/// what its tracker says; the others change pictures and sounds alone. All of that is in the input log of a
-/// live run, and a replay obeys it.
+/// the next group control show time, and so the frames' times. Freezing the head changes its tracker's
+/// samples. The other commands change only pictures and sounds. The input log of a live run records all
+/// commands, and a replay applies them.
 ///
 /// Threads  queue(), leaving() and pictureSeen() from any; everything else is App's while the show runs.
 
@@ -29,26 +29,26 @@ public:
   const OperatorState& state() const { return state_; }
   Playback& playback() { return playback_; }
 
-  /// The run was started with so many frames under way at most; 0: as many as there is room for.
+  /// Sets the run's limit of frames in flight; 0: as many as there is room for.
   void startWith(std::size_t latency);
-  /// A show begins from the start: it plays, or waits. Black walls, eyes and volume stay as they are.
+  /// Begins a show from its start: it plays, or waits. Black walls, eyes and volume stay as they are.
   void beginGroup();
-  /// Groups so far, this one included.
+  /// Returns the number of groups so far, this one included.
   std::uint64_t groups() const { return groups_; }
-  /// Until the present group's first picture is seen, asking for the next one changes nothing: whoever
-  /// presses the key again in the meantime means this one.
+  /// Ignores further requests for the next group until the present group's first picture is seen. A second
+  /// press of the key in the meantime means the same group.
   void awaitPicture() { pictureAwaited_ = true; }
-  /// True for the first one.
+  /// Returns true for the first picture.
   bool pictureSeen() { return pictureAwaited_.exchange(false); }
-  /// The next group was asked for: what is still being drawn need not be finished.
+  /// Returns true if the next group was requested: a picture that is being drawn need not be finished.
   bool leaving() const { return leaving_; }
 
-  /// The coming frame's commands, in their order: those that a log has for it, then those that have come.
+  /// Applies the coming frame's commands in their order: first those of a log, then those received.
   void beginFrame(std::uint64_t frame);
-  /// Orders that a replayed run had.
+  /// Sets the orders of a replayed run.
   void obey(RunOrders orders) { recorded_ = std::move(orders); }
 
-  /// Learns of each command that was obeyed, on the App thread.
+  /// Called for each applied command, on the App thread.
   std::function<void(std::uint64_t frame, const OperatorCommand&)> told;
 
 private:

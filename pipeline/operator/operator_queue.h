@@ -1,12 +1,12 @@
 #pragma once
-/// Commands on their way from whoever heard them to the App thread.
+/// Commands on their way from the input devices to the App thread.
 ///
 ///     queue.post({OperatorAction::Pause});            // a key: pause, or go on
 ///     queue.post({OperatorAction::Volume, 0.1, true});  // a little louder
 ///
 /// Threads  post() from any thread; take() by App, at the start of a frame, so that a command takes effect
 ///          with a whole frame on all walls.
-/// Errors   a full queue refuses (post() is false): nobody has taken anything for a long time.
+/// Errors   A full queue refuses commands (post() returns false): App has not taken any for a long time.
 
 #include "engine/input/operator_command.h"
 
@@ -29,17 +29,17 @@ public:
     waiting_.push_back(command);
     return true;
   }
-  /// When the next group was asked for last.
+  /// Returns the time of the last request for the next group.
   std::chrono::steady_clock::time_point nextGroupAsked() const {
     const std::lock_guard lock(mutex_);
     return nextGroupAsked_;
   }
-  /// How many such commands have come since take().
+  /// Returns the number of such commands since take().
   std::size_t count(OperatorAction action) const {
     const std::lock_guard lock(mutex_);
     return static_cast<std::size_t>(std::ranges::count(waiting_, action, &OperatorCommand::action));
   }
-  /// All that have come since the last call, in their order.
+  /// Returns all commands since the last call, in their order.
   std::vector<OperatorCommand> take() {
     const std::lock_guard lock(mutex_);
     return std::exchange(waiting_, {});

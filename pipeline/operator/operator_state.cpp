@@ -13,7 +13,7 @@ void turn(bool& what, const OperatorCommand& command) {
 bool set(double& what, double now, double most, const OperatorCommand& command) {
   if (!command.value) return false;
   const double wanted = command.relative ? now + *command.value : *command.value;
-  // A step beyond the end stops there; a figure beyond it is a mistake.
+  // A relative step beyond the end stops there; an absolute value beyond it is an error.
   if (!command.relative && (wanted < 0 || wanted > most)) return false;
   what = std::clamp(wanted, 0.0, most);
   return true;

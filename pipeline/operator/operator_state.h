@@ -1,7 +1,7 @@
 #pragma once
-/// What the operator has decided about the running show, as far as it lasts longer than a moment.
+/// The operator's lasting decisions about the running show.
 ///
-/// Threads  App's own. What the walls need of it travels with each frame (Presentation).
+/// Threads  App's own. The part that the walls need travels with each frame (Presentation).
 /// Errors   a value that is not finite or out of range is refused; the others are as documented.
 
 #include "engine/input/operator_command.h"
@@ -19,15 +19,15 @@ struct OperatorState {
   bool paused = false;
   bool headFrozen = false;
   double volume = 1;                 ///< from 0 to 1
-  double latency = 0;                ///< frames under way at most, a whole number; 0: as the run was started
-  double runLatency = kMostLatency;  ///< with which it was started
+  double latency = 0;                ///< limit of frames in flight, a whole number; 0: as the run was started
+  double runLatency = kMostLatency;  ///< the limit at the run's start
   Presentation shown;
-  double wallsEyeSeparation = 0.064;  ///< what the wall file says [m]
+  double wallsEyeSeparation = 0.064;  ///< from the wall file [m]
   bool nextGroup = false, end = false;
 
-  /// False if the command's value makes no sense; then nothing changes.
+  /// Applies a command. Returns false, and changes nothing, if its value makes no sense.
   bool obey(const OperatorCommand& command);
-  /// Whether show time stands still, but for single steps.
+  /// Returns true if show time stands still, except for single steps.
   bool still() const { return waiting || paused; }
   double eyeSeparation() const { return shown.eyeSeparation < 0 ? wallsEyeSeparation : shown.eyeSeparation; }
 };

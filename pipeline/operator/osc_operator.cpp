@@ -37,7 +37,7 @@ Address addressOf(std::string_view path) {
   return {action, relative};
 }
 
-/// As OperatorState obeys it.
+/// The maximum that OperatorState accepts.
 double mostOf(OperatorAction figure) {
   if (figure == OperatorAction::Latency) return OperatorState::kMostLatency;
   return figure == OperatorAction::Volume ? 1 : OperatorState::kWidestEyes;
@@ -79,7 +79,7 @@ std::optional<OperatorCommand> operatorCommandOf(const OscMessage& m) {
   if (isFigure(*to.action) || isSwitch(*to.action))
     command.value = m.numbers[0];
   else if (m.numbers[0] == 0)
-    return {};  // a button on a tablet sends 1 when it is pressed and 0 when it is let go
+    return {};  // a tablet's button sends 1 when it is pressed and 0 when it is released
   return command;
 }
 

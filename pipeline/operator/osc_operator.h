@@ -1,16 +1,16 @@
 #pragma once
-/// The operator's commands as Open Sound Control messages: a tablet, a show controller, `oscsend`.
+/// The operator's commands as Open Sound Control messages: from a tablet, a show controller, `oscsend`.
 ///
 ///     /stadion/start           /stadion/step          /stadion/next-group      /stadion/end
 ///     /stadion/pause [0|1]     /stadion/black [0|1]   /stadion/swap-eyes [0|1] /stadion/freeze-head [0|1]
 ///     /stadion/eye-separation METRES    /stadion/eye-separation/by METRES
 ///     /stadion/volume 0..1              /stadion/volume/by -1..1
 ///
-/// Without a number, what is on goes off and the other way round.
+/// Without a number, the command toggles.
 ///
 /// Threads  the server's own.
-/// Errors   what is no command, or has a figure that is none of its own, is not taken and told of once, with
-///          what it takes. Who can send to the port can command the show.
+/// Errors   Unknown commands and wrong values are ignored. The first one is reported, with the valid commands
+///          or values. Any program that can send to the port can command the show.
 
 #include "pipeline/device/osc_server.h"
 #include "pipeline/operator/operator_queue.h"
@@ -19,9 +19,10 @@
 
 namespace stadion {
 
-/// The command that a message is, or nothing.
+/// Returns the command that a message stands for, or nothing.
 std::optional<OperatorCommand> operatorCommandOf(const OscMessage& m);
-/// What is wrong with a message that is none, in one line; empty if nothing is: a tablet's button was let go.
+/// Returns the error of a message without a command, in one line. Empty if there is none: a tablet's button
+/// was released.
 std::string complaintAbout(const OscMessage& m);
 
 class OscOperator {
@@ -40,7 +41,7 @@ private:
   OperatorQueue& queue_;
   Tell tell_;
   std::set<std::string> told_;
-  std::unique_ptr<OscServer> server_;  ///< the last one: its thread uses the others
+  std::unique_ptr<OscServer> server_;  ///< declared last: its thread uses the others
 };
 
 }  // namespace stadion

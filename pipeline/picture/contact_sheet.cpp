@@ -16,7 +16,7 @@ constexpr std::uint32_t kLabel = kLetterHeight + 4;
 constexpr std::array<std::uint8_t, 3> kInk{225, 225, 225};
 constexpr std::uint8_t kPaper = 24;
 
-/// Which old pixels a new one covers, and how much of each, in units of 1/new of an old pixel.
+/// The old pixels that a new one covers, and the covered part of each, in units of 1/new of an old pixel.
 struct Cover {
   std::uint32_t first = 0;
   std::vector<std::uint64_t> weights;
@@ -57,7 +57,7 @@ struct Cell {
   std::uint32_t width = 0, height = 0;
 };
 
-/// How large a picture is shown: in the proportions of its wall, and neither side enlarged.
+/// Returns the shown size of a picture: in the proportions of its wall, with neither side enlarged.
 Cell shownSize(const Picture& picture, double aspect, std::uint32_t cellWidth) {
   const double own = double(picture.width) / picture.height;
   if (!(aspect > 0)) aspect = own;
@@ -114,7 +114,7 @@ Picture contactSheet(std::span<const WallPictures> walls, std::uint64_t frame, s
     for (std::uint32_t row = 0; row < rows; ++row) {
       const std::uint32_t y = kGap + row * rowHeight;
       const Picture* picture = row == 0 ? walls[i].left : walls[i].right;
-      // Letters beyond the cell would run into the next one.
+      // Letters beyond the cell would overlap the next one.
       std::string label = fmt::format("{} {} {}", walls[i].wall, row == 0 ? "L" : "R", frame);
       label.resize(std::min<std::size_t>(label.size(), cells[i].width / kLetterWidth));
       letter(sheet, x, y, label, kInk);

@@ -10,20 +10,20 @@
 
 namespace stadion {
 
-/// What one wall showed.
+/// The pictures of one wall.
 struct WallPictures {
   std::string wall;
   const Picture* left = nullptr;
   const Picture* right = nullptr;  ///< nullptr without stereo
-  /// Width by height of the wall itself, whose pixels need not be square; 0 = as the picture.
+  /// Width by height of the wall itself, which need not have square pixels; 0 = as the picture.
   double aspect = 0;
 };
 
 /// The picture at another size, averaged in linear light over exactly the area of each new pixel.
 Picture resized(const Picture& picture, std::uint32_t width, std::uint32_t height);
 
-/// Each view at most `cellWidth` wide, in the proportions of its wall, nothing enlarged. Labels: wall, L or
-/// R, frame.
+/// Each view is at most `cellWidth` wide, in the proportions of its wall, and never enlarged. The labels are
+/// the wall, L or R, and the frame.
 Picture contactSheet(std::span<const WallPictures> walls, std::uint64_t frame, std::uint32_t cellWidth = 320);
 
 }  // namespace stadion

@@ -14,7 +14,8 @@
 namespace stadion {
 namespace {
 
-constexpr int kCompression = 3;  ///< fixed, so that the bytes are; higher costs far more than it saves
+constexpr int kCompression = 3;  ///< fixed, so that equal pictures give equal bytes; higher costs far more
+                                 ///< than it saves
 constexpr std::uint32_t kMaxSide = 16384;
 
 bool opaque(const Picture& picture) {

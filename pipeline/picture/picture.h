@@ -34,8 +34,8 @@ struct Picture {
 /// XXH64 of the pixels: equal pictures, equal hash, on every machine.
 std::uint64_t imageHash(const Picture& picture);
 
-/// Writes the picture; equal pictures give equal bytes. Without alpha if it is opaque all over.
-/// Nothing if all went well.
+/// Writes the picture; equal pictures give equal bytes. An opaque picture is written without alpha. Returns
+/// nothing on success.
 std::optional<Diagnostic> writePng(const std::string& path, const Picture& picture);
 
 /// Reads any PNG as 8-bit RGBA, up to 16384 pixels a side.

@@ -1,8 +1,8 @@
 #pragma once
-/// How the pictures of both eyes become what a screen shows.
+/// Combines the pictures of both eyes into the picture that a screen shows.
 ///
 /// Threads  pure functions.
-/// Errors   eyes of different size: the empty picture.
+/// Errors   for eyes of different sizes it returns the empty picture.
 
 #include "pipeline/picture/picture.h"
 
@@ -25,16 +25,16 @@ const char* stereoLayoutName(StereoLayout layout);
 /// The names that stereoLayout() knows, for messages.
 std::vector<std::string> stereoLayoutNames();
 
-/// How many eyes are drawn: 1 for Off, else 2.
+/// Returns the number of drawn eyes: 1 for Off, else 2.
 constexpr std::uint32_t eyeCount(StereoLayout layout) {
   return layout == StereoLayout::Off ? 1 : 2;
 }
-/// Whether the eyes stay two pictures (or one, for Off) instead of being composed.
+/// Returns true if the eyes stay separate pictures (or one, for Off) instead of being composed.
 constexpr bool keepsEyesApart(StereoLayout layout) {
   return layout == StereoLayout::Pair || layout == StereoLayout::Off;
 }
 
-/// The one picture of a layout that has one. For Pair and Off it is the left eye's.
+/// Returns the composed picture. For Pair and Off it is the left eye's.
 Picture compose(StereoLayout layout, const Picture& left, const Picture& right);
 
 }  // namespace stadion

@@ -13,7 +13,7 @@ using Colour = std::array<std::uint8_t, 3>;
 constexpr Colour kGround{24, 26, 30}, kFine{70, 76, 84}, kMetre{130, 138, 148}, kBorder{255, 255, 255},
     kLeft{90, 170, 255}, kRight{255, 110, 90}, kOne{235, 235, 235}, kCube{255, 215, 60};
 constexpr double kFineStep = 0.25;  ///< [m]
-constexpr double kNear = 0.02;      ///< what is nearer to the eye is not drawn [m]
+constexpr double kNear = 0.02;      ///< nearer parts are not drawn [m]
 
 class Sketch {
 public:
@@ -47,7 +47,7 @@ private:
       }
   }
 
-  /// To what lies in the picture (Liang and Barsky 1984); false if nothing does.
+  /// Clips the line to the picture (Liang and Barsky 1984). Returns false if nothing is left.
   bool clip(Vec2& a, Vec2& b) const {
     if (!a.allFinite() || !b.allFinite()) return false;
     const Vec2 d = b - a;
@@ -81,7 +81,7 @@ void drawGrid(Sketch& sketch, const WallBasis& wall) {
   }
 }
 
-/// Round on the wall, whatever the pixels are.
+/// Draws a circle that is round on the wall, for any shape of pixels.
 void drawCircle(Sketch& sketch, const WallBasis& wall) {
   constexpr int kParts = 180;
   const double radius = 0.45 * std::min(wall.width, wall.height);
@@ -99,8 +99,8 @@ void drawBorder(Sketch& sketch) {
   for (std::size_t i = 0; i < 4; ++i) sketch.line(corners[i], corners[(i + 1) % 4], kBorder, 1);
 }
 
-/// The cube's lowest corner. It hangs in the middle of the room, so low that its edges are on floor and
-/// walls.
+/// Returns the cube's lowest corner. The cube is in the middle of the room, so low that its edges appear on
+/// floor and walls.
 Vec3 cubeCorner(const WallFile& walls) {
   Aabb room;
   room.include(Vec3::Zero());
@@ -110,7 +110,7 @@ Vec3 cubeCorner(const WallFile& walls) {
   return {room.centre().x() - 0.5, room.centre().y() - 0.5, 0.5};
 }
 
-/// An edge as the eye sees it on the wall.
+/// Draws an edge as the eye sees it on the wall.
 void drawEdge(Sketch& sketch, const EyeFrustum& frustum, Vec3 a, Vec3 b) {
   a = frustum.X_ER * a, b = frustum.X_ER * b;
   if (a.z() > b.z()) std::swap(a, b);  // a is farther away

@@ -1,5 +1,5 @@
 #pragma once
-/// Lines of text on a dark, half transparent ground, to be laid over a picture.
+/// Lines of text on a dark, half transparent background, to be laid over a picture.
 ///
 /// Threads  pure functions.
 
@@ -16,7 +16,7 @@ struct PanelLine {
   std::array<std::uint8_t, 3> colour{235, 235, 235};
 };
 
-/// As wide as the longest line needs, at most `mostWidth` pixels; what is longer goes on in the next line.
+/// As wide as the longest line needs, at most `mostWidth` pixels; longer lines are wrapped.
 Picture textPanel(const std::vector<PanelLine>& lines, std::uint32_t mostWidth, std::uint32_t scale = 2);
 
 }  // namespace stadion

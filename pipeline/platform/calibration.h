@@ -1,8 +1,8 @@
 #pragma once
-/// What `stadion calibrate` found out: how fast walls are drawn with which setting, on which machine.
+/// Results of `stadion calibrate`: how fast walls are drawn with each setting, on each machine.
 ///
-/// Figures are kept, not decisions: who can only use threads, or asks for pinning, takes the best of what is
-/// left.
+/// The file keeps figures, not decisions. A run that can only use threads, or asks for pinning, takes the
+/// best remaining setting.
 ///
 /// Units    frames a second, processor milliseconds.
 /// Threads  plain values.
@@ -22,7 +22,7 @@ struct MeasuredSetting {
   std::uint32_t rounds = 0;
 };
 
-/// The settings that were tried for so many walls.
+/// The settings that were tried for a number of walls.
 struct MeasuredRoom {
   std::size_t walls = 0;
   std::uint32_t width = 0, height = 0;  ///< of one eye's picture [pixels]
@@ -36,29 +36,29 @@ struct MachineCalibration {
   std::vector<MeasuredRoom> rooms;
 };
 
-/// One file may know several machines: those that share a home folder.
+/// One file may hold several machines: those that share a home folder.
 struct Calibration {
   std::vector<MachineCalibration> machines;
 
-  /// Null if this machine has not been measured.
+  /// Returns null if this machine has not been measured.
   const MachineCalibration* of(const Machine& machine) const;
-  /// Its rooms of as many walls and that look take the place of what was known of them.
+  /// Adds its rooms. Each replaces the known room with the same number of walls and the same look.
   void add(MachineCalibration measured);
 };
 
 /// Settings that differ by less than this part of the fastest are equally fast.
 constexpr double kAlike = 0.03;
 
-/// The fastest setting that has what is wished for; of those that are equally fast the one that takes the
-/// least processor time. Null if none has.
+/// Returns the fastest setting that meets the wishes. Of equally fast ones it takes the one with the least
+/// processor time. Null if none meets them.
 const MeasuredSetting* best(const MeasuredRoom& room, const DrawWishes& wishes = {});
 
-/// Which room's figures hold for so many walls: of the same look if there is one, then the nearest number.
-/// What holds for one wall says nothing about several, nor the other way round. Null if there is none.
+/// Returns the room with the figures for this number of walls: of the same look if there is one, then the
+/// nearest number. Figures for one wall do not apply to several, nor the reverse. Null if there is none.
 const MeasuredRoom* roomFor(const MachineCalibration& machine, std::size_t walls, const std::string& look);
 
-/// The settings that are worth trying for so many walls on so many processors, none of them pinned: threads
-/// and processes, with rasteriser threads from none to one for each processor; the likeliest ones first.
+/// Returns the settings to try for this number of walls and processors, none of them pinned: threads and
+/// processes, with none to one rasteriser thread per processor; the most promising ones first.
 std::vector<DrawSetting> settingsToTry(std::uint32_t processors, std::size_t walls);
 
 }  // namespace stadion

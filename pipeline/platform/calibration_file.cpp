@@ -20,7 +20,7 @@ constexpr int kVersion = 1;
 constexpr std::size_t kMostBytes = 1 << 20;
 constexpr std::uint32_t kMostWalls = WallFile::kMaxWalls, kMostPixels = 16384, kMostProcessors = 1 << 16;
 
-/// What a file says that cannot be.
+/// An invalid statement in a file.
 struct Wrong {
   std::string what;
 };
@@ -132,7 +132,7 @@ Json jsonOf(const MachineCalibration& m) {
               {"rooms", std::move(rooms)}};
 }
 
-/// Where the byte is, from 1.
+/// Returns the byte's line and column, counted from 1.
 SourcePosition placeOf(const std::string& text, std::size_t byte, const std::string& file) {
   SourcePosition place{file, 1, 1};
   for (std::size_t i = 0; i + 1 < byte && i < text.size(); ++i) {

@@ -1,8 +1,8 @@
 #pragma once
-/// The file in which calibrations are remembered: JSON that people can read (docs/formats.md).
+/// The file that stores calibrations: JSON that people can read (docs/formats.md).
 ///
-/// Errors   a file that is damaged, or of another version, is told with its name and, where it is known, its
-///          line and column; nothing is half read.
+/// Errors   A damaged file, or one of another version, is reported with its name and, if known, its line and
+///          column. Then nothing is read from it.
 /// Threads  plain functions.
 
 #include "engine/base/diagnostic.h"
@@ -12,13 +12,13 @@
 
 namespace stadion {
 
-/// STADION_CALIBRATION, or stadion/calibration.json in the user's configuration folder ($XDG_CONFIG_HOME,
-/// else ~/.config). Empty if STADION_CALIBRATION is "none", or where the user has no folder.
+/// Returns STADION_CALIBRATION, or stadion/calibration.json in the user's configuration folder
+/// ($XDG_CONFIG_HOME, else ~/.config). Empty if STADION_CALIBRATION is "none", or if the user has no folder.
 std::string calibrationFile();
 
-/// Without machines if the file is not there, or is no file's name.
+/// Returns a calibration without machines if the file does not exist or the name is empty.
 Result<Calibration> readCalibration(const std::string& file);
-/// The folder is made if it is not there. Returns why it could not be written, or nothing.
+/// Creates the folder if it does not exist. Returns why the file could not be written, or nothing.
 std::optional<Diagnostic> writeCalibration(const std::string& file, const Calibration& calibration);
 
 std::string toJson(const Calibration& calibration);

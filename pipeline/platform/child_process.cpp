@@ -39,7 +39,7 @@ public:
       posix_spawn_file_actions_adddup2(&actions_, from, to);
   }
 
-  /// We block and ignore signals in places; the child starts with none of that.
+  /// We block and ignore some signals; the child starts without these settings.
   void resetSignals(ChildProcess::Group group) {
     sigset_t none, all;
     sigemptyset(&none);
@@ -60,7 +60,8 @@ private:
   posix_spawnattr_t attributes_;
 };
 
-/// A copy of `fd` that connecting the standard streams does not overwrite; none if it is safe as it is.
+/// Returns a copy of `fd` that connecting the standard streams does not overwrite; none if `fd` is safe
+/// already.
 Descriptor aboveStandard(int& fd) {
   Descriptor copy(fd >= 0 && fd <= 2 ? fcntl(fd, F_DUPFD_CLOEXEC, 3) : -1);
   if (copy) fd = copy.get();
@@ -74,7 +75,7 @@ std::vector<char*> pointersTo(std::vector<std::string>& words) {
   return pointers;
 }
 
-/// Ours, with these words in place of those of the same names.
+/// Returns our environment, in which these words replace those with the same names.
 std::vector<std::string> environmentWith(const std::vector<std::string>& words) {
   std::vector<std::string> all = words;
   for (char** at = environ; *at; ++at) {

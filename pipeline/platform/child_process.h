@@ -30,7 +30,7 @@ private:
 
 class ChildProcess {
 public:
-  /// What the child sees as its standard streams; -1 = /dev/null.
+  /// The child's standard streams; -1 = /dev/null.
   struct Streams {
     int in = -1, out = -1, err = -1;
   };
@@ -40,22 +40,23 @@ public:
   ChildProcess(const ChildProcess&) = delete;
   ChildProcess& operator=(const ChildProcess&) = delete;
 
-  /// Own: Ctrl-C reaches us alone, and we can let it finish what it is at. Ours: keys of the terminal, Ctrl-C
-  /// and Ctrl-Z among them, reach it as they reach us.
+  /// Own: Ctrl-C reaches us alone, so we can let the child finish its work. Ours: keys of the terminal, such
+  /// as Ctrl-C and Ctrl-Z, reach the child as they reach us.
   enum class Group { Own, Ours };
 
-  /// Finds argv[0] along PATH and runs it with default signal handling, in that process group, with our
-  /// environment where `environment`, words like "NAME=value", says nothing else. Nothing if it runs, else an
-  /// errno.
+  /// Finds argv[0] along PATH and runs it with default signal handling, in that process group. It gets our
+  /// environment, in which the words of `environment`, such as "NAME=value", take precedence. Returns nothing
+  /// if it runs, else an errno.
   std::optional<int> start(const std::vector<std::string>& argv, const Streams& streams,
                            const std::vector<std::string>& environment = {}, Group group = Group::Own);
   bool running() const { return pid_ > 0; }
   pid_t pid() const { return pid_; }  ///< -1 if there is none
 
-  /// The exit status (128 + signal if it was killed) once it has ended; nothing if it still runs after the
-  /// wait.
+  /// Returns the exit status (128 + signal if it was killed) once the child has ended. Returns nothing if it
+  /// still runs after the wait.
   std::optional<int> wait(std::chrono::milliseconds limit);
-  /// It and, if that is its own, all of its process group: the programs that it has started, too.
+  /// Kills the child. If it has its own process group, kills the whole group: also the programs that it has
+  /// started.
   void kill();
 
 private:
@@ -63,15 +64,15 @@ private:
   Group group_ = Group::Own;
 };
 
-/// A pipe: what is written to `write` comes out of `read`. Both invalid if the system has none to give.
+/// A pipe: `read` returns the data written to `write`. Both are invalid if the system has none left.
 struct Pipe {
   Descriptor read, write;
 };
 Pipe makePipe();
 
-/// A nameless file in memory, to collect what a child says. Invalid if there is none to be had.
+/// Returns a nameless file in memory, which collects a child's output. Invalid if the system has none left.
 Descriptor makeMemoryFile();
-/// The first `limit` bytes of it.
+/// Returns its first `limit` bytes.
 std::string contentOf(const Descriptor& file, std::size_t limit = 4096);
 
 }  // namespace stadion

@@ -1,7 +1,7 @@
 #pragma once
-/// Who draws the walls in software, and on which processors.
+/// The threads or processes that draw the walls in software, and their processors.
 ///
-/// The pictures are the same with every setting; how fast they are drawn depends on the machine.
+/// The pictures are the same with every setting; only the speed depends on it and on the machine.
 
 #include <cstdint>
 #include <optional>
@@ -17,7 +17,7 @@ struct DrawSetting {
   bool operator==(const DrawSetting&) const = default;
 };
 
-/// What is asked for whatever the machine; nothing: as it is best.
+/// What the user asks for on every machine; nothing: the best setting is chosen.
 struct DrawWishes {
   std::optional<bool> processes;
   std::optional<std::uint32_t> rasteriserThreads;
@@ -29,9 +29,9 @@ struct DrawWishes {
 /// Mesa takes no more.
 constexpr std::uint32_t kMostRasteriserThreads = 32;
 
-/// How it is drawn on a machine that nobody has measured: by threads, with a rasteriser thread for each
-/// processor, which all walls share; of processes that are asked for each has its share of the processors,
-/// none if that is not more than one. Not pinned.
+/// Returns the setting for a machine without calibration, not pinned. It draws by threads, with a rasteriser
+/// thread for each processor, which all walls share. If the user asks for processes, each gets its share of
+/// the processors as rasteriser threads, or none if the share is not more than one.
 DrawSetting unmeasuredSetting(std::uint32_t processors, std::size_t walls, const DrawWishes& wishes = {});
 
 /// "4 processes, no rasteriser threads, pinned".

@@ -37,7 +37,7 @@ ProcessFigures processFigures() {
   f.heapBytes = heap.uordblks + heap.hblkhd;
   f.threads = entriesIn("/proc/self/task");
   const std::size_t handles = entriesIn("/proc/self/fd");
-  f.handles = handles > 0 ? handles - 1 : 0;  // one is the folder's
+  f.handles = handles > 0 ? handles - 1 : 0;  // one handle is the open folder itself
   return f;
 }
 

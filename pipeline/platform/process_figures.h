@@ -1,7 +1,7 @@
 #pragma once
-/// What this process has of the machine at the moment.
+/// This process's current use of the machine.
 ///
-/// Threads  free function, any thread. It reads /proc, some tens of microseconds.
+/// Threads  free function, any thread. It reads /proc, which takes some tens of microseconds.
 
 #include <cstddef>
 #include <cstdint>
@@ -9,8 +9,8 @@
 namespace stadion {
 
 struct ProcessFigures {
-  std::uint64_t residentBytes = 0;  ///< memory that is there (RSS)
-  std::uint64_t heapBytes = 0;      ///< of it, what the program has asked for and not given back
+  std::uint64_t residentBytes = 0;  ///< memory in use (RSS)
+  std::uint64_t heapBytes = 0;      ///< of it, allocated by the program and not freed
   std::size_t handles = 0;          ///< open file descriptors
   std::size_t threads = 0;
 };

@@ -7,7 +7,7 @@
 namespace stadion {
 namespace {
 
-/// As sched_setattr(2) describes it; glibc has it from 2.41 on.
+/// The structure of sched_setattr(2); glibc has it from 2.41 on.
 struct Attributes {
   std::uint32_t size = sizeof(Attributes), policy = SCHED_OTHER;
   std::uint64_t flags = 0;
@@ -16,7 +16,7 @@ struct Attributes {
   std::uint64_t runtime = 0, deadline = 0, period = 0;  ///< [ns]; 0: the system's own
 };
 
-constexpr std::uint64_t kResetOnFork = 1;      ///< who is started by this thread is an ordinary one
+constexpr std::uint64_t kResetOnFork = 1;      ///< threads that this thread starts are ordinary ones
 constexpr std::uint64_t kShortTurn = 100'000;  ///< the least that Linux takes [ns]
 
 bool set(const Attributes& attributes) {
@@ -38,7 +38,7 @@ Promptness::Promptness(For whom) : handedDown_(whom == For::ThoseItStarts) {
 Promptness::~Promptness() {
   if (!changed_) return;
   Attributes usual;
-  usual.nice = nice_, usual.flags = handedDown_ ? 0 : kResetOnFork;  // which only root may take back
+  usual.nice = nice_, usual.flags = handedDown_ ? 0 : kResetOnFork;  // only root may undo it
   set(usual);
 }
 

@@ -1,22 +1,23 @@
 #pragma once
-/// Threads for which other machines wait run as soon as they wake, also where others compute.
+/// Lets threads run as soon as they wake, even on a busy machine. Other hosts wait for these threads.
 ///
-/// How     such a thread waits and answers, and computes next to nothing. Where the system lets it (root, or
-///         RLIMIT_RTPRIO) it becomes a real-time one of the lowest priority. Elsewhere the scheduler is asked
-///         for short turns of it (`sched_runtime` of sched_setattr(2)), which may interrupt long ones: Linux
-///         heeds that from 6.12 on. Neither gives anybody a greater share of a processor.
-/// Nesting one at a time on a thread.
-/// Left    threads that somebody has given another policy than the usual one.
-/// Errors  none: who is refused both runs as before.
+/// How     Such a thread waits and answers, and computes next to nothing. If the system permits it (root, or
+///         RLIMIT_RTPRIO), it becomes a real-time thread of the lowest priority. Otherwise the scheduler is
+///         asked for short turns (`sched_runtime` of sched_setattr(2)), which may interrupt long ones; Linux
+///         honours this from 6.12 on. Neither gives a thread a greater share of a processor. Nesting one at a
+///         time on a thread.
+/// Left    threads with another policy than the usual one are unchanged.
+/// Errors  none: if the system refuses both, the thread runs as before.
 
 #include <cstdint>
 
 namespace stadion {
 
-/// The calling thread, for as long as this lives; the same thread ends it.
+/// Applies to the calling thread during its lifetime. The same thread must destroy it.
 class Promptness {
 public:
-  enum class For { This, ThoseItStarts };  ///< the latter, in that time, for as long as they live
+  enum class For { This, ThoseItStarts };  ///< ThoseItStarts: threads started meanwhile, for their whole
+                                           ///< lives
 
   explicit Promptness(For whom = For::This);
   ~Promptness();

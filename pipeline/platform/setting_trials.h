@@ -1,9 +1,9 @@
 #pragma once
-/// Which setting is measured next, for as long as there is time.
+/// Chooses the next setting to measure, for as long as there is time.
 ///
-/// In rounds, so that what disturbs the machine disturbs all alike; every second one goes the other way
-/// round. After each round what is clearly slower is out, and gets no more time. What the first round leaves
-/// is tried pinned, too.
+/// Settings are measured in rounds, so that a disturbance of the machine affects all alike. Every second
+/// round runs in reverse order. After each round clearly slower settings are removed. Settings that remain
+/// after the first round are also tried pinned.
 ///
 /// Threads  one at a time.
 
@@ -15,26 +15,26 @@ namespace stadion {
 
 class SettingTrials {
 public:
-  /// Expects at least one setting, none of them pinned. `pin`: whether they are tried pinned, too.
+  /// Expects at least one setting, none of them pinned. `pin`: also tries them pinned.
   SettingTrials(const std::vector<DrawSetting>& settings, bool pin);
 
-  /// What is slower than this part of the fastest is out.
+  /// A setting below this part of the fastest is removed.
   static constexpr double kWorthwhile = 0.8;
 
-  /// False once nothing is left: each has failed.
+  /// Returns false once no setting is left: each has failed.
   bool any() const { return !round_.empty(); }
-  /// Whether each has been tried once: from then on what comes makes the choice surer.
+  /// Returns true if each has been tried once. Further measurements only make the choice more certain.
   bool allTried() const { return rounds_ >= 1; }
-  /// Whether there are figures.
+  /// Returns true if there are figures.
   bool anyMeasured() const { return !results().empty(); }
-  /// To be measured next. Expects any().
+  /// Returns the setting to measure next. Expects any().
   const DrawSetting& next() const { return tried_[round_.front()].setting; }
-  /// What came of it.
+  /// Reports its result.
   void measured(double framesPerSecond, double cpuMs);
-  /// It could not be measured: it is out, without figures.
+  /// Reports that it could not be measured: it is removed, without figures.
   void failed();
 
-  /// What has figures, in the order in which it was first tried.
+  /// Returns the measured settings, in the order in which they were first tried.
   std::vector<MeasuredSetting> results() const;
 
 private:
@@ -49,8 +49,8 @@ private:
 
   bool pin_;
   std::vector<Tried> tried_;
-  std::vector<std::size_t> round_;  ///< what is left of it, the next one first
-  std::size_t rounds_ = 0;          ///< that are over
+  std::vector<std::size_t> round_;  ///< settings left in it, the next one first
+  std::size_t rounds_ = 0;          ///< finished rounds
 };
 
 }  // namespace stadion

@@ -14,13 +14,13 @@
 namespace stadion {
 namespace {
 
-/// Whose stamp is looked for, and what was found.
+/// The library to look for, and the build stamp that was found.
 struct Stamp {
   ElfW(Addr) place;
   std::string text{};
 };
 
-/// A segment of notes: each a head, a name and a content, both of which fill words of four bytes.
+/// A segment of notes. Each note has a head, a name and a content; name and content fill words of four bytes.
 std::string stampIn(const char* at, const char* end) {
   const auto whole = [](std::size_t bytes) { return (bytes + 3) & ~std::size_t{3}; };
   while (at + sizeof(ElfW(Nhdr)) <= end) {
@@ -58,14 +58,14 @@ Result<SharedLibrary> SharedLibrary::open(const char* file, const char* package)
   if (void* handle = dlopen(file, RTLD_NOW | RTLD_LOCAL)) return SharedLibrary(handle);
   const char* reason = dlerror();
   const std::string why = reason ? reason : "unknown reason";
-  // The loader names the file it misses first: ours, or one that ours needs.
+  // The loader's message begins with the missing file: ours, or one that ours needs.
   if (why.rfind(file, 0) == 0 && why.find("No such file") != std::string::npos)
     return Result<SharedLibrary>::failure(std::string(file) + " is missing: apt-get install " + package);
   return Result<SharedLibrary>::failure(std::string(file) + " cannot be loaded: " + why);
 }
 
-// The loader knows a library by its file and its path; a file in memory is another one. It stays open, so
-// that no other gets its number, which is its path.
+// The loader identifies a library by its file and its path, so a file in memory is a separate library. The
+// file stays open: its path contains its number, which no other file may get.
 Result<SharedLibrary> SharedLibrary::openCopy(const char* file, const char* package) {
   const auto original = open(file, package);
   if (!original) return original;

@@ -1,5 +1,5 @@
 #pragma once
-/// A shared library loaded at run time, its names kept to itself.
+/// A shared library loaded at run time; its symbols stay private.
 ///
 /// Ownership  never unloaded: Mesa leaves threads and exit handlers behind.
 /// Threads    any.
@@ -13,19 +13,19 @@ namespace stadion {
 
 class SharedLibrary {
 public:
-  /// Fails with "FILE is missing: apt-get install PACKAGE", or with the linker's own words if it is there.
+  /// Fails with "FILE is missing: apt-get install PACKAGE", or with the linker's message if the file exists.
   static Result<SharedLibrary> open(const char* file, const char* package);
-  /// The same library once more, with static memory of its own. What it needs itself is not copied.
+  /// Loads another copy of the library, with static memory of its own. Its dependencies are not copied.
   static Result<SharedLibrary> openCopy(const char* file, const char* package);
 
-  /// The function of that name, or nullptr.
+  /// Returns the function of that name, or nullptr.
   template <class Function>
   Function* find(const char* name) const {
     return reinterpret_cast<Function*>(dlsym(handle_, name));
   }
 
-  /// What its linker stamped it with, in hexadecimal digits: another build has another one. Empty if it was
-  /// not stamped.
+  /// Returns the build id set by its linker, in hexadecimal digits; each build has another one. Empty if
+  /// there is none.
   std::string buildId() const;
 
 private:

@@ -14,7 +14,7 @@ struct Topology::Loaded {
   Loaded(const Loaded&) = delete;
   Loaded& operator=(const Loaded&) = delete;
 
-  /// Without disks and networks: they take time to find.
+  /// Leaves out disks and networks, which take time to find.
   bool load() {
     hwloc_topology_set_io_types_filter(topology, HWLOC_TYPE_FILTER_KEEP_NONE);
     return hwloc_topology_load(topology) == 0;

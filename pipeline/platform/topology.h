@@ -1,10 +1,10 @@
 #pragma once
-/// What the machine's processors are, and how they lie to each other: packages, memories, cores, hardware
-/// threads. Only those that this process may use count.
+/// The machine's processors and their relation to each other: packages, memories, cores, hardware threads.
+/// Only processors that this process may use count.
 ///
 /// Ownership  owns hwloc's description.
-/// Threads    one at a time; looking takes some milliseconds.
-/// Errors     what cannot be found out is empty or 0.
+/// Threads    one at a time; loading takes some milliseconds.
+/// Errors     unknown values are empty or 0.
 
 #include "pipeline/platform/processor_set.h"
 
@@ -16,27 +16,27 @@ namespace stadion {
 
 class Topology {
 public:
-  /// This machine's.
+  /// Returns this machine's topology.
   static Topology ofThisMachine();
-  /// One that is described by hwloc's words, such as "package:2 core:4 pu:2"; for tests.
+  /// Returns a topology described in hwloc's words, such as "package:2 core:4 pu:2"; for tests.
   static Topology synthetic(const std::string& description);
   ~Topology();
   Topology(Topology&&) noexcept;
   Topology& operator=(Topology&&) noexcept;
 
-  std::string model() const;            ///< of the processor, as its maker calls it
-  std::size_t cores() const;            ///< that can work without sharing their units
+  std::string model() const;            ///< of the processor, as named by its maker
+  std::size_t cores() const;            ///< number of cores, which do not share units
   std::size_t hardwareThreads() const;  ///< processors, as the system counts them
 
-  /// The processors in as many parts as there are walls, so that what is near to each other stays together.
-  /// Where there are more walls than processors, several walls have the same one.
+  /// Divides the processors into one part per wall and keeps close ones together. With more walls than
+  /// processors, several walls get the same one.
   std::vector<ProcessorSet> parts(std::size_t walls) const;
 
 private:
   struct Loaded;
   explicit Topology(std::unique_ptr<Loaded> loaded);
 
-  std::unique_ptr<Loaded> loaded_;  ///< null: nothing is known
+  std::unique_ptr<Loaded> loaded_;  ///< null if unknown
 };
 
 }  // namespace stadion

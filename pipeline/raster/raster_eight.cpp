@@ -1,4 +1,5 @@
-/// Eight triangles at a time; this file is compiled for AVX2 and defines nothing that others could share.
+/// Eight triangles at a time. This file is compiled for AVX2 and defines nothing that other files could
+/// share.
 
 #include "pipeline/raster/raster_kernel.h"
 

@@ -1,4 +1,4 @@
-/// Four triangles at a time, with what every processor of the kind has.
+/// Four triangles at a time, with instructions that every processor of the architecture has.
 
 #include "pipeline/raster/raster_kernel.h"
 

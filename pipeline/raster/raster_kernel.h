@@ -1,5 +1,6 @@
 #pragma once
-/// The functions of raster_kernels.h, as many at a time as By has lanes. Internal to pipeline/raster/.
+/// The functions of raster_kernels.h, for as many triangles at a time as By has lanes. Internal to
+/// pipeline/raster/.
 ///
 /// Linkage  internal.
 
@@ -41,13 +42,13 @@ struct Raster : Lanes<By> {
     }
   }
 
-  /// Onto the grid, and from the picture's lower left.
+  /// Moves a coordinate onto the grid, measured from the picture's lower left.
   [[gnu::always_inline]] static inline I onGrid(const F& at, int middle) {
     const F steps = at * static_cast<float>(kGrid);
     return __builtin_convertvector(steps + (steps < 0.0f ? F{} - 0.5f : F{} + 0.5f), I) + middle * kGrid;
   }
 
-  /// The first pixel whose middle is at or behind `from`, and the last whose middle is at or before `to`.
+  /// The first pixel with its middle at or behind `from`, and the last with its middle at or before `to`.
   [[gnu::always_inline]] static inline I firstMiddle(const I& from) { return (from + (kGrid / 2 - 1)) >> 8; }
   [[gnu::always_inline]] static inline I lastMiddle(const I& to) { return (to - kGrid / 2) >> 8; }
 
@@ -60,11 +61,11 @@ struct Raster : Lanes<By> {
     const I dx = bx - ax, dy = by_ - ay;
     return {dx * (py - ay) - dy * (px - ax), -dy * kGrid, dx * kGrid};
   }
-  /// What is on the edge is inside if that is a left or a lower one: going down, or to the right. OpenGL
-  /// leaves that open; Mesa takes these.
+  /// A point on the edge is inside if the edge is a left or a lower one: going down, or to the right. OpenGL
+  /// leaves this open; Mesa takes these.
   [[gnu::always_inline]] static inline I onEdge(const I& ax, const I& ay, const I& bx, const I& by_) {
     const I inside = (by_ < ay) | ((by_ == ay) & (bx > ax));
-    return ~inside;  // -1: what is on it is outside
+    return ~inside;  // -1: a point on the edge is outside
   }
 
   template <class V>
@@ -118,7 +119,7 @@ struct Raster : Lanes<By> {
         swap(turned, fby, fcy);
     area = turned ? -area : area;
 
-    // Over the surface things change from corner a on as between the corners where they are, not on the grid.
+    // Over the surface, values change from corner a on as between the true corners, not those on the grid.
     fbx -= fax, fby -= fay, fcx -= fax, fcy -= fay;
     const F perArea = 1.0f / (fbx * fcy - fcx * fby);
     const I seen = facing > 0 ? ~turned : facing < 0 ? turned : ~I{};

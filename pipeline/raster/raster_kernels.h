@@ -1,15 +1,15 @@
 #pragma once
-/// Small triangles into a picture, several at a time, as OpenGL draws them (3.3 core, 3.6.1). Internal to
-/// pipeline/draw/.
+/// Draws small triangles into a picture, several at a time, as OpenGL draws them (3.3 core, 3.6.1). Internal
+/// to pipeline/draw/.
 ///
-/// Corners lie on a grid of 1/256 pixel; a pixel is drawn if its middle is inside; of middles on an edge
-/// those of left and lower edges are. Depths are linear in the picture, colours in space.
+/// Corners lie on a grid of 1/256 pixel. A pixel is drawn if its middle is inside, or on a left or lower
+/// edge. Depths are linear in the picture, colours in space.
 ///
 /// Includes  nothing: the file that is compiled for AVX2 uses this, too, and must share no function.
 
 namespace stadion {
 
-/// Greater ones are not small: the sums below would not hold their edges [pixels].
+/// Larger triangles are not small: their edges would overflow the sums below [pixels].
 constexpr float kMostSmall = 62;
 
 /// Vertices with their normals, in mesh coordinates, and their colours, 0 .. 1. Room for a multiple of eight.
@@ -17,7 +17,7 @@ struct VerticesToShade {
   const float *nx, *ny, *nz, *r, *g, *b;
 };
 
-/// As uniform_blocks.h has it, for the plain look.
+/// Matches uniform_blocks.h, for the plain look.
 struct ShadingLight {
   float direction[3];  ///< towards the light, unit
   float colour[3];
@@ -30,8 +30,8 @@ struct Shading {
   unsigned lightCount;
 };
 
-/// Where vertices lie in the picture [pixels from its middle, which is rounded down], how near, 1 / w [1/m],
-/// and how bright.
+/// Places of vertices in the picture [pixels from its middle, which is rounded down], their nearness, 1 / w
+/// [1/m], and their brightness.
 struct PictureVertices {
   const float *x, *y, *nearness;
   float *r, *g, *b;
@@ -40,24 +40,24 @@ struct PictureVertices {
 /// The picture, rows from the bottom (height x width).
 struct RasterTarget {
   unsigned* colours;  ///< red in the lowest byte
-  float* depths;      ///< 1 at the near plane, 0 at the far one; what is nearer than what is there is drawn
+  float* depths;      ///< 1 at the near plane, 0 at the far one; a nearer pixel replaces the stored one
   int width, height;
   float depthScale, depthOffset;  ///< depth = scale x nearness + offset
 };
 
 struct RasterKernels {
-  /// Fills in how bright vertices [first, end) are.
+  /// Computes the brightness of vertices [first, end).
   void (*shade)(const VerticesToShade& vertices, unsigned first, unsigned end, const Shading& by,
                 const PictureVertices& out);
   /// Draws triangles, three corners each. `facing`: 1 = counter-clockwise ones are seen, -1 = clockwise ones,
-  /// 0 = both. Which of two that lie at the same depth is seen does not depend on their order.
+  /// 0 = both. For two triangles at the same depth, the visible one does not depend on their order.
   void (*draw)(const unsigned* corners, unsigned triangles, const PictureVertices& vertices, float facing,
                const RasterTarget& to);
 };
 
 /// Four at a time, on every machine.
 extern const RasterKernels kRasterByFour;
-/// Eight, where there is AVX2. Both do the same to the bit.
+/// Eight at a time, on machines with AVX2. Both give the same bits.
 extern const RasterKernels kRasterByEight;
 
 }  // namespace stadion

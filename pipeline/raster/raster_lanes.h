@@ -2,7 +2,7 @@
 /// Several numbers at a time, in GCC's vectors. Internal to pipeline/raster/.
 ///
 /// Linkage  internal; includes nothing: files that are compiled for AVX2 use this, too, and must share no
-///          function with others.
+///          function with other files.
 
 namespace stadion {
 namespace {

@@ -1,4 +1,4 @@
-/// Eight triangles at a time; this file alone is compiled for AVX2 and defines nothing that others could
+/// Eight triangles at a time. This file alone is compiled for AVX2 and defines nothing that other files could
 /// share.
 
 #include "pipeline/raster/sieve_kernel.h"

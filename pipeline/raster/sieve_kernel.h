@@ -1,5 +1,6 @@
 #pragma once
-/// The functions of sieve_kernels.h, as many at a time as F has lanes. Internal to pipeline/raster/.
+/// The functions of sieve_kernels.h, for as many triangles at a time as F has lanes. Internal to
+/// pipeline/raster/.
 ///
 /// Linkage  internal; includes nothing but these two.
 
@@ -45,22 +46,22 @@ struct Sieve : Lanes<By> {
     return By::bits(told) == (1u << By::kLanes) - 1;
   }
 
-  /// Lanes in which a whole number and a half lies between the two.
+  /// Lanes with a value n + 1/2, n whole, between the two.
   [[gnu::always_inline]] static inline I holdsAMiddle(const F& from, const F& to) {
-    constexpr float kPositive = 16384;  // so that cutting off is rounding down
+    constexpr float kPositive = 16384;  // so that truncation rounds down
     const F last =
         __builtin_convertvector(__builtin_convertvector(to + (kPositive - 0.5f + kSnapping), I), F);
     return last >= from + (kPositive - 0.5f - kSnapping);
   }
 
-  /// The squares in which a coordinate may lie, rounded down.
+  /// Returns the square of a coordinate, rounded down.
   [[gnu::always_inline]] static inline I squareOf(const F& at, float middle, int count) {
     const I square = __builtin_convertvector(at + middle, I) >> 2;
     const I capped = square < count ? square : I{} + (count - 1);
     return capped > 0 ? capped : I{};
   }
 
-  /// Of the triangles in `bits`, those that are not wholly behind what is seen.
+  /// Returns those triangles in `bits` that are not wholly behind drawn surfaces.
   [[gnu::always_inline]] static inline unsigned notHidden(unsigned bits, const SeenSquares& seen,
                                                           const F& left, const F& right, const F& low,
                                                           const F& high, const F& nearest) {
@@ -111,7 +112,7 @@ struct Sieve : Lanes<By> {
   }
 };
 
-/// Row by row of squares: first the farthest of each column of pixels, then of each square.
+/// Works row by row of squares: first the farthest depth of each column of pixels, then of each square.
 [[gnu::always_inline]] inline void farthestOfSquares(const float* depths, int width, int height,
                                                      const NearnessOfDepth& of, float* nearness) {
   constexpr int kAtOnce = 64;  // columns; a multiple of a square's

@@ -17,8 +17,8 @@ std::uint32_t packed(const std::array<float, 3>& colour) {
   return all;
 }
 
-/// From normals in the mesh to normals in World: the cofactors, whose rows are cross products, with the sign
-/// of the determinant; as the shader has it.
+/// Transforms normals in the mesh to normals in World: the cofactors, as cross products of rows, with the
+/// sign of the determinant. The shader does the same.
 void normalsBy(const InstanceMatrix& m, float (&out)[9]) {
   const auto cross = [&](std::size_t a, std::size_t b, float* row) {
     const float *u = &m[4 * a], *v = &m[4 * b];

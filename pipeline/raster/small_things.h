@@ -1,16 +1,16 @@
 #pragma once
-/// Draws small things itself, into a picture that OpenGL then goes on with.
+/// Draws small objects itself, into a picture that OpenGL then continues.
 ///
-/// A software rasteriser is made for large triangles. For one of two or three pixels it sets up a program's
-/// run over a block of sixteen, which takes as long as fifty such pixels; most of what a show's far things
-/// cost is that. Here eight small triangles are set up at a time. The rules are OpenGL's (raster_kernels.h),
-/// so the picture is the same but for rounding: the last bit of a colour, and now and then a pixel whose
-/// middle lies on an edge to less than a hundredth of a pixel.
+/// A software rasteriser is made for large triangles. For a triangle of two or three pixels it sets up a
+/// program's run over a block of sixteen, which takes as long as fifty such pixels. This makes up most of the
+/// cost of a show's distant objects. Here eight small triangles are set up at a time. The rules are OpenGL's
+/// (raster_kernels.h), so the picture is the same except for rounding: the last bit of a colour, and now and
+/// then a pixel with its middle less than a hundredth of a pixel from an edge.
 ///
-/// What      things without pictures and nothing to see through, in the plain look, at most kMostSmall pixels
-///           wide and high, wholly in the picture and behind the near plane, under directional lights in
-///           clear air. What the picture's edge cuts off is OpenGL's: it makes other triangles of it.
-/// Ownership keeps its memory from frame to frame, and two pictures.
+/// What      objects without textures or transparency, in the plain look, at most kMostSmall pixels wide and
+///           high, wholly in the picture and behind the near plane, under directional lights in clear air.
+///           OpenGL draws objects that the picture's edge clips, because it makes other triangles of them.
+///           Ownership keeps its memory from frame to frame, and two pictures.
 /// Threads   plain data, no GL.
 
 #include "pipeline/draw_list/draw_list.h"
@@ -28,7 +28,7 @@ namespace stadion {
 /// The fastest form on this machine.
 const RasterKernels& bestRaster();
 
-/// What is needed of a mesh to light its corners. All levels share it.
+/// The data of a mesh that lighting its corners needs. All levels share them.
 struct MeshShading {
   std::vector<float> nx, ny, nz;  ///< normals; room for a multiple of eight
   std::vector<float> r, g, b;     ///< as they are stored, 0 .. 1
@@ -48,13 +48,13 @@ public:
   void begin(const DrawView& eye, const SceneBlock& scene, const std::array<float, 3>& background);
   /// What is drawn next, and where it stands. False: it is not small.
   bool place(const SieveMesh& mesh, const MeshShading& shading, const InstanceMatrix& model);
-  /// Of the triangles of what was placed, from number `first` on, whose vertices are within [firstVertex,
-  /// endVertex). Returns how many were not left out.
+  /// Draws triangles of the placed object, from number `first` on, with their vertices within [firstVertex,
+  /// endVertex). Returns how many passed the culler.
   std::uint32_t draw(std::uint32_t first, std::uint32_t count, TriangleSieve::Facing facing,
                      const MaterialBlock& material, std::uint32_t firstVertex, std::uint32_t endVertex);
 
-  /// Of begin()'s picture (height x width), rows from the bottom: RGBA, 8 bits each, and depths, 1 at the
-  /// near plane and 0 at the far one.
+  /// begin()'s picture (height x width), rows from the bottom: RGBA, 8 bits each, and depths, 1 at the near
+  /// plane and 0 at the far one.
   std::span<const std::uint32_t> colours() const { return colours_; }
   std::span<const float> depths() const { return depths_; }
 
@@ -64,12 +64,12 @@ private:
   TriangleSieve sieve_;
   std::vector<std::uint32_t> colours_;
   std::vector<float> depths_;
-  std::vector<float> r_, g_, b_;  ///< of the vertices of what was placed, lit
+  std::vector<float> r_, g_, b_;  ///< lit colours of the placed object's vertices
   std::vector<ShadingLight> lights_;
   Shading by_{};
   const MeshShading* shading_ = nullptr;
   RasterTarget target_{};
-  float nearest_ = 0;  ///< before the near plane nothing is nearer [1/m]
+  float nearest_ = 0;  ///< the near plane: nothing is nearer [1/m]
 };
 
 }  // namespace stadion

@@ -23,7 +23,7 @@ const SieveKernels& bestSieve() {
 SieveMesh::SieveMesh(const Mesh& mesh, std::span<const std::uint32_t> indices) {
   const std::size_t vertices = padded(mesh.positions.size()), triangles = indices.size() / 3;
   for (auto* axis : {&x, &y, &z}) axis->resize(vertices);
-  for (std::size_t i = 0; i < vertices; ++i) {  // those behind the last one repeat it
+  for (std::size_t i = 0; i < vertices; ++i) {  // vertices past the last one repeat it
     const auto& p = mesh.positions[std::min(i, mesh.positions.size() - 1)];
     x[i] = finite(p[0]), y[i] = finite(p[1]), z[i] = finite(p[2]);
   }
@@ -48,8 +48,8 @@ void TriangleSieve::look(const DrawView& eye) {
 
 /// A depth d is p23 / w - p22 for the projection's third row, so that 1 / w = (d + p22) / p23.
 void TriangleSieve::hideBehind(std::span<const float> depths) {
-  constexpr double kDepthRounding = 4e-7;  // of depths of a surface that begins near the eye, twice over
-  constexpr double kBehind = 1.001;        // as near is not behind
+  constexpr double kDepthRounding = 4e-7;  // of depths of a surface that begins near the eye, doubled
+  constexpr double kBehind = 1.001;        // equally near is not behind
   const double p22 = eye_.projection(2, 2), p23 = eye_.projection(2, 3);
   const bool perspective = eye_.projection(3, 2) == -1 && eye_.projection(3, 3) == 0 && p23 > 0;
   if (!perspective) return;

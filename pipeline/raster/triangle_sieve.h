@@ -1,10 +1,10 @@
 #pragma once
-/// Leaves out the triangles that make no pixels, before OpenGL sees them.
+/// Removes triangles that make no pixels, before OpenGL sees them.
 ///
-/// A software rasteriser spends most of its time on small triangles. More than half of them are turned away
-/// from the eye or lie between the middles of pixels; of the rest many are behind what has been drawn before.
-/// To find them costs a few nanoseconds each, a tenth of what they cost there. The picture is the same: what
-/// is not sure is kept (sieve_kernels.h).
+/// A software rasteriser spends most of its time on small triangles. More than half of them face away from
+/// the eye or lie between the middles of pixels. Of the rest many are behind surfaces drawn before. Finding
+/// them costs a few nanoseconds each, a tenth of their cost in OpenGL. The picture is the same: uncertain
+/// triangles are kept (sieve_kernels.h).
 ///
 /// Ownership  keeps its memory from frame to frame.
 /// Threads    plain data, no GL.
@@ -22,10 +22,10 @@ namespace stadion {
 /// The fastest form on this machine.
 const SieveKernels& bestSieve();
 
-/// A mesh, coordinate by coordinate and corner by corner; all levels, as their indices follow each other.
+/// A mesh, coordinate by coordinate and corner by corner; all levels, in the order of their indices.
 struct SieveMesh {
   std::vector<float> x, y, z;         ///< of its vertices; room for a multiple of eight
-  std::vector<std::int32_t> a, b, c;  ///< of its triangles, and seven behind the last one
+  std::vector<std::int32_t> a, b, c;  ///< of its triangles, and seven past the last one
 
   SieveMesh(const Mesh& mesh, std::span<const std::uint32_t> indices);
 };
@@ -33,28 +33,28 @@ struct SieveMesh {
 class TriangleSieve {
 public:
   enum class Facing { CounterClockwise, Clockwise, Both };
-  /// Of kept(), in indices.
+  /// A range of kept(), in indices.
   struct Range {
     std::uint32_t first = 0, count = 0;
   };
 
   TriangleSieve(std::uint32_t width, std::uint32_t height, const SieveKernels& kernels = bestSieve());
 
-  /// Forgets what was kept.
+  /// Forgets the kept triangles.
   void clear() { used_ = 0; }
   /// Through whose eye things are seen from now on.
   void look(const DrawView& eye);
   /// What has been drawn for this eye so far: its depths, 1 at the near plane and 0 at the far one (height x
   /// width), rows from the bottom. What is behind is left out from now on.
   void hideBehind(std::span<const float> depths);
-  /// What is sieved next, and where it stands.
+  /// Places the next mesh.
   void place(const SieveMesh& mesh, const InstanceMatrix& model);
-  /// Of the triangles of the mesh that was placed, from number `first` on.
+  /// Filters triangles of the placed mesh, from number `first` on.
   Range keep(std::uint32_t first, std::uint32_t count, Facing facing);
   std::span<const std::uint32_t> kept() const { return {kept_.data(), used_}; }
 
-  /// Where the vertices of what was placed lie in the picture, as the kernels have it; null if that cannot be
-  /// told of all.
+  /// Returns the bounds of the placed vertices in the picture, as the kernels have them. Null if they are not
+  /// known for all vertices.
   const PictureBounds* bounds() const { return told_ ? &bounds_ : nullptr; }
   const float* x() const { return px_.data(); }
   const float* y() const { return py_.data(); }
@@ -69,7 +69,7 @@ private:
   std::vector<float> squares_;
   SeenSquares seen_{};
   const SieveMesh* mesh_ = nullptr;
-  bool told_ = false;  ///< where all of its vertices lie
+  bool told_ = false;  ///< the places of all its vertices are known
   std::vector<float> px_, py_, nearness_;
   PictureBounds bounds_{};
   std::vector<std::uint32_t> kept_;

@@ -50,7 +50,7 @@ Descriptor openToAppend(const std::string& file) {
 
 constexpr std::chrono::seconds kHeldOn{10};
 
-/// FILE becomes FILE.1, and so on; the oldest one goes.
+/// Renames FILE to FILE.1, and so on; deletes the oldest file.
 void moveOn(const std::string& file) {
   const auto older = [&](int n) { return n == 0 ? file : fmt::format("{}.{}", file, n); };
   for (int n = Journal::kOlder; n > 0; --n) std::rename(older(n - 1).c_str(), older(n).c_str());
@@ -91,8 +91,8 @@ bool Journal::incomplete() const {
   return incomplete_;
 }
 
-// Whoever writes a line holds the file for less than the tries take. Who holds it longer is none of us, or
-// has stopped: for a while nobody waits for it any more.
+// A process that writes a line holds the file for less time than the tries take. A longer lock comes from
+// another program, or from a stopped process. Then no call waits for it for a while.
 bool Journal::lockSoon(int file) {
   const auto now = std::chrono::steady_clock::now();
   for (int tries = now < heldUntil_ ? 1 : 5; tries > 0; --tries) {
@@ -103,8 +103,8 @@ bool Journal::lockSoon(int file) {
   return false;
 }
 
-// Whoever moves the file on holds the lock of the old one; who has opened that meanwhile looks again. A line
-// needs no lock: without one it is added, and the file is moved on another time.
+// A process that rotates the file holds the lock of the old one. Another that has opened the old file in the
+// meantime checks again. A line needs no lock: without one it is added, and the file is rotated another time.
 std::optional<std::string> Journal::write(std::string_view line) {
   constexpr int kTries = 8;
   for (int i = 0; i < kTries; ++i) {

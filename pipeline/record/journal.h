@@ -1,15 +1,15 @@
 #pragma once
-/// A run log for people: a file to which one line is added for each thing that happens.
+/// A run log for people: a file that gets one line for each event.
 ///
 ///     2026-11-23 22:31:05.123 +0100  t=12.350 f=741  wall left: the process that draws it was killed
 ///
-/// Each line is on its way to the disk before add() returns, in one piece, so that it is there whoever is
-/// killed afterwards; several processes may add to the same file. A file that would grow past its limit is
-/// renamed to FILE.1, what was FILE.1 to FILE.2, and so on to FILE.3; older lines go.
+/// add() hands each line to the system in one piece before it returns, so that a later crash does not lose
+/// it. Several processes may add to the same file. A file that would grow past its limit is renamed to
+/// FILE.1, FILE.1 to FILE.2, and FILE.2 to FILE.3. Older lines are deleted.
 ///
 /// Threads  any.
-/// Errors   open() says why a file cannot be written. Later on (a full disk) lines are lost, which add() says
-///          once, and the show goes on; the first line that can be written again says how many were.
+/// Errors   open() says why a file cannot be written. Later (a full disk) lines are lost: add() says so once,
+///          and the show goes on. The first line that can be written again says how many were lost.
 
 #include "engine/base/diagnostic.h"
 #include "engine/base/time_signature.h"
@@ -31,18 +31,18 @@ public:
   static constexpr int kOlder = 3;                                      ///< files that are kept beside it
 
   static Result<std::unique_ptr<Journal>> open(std::string file, std::size_t limit = kStandardLimit);
-  /// Of a file that may not be there yet: lines are lost until it can be written.
+  /// Opens a file that may not exist yet. Lines are lost until it can be written.
   static std::unique_ptr<Journal> openLater(std::string file);
 
-  /// Where the show is when something happens.
+  /// Place in the show at which an event happens.
   struct Place {
     Nanoseconds time = 0;  ///< show time [ns]
     std::uint64_t frame = 0;
   };
-  /// `what` is one line; whatever cannot stand in one is written as a blank. Why the first line was lost that
-  /// could not be written, else nothing.
+  /// Adds `what` as one line; characters that a line cannot hold become blanks. Returns the error of the
+  /// first line that is lost, otherwise nothing.
   std::optional<std::string> add(std::string_view what, std::optional<Place> at = {});
-  /// Lines have been lost.
+  /// Returns true if lines have been lost.
   bool incomplete() const;
   const std::string& file() const { return file_; }
 
@@ -54,8 +54,8 @@ private:
   std::string file_;
   std::size_t limit_;
   mutable std::mutex mutex_;                           ///< of the next ones
-  std::chrono::steady_clock::time_point heldUntil_{};  ///< somebody holds the lock, and not for a line
-  std::uint64_t lost_ = 0;                             ///< lines, of which the file does not tell yet
+  std::chrono::steady_clock::time_point heldUntil_{};  ///< another program holds the lock, and not for a line
+  std::uint64_t lost_ = 0;                             ///< lines lost that the file does not mention yet
   bool incomplete_ = false;
 };
 

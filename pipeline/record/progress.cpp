@@ -13,7 +13,7 @@ namespace {
 constexpr std::chrono::milliseconds kInterval{100};
 constexpr std::uint64_t kBarWidth = 30;
 
-/// A terminal that is gone loses the bar, nothing else.
+/// If the terminal has closed, only the bar is lost.
 void put(int fd, std::string_view text) {
   [[maybe_unused]] const ssize_t wrote = write(fd, text.data(), text.size());
 }

@@ -1,5 +1,5 @@
 #pragma once
-/// A progress bar for whoever watches a terminal.
+/// A progress bar on a terminal.
 ///
 /// Threads  one thread.
 /// Errors   none; without a terminal it does nothing.
@@ -12,8 +12,8 @@ namespace stadion {
 
 class ProgressBar {
 public:
-  /// `total` frames are to come (0 = nobody knows). Draws on descriptor `fd` (2 = stderr) if that is a
-  /// terminal.
+  /// `total` is the number of frames to come (0 = unknown). Draws on descriptor `fd` (2 = stderr) if that is
+  /// a terminal.
   explicit ProgressBar(std::uint64_t total, int fd = 2);
   ~ProgressBar() { finish(); }
   ProgressBar(const ProgressBar&) = delete;
@@ -22,7 +22,7 @@ public:
   bool shown() const { return shown_; }
   /// `done` frames are finished. Draws at most ten times a second.
   void update(std::uint64_t done);
-  /// Wipes the bar, so that what follows stands on a clean line. Further updates do nothing.
+  /// Clears the bar, so that further output starts on an empty line. Further updates do nothing.
   void finish();
 
 private:

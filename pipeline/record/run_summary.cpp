@@ -19,11 +19,11 @@ void keepFinite(std::vector<double>& values) {
   std::erase_if(values, [](double v) { return !std::isfinite(v); });
 }
 
-/// Of sorted values.
+/// Expects sorted values.
 double nearestRank(const std::vector<double>& sorted, double percent) {
   if (sorted.empty()) return 0;
   const double n = static_cast<double>(sorted.size());
-  // 1e-9 of a rank forgives the rounding of percent / 100, so that 95 % of 20 is 19 and not 20.
+  // 1e-9 of a rank allows for the rounding of percent / 100, so that 95 % of 20 is 19 and not 20.
   const double rank = std::clamp(std::ceil(percent / 100 * n - 1e-9), 1.0, n);
   return sorted[static_cast<std::size_t>(rank) - 1];
 }
@@ -37,7 +37,7 @@ Json json(const Distribution& d) {
           {"p95", d.p95},     {"p99", d.p99}, {"max", d.max}};
 }
 
-/// What a node tells more than once.
+/// An event that a node repeats.
 struct Again {
   std::size_t times = 0;
   double last = 0;  ///< [s]
@@ -128,7 +128,7 @@ std::string clusterText(const ClusterSummary& c) {
   return text + "\n";
 }
 
-/// What was done for the head's pose to be young.
+/// Describes the measures that keep the head's pose young.
 std::string headText(const RunSummary& s) {
   std::string text;
   if (s.latched)
@@ -143,7 +143,7 @@ std::string headText(const RunSummary& s) {
 }  // namespace
 
 std::string toText(const RunSummary& s) {
-  // How fast frames go by that nobody draws says nothing.
+  // The speed of frames that no wall draws means nothing.
   const bool all = s.framesDrawn == s.frames;
   const double rate = s.elapsedSeconds > 0 ? static_cast<double>(s.frames) / s.elapsedSeconds : 0.0;
   std::string text = fmt::format("{}: {}, {:.3f} s of show in {:.3f} s{}, {} late\n", s.show,

@@ -26,9 +26,9 @@ namespace fs = std::filesystem;
 using std::chrono::milliseconds;
 
 constexpr std::uint64_t kFreeSpace = 64ull << 20;  ///< below this the disk counts as full [bytes]
-constexpr std::uint64_t kCheckEvery = 64;          ///< frames between two looks at the disk
+constexpr std::uint64_t kCheckEvery = 64;          ///< frames between two checks of the disk
 
-/// The one line of ffmpeg's complaint that says most: the last.
+/// Returns the most informative line of ffmpeg's messages: the last one.
 std::string lastLine(std::string text) {
   while (!text.empty() && (text.back() == '\n' || text.back() == '\r')) text.pop_back();
   const std::size_t begin = text.rfind('\n');
@@ -59,7 +59,7 @@ std::vector<std::string> encoderArguments(const VideoOptions& o, const std::stri
 
 }  // namespace
 
-/// The writer's other half: the queue between the threads, and what the thread does.
+/// The writer's private part: the queue between the threads, and the thread's work.
 class VideoWriter::Work {
 public:
   Work(std::string path, const VideoOptions& options) : path_(std::move(path)), options_(options) {
@@ -126,15 +126,16 @@ private:
   }
 
   void run() {
-    // A write to an encoder that has died must be an error here, not a signal that ends the show. Blocking
-    // the signal in this thread alone leaves the rest of the process as it was.
+    // Writing to an encoder that has exited must be an error here, not a signal that ends the show. The
+    // signal is blocked in this thread alone, so the rest of the process is unaffected.
     sigset_t pipe;
     sigemptyset(&pipe);
     sigaddset(&pipe, SIGPIPE);
     pthread_sigmask(SIG_BLOCK, &pipe, nullptr);
     try {
       if (start() && feed() && finishEncoder() && verify()) publish();
-    } catch (const std::exception& e) {  // no memory, for instance: there is no video, and the show goes on
+    } catch (const std::exception& e) {  // for instance out of memory: there is no video, and the show goes
+                                         // on
       fail(e.what());
     }
   }
@@ -199,7 +200,7 @@ private:
         pollfd ready{toEncoder_.get(), POLLOUT, 0};
         poll(&ready, 1, 50);
       } else if (!(wrote < 0 && errno == EINTR)) {
-        encoder_.wait(milliseconds(1000));  // so that its last words are complete
+        encoder_.wait(milliseconds(1000));  // so that its last messages are complete
         return no(fmt::format("ffmpeg failed: {}", reason()));
       }
     }
@@ -211,7 +212,7 @@ private:
     return said.empty() ? "it ended before its time" : said;
   }
 
-  /// Waits for a child in small steps, so that it can be given up.
+  /// Waits for a child in small steps, so that the wait can be stopped.
   std::optional<int> ended(ChildProcess& child) {
     const auto deadline = std::chrono::steady_clock::now() + options_.patience;
     while (!abandoned_ && std::chrono::steady_clock::now() < deadline)
@@ -228,7 +229,8 @@ private:
     return true;
   }
 
-  /// An encoder that exits well may still have lost frames on a full disk: count what can be read back.
+  /// An encoder that reports success may still have lost frames on a full disk. Counts the frames in the
+  /// file.
   bool verify() {
     const Descriptor answer = makeMemoryFile();
     ChildProcess probe;
@@ -265,12 +267,12 @@ private:
   std::condition_variable changed_;
   std::deque<Picture> queue_;
   bool closed_ = false;
-  bool lacksEncoder_ = false;  ///< the thread's until it is joined
+  bool lacksEncoder_ = false;  ///< belongs to the thread until it is joined
   std::optional<Diagnostic> failed_;
   VideoReport report_;
   std::atomic<bool> abandoned_ = false;
 
-  ChildProcess encoder_;  ///< these belong to the thread
+  ChildProcess encoder_;  ///< from here on: used by the thread only
   Descriptor toEncoder_;
   Descriptor complaints_;
   std::uint64_t sent_ = 0;

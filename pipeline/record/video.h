@@ -1,14 +1,13 @@
 #pragma once
-/// A video of a run, made by the ffmpeg program (H.264 in MP4).
+/// Records a video of a run with the ffmpeg program (H.264 in MP4).
 ///
-/// Frames go to ffmpeg through a pipe from a thread of the writer's own; the caller is never kept waiting.
-/// The file appears under its name only when ffmpeg has ended well and ffprobe has counted every frame in it.
+/// A thread of the writer's own sends frames to ffmpeg through a pipe, so the caller never waits. The file
+/// gets its name only when ffmpeg has succeeded and ffprobe has counted every frame in it.
 ///
 /// Ownership  owns the thread and the child; a destructor without finish() ends both and leaves no file.
 /// Threads    offer(), waitForRoom() and finish() from one thread.
-/// Errors     the first one is kept, offers after it are refused, finish() reports it: no ffmpeg, a full
-/// disk,
-///            an encoder that fails, stalls or loses frames. The run goes on without the video.
+/// Errors     The first one is kept, later offers are refused, and finish() reports it: no ffmpeg, a full
+///            disk, an encoder that fails, stalls or loses frames. The run goes on without the video.
 
 #include "engine/base/diagnostic.h"
 #include "pipeline/picture/picture.h"
@@ -26,7 +25,7 @@ struct VideoOptions {
   std::size_t queue = 8;                ///< frames that may wait
   std::string ffmpeg = "ffmpeg";        ///< programs, found along PATH
   std::string ffprobe = "ffprobe";
-  std::chrono::milliseconds patience{60'000};  ///< for a stalled encoder
+  std::chrono::milliseconds patience{60'000};  ///< time limit for a stalled encoder
 };
 
 struct VideoReport {
@@ -38,7 +37,7 @@ class VideoWriter {
 public:
   enum class Offer {
     Taken,
-    Full,    ///< the queue is full; the picture is still the caller's
+    Full,    ///< the queue is full; the caller keeps the picture
     Refused  ///< the video has failed, or the picture has the wrong size
   };
 
@@ -47,12 +46,13 @@ public:
 
   /// Takes the picture if there is room.
   Offer offer(Picture&& picture);
-  /// Waits until there is room, the video fails or the time is up; true if an offer would not be Full.
+  /// Waits until there is room, the video fails or the time is up. Returns true if an offer would not be
+  /// Full.
   bool waitForRoom(std::chrono::milliseconds limit);
   bool failed() const;
   bool lacksEncoder() const;  ///< ffmpeg is not installed; known after finish()
 
-  /// Ends the file and checks it: what it holds, or why there is none.
+  /// Ends the file and checks it. Returns its content, or why there is none.
   Result<VideoReport> finish();
 
 private:

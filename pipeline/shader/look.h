@@ -1,5 +1,5 @@
 #pragma once
-/// How much a picture may cost.
+/// Settings that trade picture quality for cost.
 
 #include <cstdint>
 
@@ -8,9 +8,9 @@ namespace stadion {
 enum class Look : std::uint8_t {
   /// Light in linear RGB for every pixel, highlights, shadows, a sky with a sun; several samples a pixel.
   Full,
-  /// As OpenGL drew without shaders: light at the corners of triangles, reckoned with colours as they are
-  /// stored, the same from all sides; one sample a pixel, no highlights, no shadows, the sky without its
-  /// glow. The back of an open surface is lit as its front. For shows that must be fast on a processor.
+  /// As OpenGL drew without shaders: light at the corners of triangles, computed with stored (sRGB) colours,
+  /// the same from all sides; one sample a pixel, no highlights, no shadows, the sky without its glow. The
+  /// back of an open surface is lit as its front. For shows that must be fast on a processor.
   Plain,
 };
 
@@ -18,18 +18,18 @@ struct RenderQuality {
   Look look = Look::Full;
   std::uint32_t samples = 4;  ///< per pixel; 1 = hard edges at about a third of the cost in software
 
-  /// Instances a draw call: in software one call of a hundred thousand takes many seconds, in which nobody
-  /// can stop. 1 = each thing by a call of its own.
+  /// Instances a draw call. In software, one call of a hundred thousand takes many seconds and cannot be
+  /// interrupted. 1 = a call for each object.
   std::uint32_t mostAtOnce = 1024;
-  /// Where one sample a pixel is taken, things that cover no pixel's middle are not drawn; in software,
-  /// neither are triangles that cover none or are turned away (triangle_sieve.h). Nothing would be seen of
-  /// them. False: all that is in view goes to OpenGL, for comparisons.
+  /// With one sample a pixel, objects that cover no pixel's middle are not drawn. In software, triangles that
+  /// cover none or face away are not drawn either (triangle_sieve.h). They would not be visible. False: all
+  /// objects in view go to OpenGL, for comparisons.
   bool leavesOutUnseen = true;
-  /// There, in the plain look, small things are drawn without OpenGL (small_things.h).
+  /// In software and in the plain look, small objects are drawn without OpenGL (small_things.h).
   bool drawsSmallThings = true;
 
-  /// Of transparent surfaces, so many fragments are sorted at a time (glass_layers.h); each takes 32 bytes. The
-  /// picture does not depend on it.
+  /// Number of fragments of transparent surfaces that are sorted at a time (glass_layers.h); each takes 32
+  /// bytes. The picture does not depend on it.
   std::uint32_t mostFragments = 1U << 21;
 
   static constexpr RenderQuality plain() { return {Look::Plain, 1}; }

@@ -55,7 +55,7 @@ vec4 encoded(vec3 c) {  // IEC 61966-2-1
 }
 )";
 
-// Where what is transparent goes: a list of fragments for each pixel (glass_layers.h).
+// Stores transparent surfaces: a list of fragments for each pixel (glass_layers.h).
 constexpr const char* kKeepFragment = R"(
 #ifdef LAYERED
 layout(early_fragment_tests) in;
@@ -85,9 +85,8 @@ out vec4 shown;
 #endif
 )";
 
-// For each sample: what covers it, sorted, four at a time. Depths are the greater, the nearer. Loops are few and
-// short, and no array is indexed:
-// a software rasteriser runs every line for eight pixels at once.
+// For each sample: sorts its fragments, four at a time. Greater depths are nearer. Loops are few and short,
+// and no array is indexed: a software rasteriser runs every line for eight pixels at once.
 constexpr const char* kBlendLayers = R"(
 #ifdef SAMPLED
 uniform sampler2DMS depths;

@@ -5,16 +5,14 @@
 ///              and of the reflectance cancel. The highlight is GGX (Walter et al. 2007) with Smith's
 ///              shadowing in Schlick's form and Schlick's Fresnel term.
 /// Ambient      a face looking up receives `ambient`, one looking down `ambient` x (0.3 + `ground`), others
-/// in
-///              between in proportion to their normal's z.
+///              in between in proportion to their normal's z.
 /// Range        radiance up to 0.8 is shown as it is; above, it approaches 1 smoothly (softClip).
 /// sRGB         opaque surfaces and the sky encode it themselves: once a pixel, not once a sample.
-/// Haze         what lies d away keeps exp(-d / haze distance) of its colour; the rest is the sky's behind
-/// it,
-///              brighter towards the sun, so that what is far melts into the horizon.
-/// Shadows      of one directional light: four lookups of two by two texels in the ring of the shadow maps
-///              that is finest there (shadow_maps.h). Beyond the last ring everything is lit.
-
+/// Haze         a surface at distance d keeps exp(-d / haze distance) of its colour. The rest is the colour
+///              of the sky behind it, brighter towards the sun, so that distant surfaces fade into the
+///              horizon.
+/// Shadows      of one directional light: four lookups of two by two texels in the finest ring of the shadow
+///              maps there (shadow_maps.h). Beyond the last ring everything is lit.
 ///
 /// The plain look (look.h) has shaders of its own: light at the vertices, in colours as they are stored.
 
@@ -25,17 +23,17 @@
 
 namespace stadion {
 
-/// What becomes of the light that a surface program has found.
+/// The use of the light that a surface program computes.
 enum class SurfaceWrites : std::uint8_t {
-  Picture,  ///< it is shown; encoded, in the full look
-  Blended,  ///< it is blended, in a buffer that encodes sRGB itself
-  Layers,   ///< it is kept, and sorted later (glass_layers.h)
+  Picture,  ///< shown; encoded, in the full look
+  Blended,  ///< blended, in a buffer that encodes sRGB itself
+  Layers,   ///< stored, and sorted later (glass_layers.h)
 };
 
-/// That many transparent layers are blended exactly (glass_layers.h); a multiple of four.
+/// Number of transparent layers that are blended exactly (glass_layers.h); a multiple of four.
 constexpr int kExactLayers = 32;
 
-/// What a surface program does, so that none pays for what it does not need. A software rasteriser runs every
+/// The features of a surface program, so that none pays for unused ones. A software rasteriser runs every
 /// line of a fragment shader for every block of pixels that a triangle touches, whatever the branches say.
 struct SurfaceTraits {
   bool textured = false;
@@ -43,15 +41,15 @@ struct SurfaceTraits {
   bool shadowed = false;     ///< a light casts shadows
   bool hazy = false;         ///< there is haze
   SurfaceWrites writes = SurfaceWrites::Picture;
-  bool masked = false;       ///< leaves out what has less alpha than the material's cutoff
-  bool glowing = false;      ///< a picture says where it emits light
+  bool masked = false;       ///< discards fragments with less alpha than the material's cutoff
+  bool glowing = false;      ///< a texture says where it emits light
   Look look = Look::Full;
-  /// How many lights there are; negative: any number, looked up for every vertex or pixel, which a software
+  /// The number of lights. Negative: any number, looked up for every vertex or pixel, which a software
   /// rasteriser does lane by lane.
   int lights = -1;
 
-  /// Among those that differ in the mesh, in local lights, and in what they write; the first kUsual need
-  /// neither a mask nor a picture of light.
+  /// Index among programs that differ in the mesh, in local lights, and in what they write; the first kUsual
+  /// need neither a mask nor an emissive texture.
   std::size_t index() const {
     return std::size_t{textured} | std::size_t{localLights} << 1 |
            std::size_t{writes != SurfaceWrites::Picture} << 2 | std::size_t{masked} << 3 |
@@ -62,10 +60,10 @@ struct SurfaceTraits {
 
 std::string surfaceVertexShader(const SurfaceTraits& traits);
 std::string surfaceFragmentShader(const SurfaceTraits& traits);
-/// Depth alone, as the light sees it; of the traits `masked` counts, and then `textured`.
+/// Depth alone, as seen from the light. Of the traits only `masked` counts, and with it `textured`.
 std::string shadowVertexShader(const SurfaceTraits& traits = {});
 std::string shadowFragmentShader(const SurfaceTraits& traits = {});
-/// Blends the layers that were kept, each sample by itself if the picture is multisampled.
+/// Blends the stored layers; if the picture is multisampled, each sample by itself.
 std::string layerBlendVertexShader();
 std::string layerBlendFragmentShader(bool sampled);
 std::string skyVertexShader();

@@ -21,7 +21,7 @@ Float4 widen(const std::array<float, 3>& v, float w) {
   return {finite(v[0]), finite(v[1]), finite(v[2]), finite(w)};
 }
 
-/// As the look reckons with it.
+/// Converts a colour to the space in which the look computes.
 Float4 colour(const std::array<float, 3>& linear, float w, Look look) {
   Float4 out = widen(linear, w);
   if (look == Look::Plain)
@@ -56,7 +56,7 @@ void placeSun(const std::vector<DrawLight>& lights, SceneBlock& out) {
   out.sunColour = {sun->colour[0] / brightest, sun->colour[1] / brightest, sun->colour[2] / brightest, 0};
 }
 
-/// A little below, so that an alpha of just so much is not lost by rounding when it is interpolated.
+/// A little lower, so that rounding in interpolation does not lose an alpha equal to the cutoff.
 float cutoffOf(const Material& material) {
   constexpr float kRounding = 1.0f / 2048;
   const float cutoff = finite(material.alphaCutoff);

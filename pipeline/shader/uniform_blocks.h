@@ -1,5 +1,5 @@
 #pragma once
-/// The uniform blocks of the shaders, laid out as std140 lays them out, and how they are filled.
+/// The uniform blocks of the shaders, in std140 layout, and the functions that fill them.
 ///
 /// Everything that differs per view or per mesh is in such a block, nothing in program uniforms. Coordinates
 /// are World axes relative to the draw list's origin, as in the list.
@@ -31,7 +31,7 @@ struct LightBlock {
   Float4 cone;       ///< spot: cosine of the outer half angle, 1 / (cosine inner - outer)
 };
 
-/// What both eyes of a wall share.
+/// Data that both eyes of a wall share.
 struct SceneBlock {
   Float4 zenith, horizon, ground;          ///< linear; w unused
   Float4 ambient;                          ///< linear; w: 1 / haze distance [1/m], or 0
@@ -47,28 +47,28 @@ struct MaterialBlock {
   Float4 finish;      ///< x: metallic, y: alpha cutoff
 };
 
-/// Where the shadow maps lie: from World axes relative to the list's origin to the texture.
+/// The places of the shadow maps: from World axes relative to the list's origin to the texture.
 struct ShadowBlock {
   Float4 right, up;                        ///< the light's axes; w unused
   Float4 towards;                          ///< w: depth per metre
-  std::array<Float4, kShadowRings> rings;  ///< what to add to texture coordinates and depth; w: their scale
+  std::array<Float4, kShadowRings> rings;  ///< offset of texture coordinates and depth; w: their scale
   Float4 lift;                             ///< for each ring: along the surface's normal [m]
 };
 
-/// Where the blocks are bound.
+/// Binding points of the blocks.
 enum UniformBinding : std::uint32_t {
   kViewBinding = 0,
   kSceneBinding = 1,
   kMaterialBinding = 2,
   kShadowBinding = 3
 };
-/// The texture units of the shadow maps, and of the picture that says where a surface emits light.
+/// The texture units of the shadow maps, and of the emissive texture.
 constexpr int kShadowUnit = 1, kGlowUnit = 2;
 
 /// The blocks and textures of all our shaders; a program takes those that it uses.
 GlBindings shaderBindings();
 
-/// Takes a matrix to clip coordinates, z in [0, w], over into the block, as the context wants them.
+/// Copies a matrix to clip coordinates, z in [0, w], into the block, in the context's convention.
 void fillViewProjection(const Mat4& viewProjection, ClipDepth clip, ViewBlock& out);
 /// False if the eye's matrices are not finite or cannot be inverted: nothing can be drawn then.
 bool fillView(const DrawView& eye, ClipDepth clip, ViewBlock& out);

@@ -56,7 +56,7 @@ class OpenAlDevice final : public SoundDevice {
 public:
   explicit OpenAlDevice(const OpenAl& al) : al_(al) {}
 
-  /// False if there is nothing to hear with.
+  /// Returns false if there is no sound output.
   bool open() {
     device_ = al_.openDevice(nullptr);
     if (device_) context_ = al_.createContext(device_, nullptr);
@@ -89,7 +89,7 @@ public:
     al_.sourceInt(source, AL_BUFFER, static_cast<ALint>(buffer));
     al_.sourceInt(source, AL_LOOPING, loop ? AL_TRUE : AL_FALSE);
     al_.sourceInt(source, AL_SOURCE_RELATIVE, AL_TRUE);
-    al_.sourceFloat(source, AL_ROLLOFF_FACTOR, 0);  // how loud it is has been worked out
+    al_.sourceFloat(source, AL_ROLLOFF_FACTOR, 0);  // the volume is already computed
     al_.sourceFloat(source, AL_GAIN, 0);
     if (offset > 0) al_.sourceFloat(source, AL_SEC_OFFSET, static_cast<float>(offset));
     al_.play(source);

@@ -1,9 +1,9 @@
 #pragma once
-/// Where sounds come out: OpenAL Soft, loaded when the first sound plays; nothing is linked.
+/// Sound output: OpenAL Soft, loaded when the first sound plays; it is not linked.
 ///
 /// Frames   the head's: +X to its right, +Y the way it looks, +Z up [m].
 /// Threads  one thread makes and uses it.
-/// Errors   a device that cannot play a sound leaves it out; the show does not depend on it.
+/// Errors   a sound that the device cannot play is left out; the show does not depend on it.
 
 #include "engine/asset/sound_file.h"
 #include "engine/maths/maths.h"
@@ -18,20 +18,20 @@ public:
   using Voice = std::uint32_t;
 
   virtual ~SoundDevice() = default;
-  /// What it calls itself.
+  /// Returns the device's own name.
   virtual std::string name() const = 0;
-  /// Plays the sound from `offset` [s] on, silently until its first set(). 0 if it cannot.
+  /// Plays the sound from `offset` [s] on, silently until the first set(). Returns 0 if it cannot.
   virtual Voice start(const Sound& sound, bool loop, double offset) = 0;
-  /// How loud (0 to 1) and from where; at the origin it comes from everywhere.
+  /// Sets volume (0 to 1) and place. A sound at the origin comes from all directions.
   virtual void set(Voice voice, double gain, const Vec3& p_H) = 0;
   virtual void stop(Voice voice) = 0;
-  /// Of a voice; it goes on where it was.
+  /// Pauses a voice; later it continues from the same point.
   virtual void pause(Voice voice, bool paused) = 0;
-  /// Of all of them, from 0 to 1.
+  /// Sets the volume of all voices, from 0 to 1.
   virtual void setVolume(double volume) = 0;
 };
 
-/// The system's standard output. Fails, with what to install, if there is none.
+/// Opens the system's standard output. Fails, with the package to install, if there is none.
 Result<std::unique_ptr<SoundDevice>> openSoundDevice();
 
 }  // namespace stadion

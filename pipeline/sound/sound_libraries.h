@@ -1,15 +1,15 @@
 #pragma once
-/// Where there is no sound device ALSA and OpenAL Soft say so in ten lines, of which nobody understands one.
-/// SoundPlayer says it in a sentence.
+/// Silences ALSA and OpenAL Soft. Without a sound device they print ten lines that users cannot understand.
+/// SoundPlayer reports it in a sentence.
 
 namespace stadion {
 
-/// OpenAL Soft leaves the terminal alone, unless the environment says otherwise (ALSOFT_LOGLEVEL).
+/// Stops OpenAL Soft from printing, unless the environment says otherwise (ALSOFT_LOGLEVEL).
 ///
-/// Threads  changes the environment: the program calls it first thing, before it starts threads.
+/// Threads  changes the environment: the program calls it first, before it starts threads.
 void quietOpenAl();
 
-/// ALSA leaves the terminal alone. Any thread, before a device is opened.
+/// Stops ALSA from printing. Any thread, before a device is opened.
 void quietAlsa();
 
 }  // namespace stadion

@@ -68,7 +68,7 @@ void SoundPlayer::work() {
     try {
       follow(scape, mix);
     } catch (const std::exception&) {
-      // Out of memory: this frame's sounds are missing, the show is not. What was not begun is begun later.
+      // Out of memory: this frame's sounds are missing, but the show goes on. They are started later.
       std::erase_if(playing_, [](const auto& p) { return p.second.voice == 0; });
       std::erase_if(samples_, [](const auto& s) { return s.second.samples.empty(); });
     }
@@ -119,7 +119,7 @@ void SoundPlayer::begin(const SoundRecord& sound, Nanoseconds now, Playing& play
   playing.voice = device_->start(*samples, sound.loop, late > kNoticeable ? late : 0);
 }
 
-// Read once; the loader has told the author if there is anything wrong with it.
+// Read once; the loader has already reported errors in it.
 const Sound* SoundPlayer::samplesOf(const SoundRecord& sound) {
   const auto [at, isNew] = samples_.try_emplace({sound.file, sound.range > 0});
   if (isNew)

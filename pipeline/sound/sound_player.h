@@ -1,14 +1,15 @@
 #pragma once
-/// Makes the show's sounds heard, beside it: a reader of what App publishes, like the walls.
+/// Plays the show's sounds. Like the walls, it reads what App publishes.
 ///
-/// It hears of each frame what plays since when and from where, starts and stops voices accordingly, and
-/// never tells the show anything: what happens in the show is the same with a device and without.
+/// In each frame it gets the sounding voices with their start times and places, and starts and stops voices
+/// accordingly. It sends nothing back, so the show is the same with or without a device.
 ///
-/// How loud a sound is falls to nothing at its range R: with d its distance from the head, (1 - d/R)^2.
+/// A sound's volume falls to zero at its range R: with d its distance from the head, it is (1 - d/R)^2.
 ///
 /// Threads    one of its own, which reads files and waits for the device; hear() is App's and only hands
-/// over. Ownership  borrows the roots, which must outlive it. Errors     without a device it says so once,
-/// and is silent.
+///            over.
+/// Ownership  borrows the roots, which must outlive it.
+/// Errors     without a device it says so once, and is silent.
 
 #include "engine/asset/roots.h"
 #include "engine/published/sound_scape.h"
@@ -23,7 +24,7 @@
 
 namespace stadion {
 
-/// What the operator makes of the show's sounds.
+/// The operator's settings for the show's sounds.
 struct SoundMix {
   double volume = 1;  ///< from 0 to 1
   bool paused = false;
@@ -31,23 +32,23 @@ struct SoundMix {
   bool operator==(const SoundMix&) const = default;
 };
 
-/// What is left of a sound of range R [m] at a distance [m]; all of it if R is 0.
+/// Returns the volume of a sound of range R [m] at a distance [m]; 1 if R is 0.
 double loudnessAt(double distance, double range);
 
 class SoundPlayer {
 public:
   using OpenDevice = std::function<Result<std::unique_ptr<SoundDevice>>()>;
 
-  /// `tell` is given one line, when the first sound plays: which device there is, or why there is none.
+  /// `tell` gets one line when the first sound plays: the device's name, or why there is none.
   SoundPlayer(const AssetRoots& roots, std::function<void(const std::string&)> tell,
               OpenDevice open = openSoundDevice);
   ~SoundPlayer();
   SoundPlayer(const SoundPlayer&) = delete;
   SoundPlayer& operator=(const SoundPlayer&) = delete;
 
-  /// What is heard from now on. Takes the scape's content, and gives back memory to fill.
+  /// Sets the sounds from now on. Takes the scape's content, and returns memory to fill.
   void hear(SoundScape& scape, const SoundMix& mix);
-  /// Waits until what was handed over has reached the device.
+  /// Waits until all sounds handed over have reached the device.
   void settle();
 
 private:
@@ -67,7 +68,7 @@ private:
   std::function<void(const std::string&)> tell_;
   OpenDevice open_;
 
-  bool silent_ = true;  ///< nothing was to be heard last; App's
+  bool silent_ = true;  ///< the last scape was silent; used by App only
 
   std::mutex mutex_;
   std::condition_variable changed_;
@@ -75,7 +76,7 @@ private:
   SoundMix nextMix_;
   bool fresh_ = false, busy_ = false, ending_ = false;
 
-  bool opened_ = false;  ///< this and the following are the thread's own
+  bool opened_ = false;  ///< this and the following are used by the thread only
   std::unique_ptr<SoundDevice> device_;
   double volume_ = -1;
   std::map<NodeRef, Playing> playing_;

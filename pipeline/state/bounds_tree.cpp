@@ -10,7 +10,7 @@ namespace {
 constexpr std::uint32_t kWide = BoundsLayout::kWide;
 constexpr float kInfinite = std::numeric_limits<float>::infinity();
 
-/// Least and greatest of the axes.
+/// Least and greatest coordinate on each axis.
 struct Box {
   std::array<float, 3> lo{kInfinite, kInfinite, kInfinite}, hi{-kInfinite, -kInfinite, -kInfinite};
 };
@@ -73,7 +73,7 @@ void putSphere(float* floats, std::uint32_t place, const InstanceRecord& r, cons
     sphere[k] = static_cast<float>(r.centre[k] - origin[static_cast<int>(k)]);
     known = known && std::isfinite(sphere[k]);
   }
-  // What is beyond all measure is everywhere: so it is always looked at more closely.
+  // A sphere without finite bounds is everywhere, so it is always tested more closely.
   if (!known) sphere = {0, 0, 0, kInfinite};
   if (!isShown(r)) sphere = {0, 0, 0, -kInfinite};
   for (std::size_t k = 0; k < 4; ++k) group[k * kWide] = sphere[k];

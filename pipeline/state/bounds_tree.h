@@ -1,14 +1,13 @@
 #pragma once
-/// Bounding spheres below a hierarchy of boxes, eight of each side by side, so that one instruction tests
-/// several.
+/// Bounding spheres below a hierarchy of boxes, in groups of eight, so that one instruction tests several.
 ///
-/// Level 0 are the spheres, level 1 the boxes of eight neighbouring spheres each, level 2 of eight such
-/// boxes, and so on: node j of a level holds nodes 8 j to 8 j + 7 of the level below. So there is nothing to
-/// follow and nothing but numbers; other processes can map it.
+/// Level 0 holds the spheres, level 1 a box around each eight neighbouring spheres, level 2 a box around each
+/// eight of those, and so on. Node j of a level holds nodes 8 j to 8 j + 7 of the level below. The tree thus
+/// consists of numbers without pointers, and other processes can map it.
 ///
-/// Frames     relative to `origin`, a place in World amid what is held, in single precision. What was rounded
-///            is allowed for by those who test (pipeline/cull/bounds_kernels.h).
-/// Threads    plain memory: whoever may read the records may read their tree.
+/// Frames     relative to `origin`, a place in World amid the contents, in single precision. The tests allow
+///            for the rounding (pipeline/cull/bounds_kernels.h).
+/// Threads    plain memory: a thread that may read the records may read their tree.
 
 #include "engine/published/records.h"
 
@@ -17,7 +16,7 @@
 
 namespace stadion {
 
-/// Where the levels lie of a tree that has room for `capacity` spheres, counted in floats.
+/// Positions of the levels in a tree with room for `capacity` spheres, counted in floats.
 struct BoundsLayout {
   static constexpr std::uint32_t kWide = 8;         ///< nodes side by side
   static constexpr std::size_t kSphereFloats = 32;  ///< of eight: x, y, z, radius
@@ -38,7 +37,8 @@ struct BoundsLayout {
 struct BoundsTree {
   Vec3 origin = Vec3::Zero();            ///< World [m]
   std::uint32_t count = 0;               ///< spheres
-  const std::uint32_t* order = nullptr;  ///< which record each sphere is of; null: they stand in order
+  const std::uint32_t* order = nullptr;  ///< record of each sphere; null: spheres are in the order of the
+                                         ///< records
   const float* floats = nullptr;
   BoundsLayout layout;
 
@@ -49,9 +49,9 @@ struct BoundsTree {
 
 bool isShown(const InstanceRecord& r);
 
-/// Writes the sphere of a record; of what is not shown, one that touches nothing.
+/// Writes the sphere of a record. A hidden record gets a sphere that touches nothing.
 void putSphere(float* floats, std::uint32_t place, const InstanceRecord& r, const Vec3& origin);
-/// Writes boxes `first` to `end` of a level, around what the level below has there; it has `below` nodes.
+/// Writes boxes `first` to `end` of a level around the nodes of the level below, which has `below` nodes.
 void putBoxes(float* floats, const BoundsLayout& layout, std::uint32_t level, std::uint32_t first,
               std::uint32_t end, std::uint32_t below);
 

@@ -13,7 +13,7 @@ std::size_t hiddenWords(std::size_t count) {
   return (count + 63) / 64;
 }
 
-/// Where in a chunk its bounds lie, behind the records and the bits of all slots.
+/// Returns the position of a chunk's bounds, behind the records and the bits of all slots.
 std::size_t boundsAt(std::size_t count) {
   const std::size_t bytes =
       count * sizeof(InstanceRecord) + kSlots * hiddenWords(count) * sizeof(std::uint64_t);
@@ -61,7 +61,7 @@ ChunkId ChunkArena::add(std::span<const InstanceRecord> records) {
   return id;
 }
 
-/// Nobody asks for it before add() has returned.
+/// No stage uses the chunk before add() has returned.
 ChunkArena::Extent ChunkArena::reserve(std::size_t count, ChunkId& id) {
   const std::lock_guard lock(mutex_);
   Extent x;

@@ -4,7 +4,7 @@
 ///
 /// Frames    records are in World.
 /// Threads   add() and free() from any thread (the loader's); find() from any thread while the chunk lives.
-/// Lifetime  whoever frees a chunk has made sure that no slot still shows it.
+/// Lifetime  the caller of free() makes sure that no slot shows the chunk any more.
 
 #include "engine/published/records.h"
 #include "pipeline/state/bounds_tree.h"
@@ -22,15 +22,16 @@ constexpr std::size_t kSlots = 3;
 /// One chunk as the stages see it.
 struct ChunkView {
   std::span<const InstanceRecord> records;
-  std::span<std::uint64_t> hidden;  ///< one bit per record, of the slot asked for: it has left the chunk
-  BoundsTree bounds;                ///< of all that are shown, whether they have left or not
+  std::span<std::uint64_t> hidden;  ///< one bit per record, for the requested slot: the object has left the
+                                    ///< chunk
+  BoundsTree bounds;                ///< of all shown records, including those that have left
 };
 
 class ChunkArena {
 public:
   ChunkArena();
 
-  /// Builds the hierarchy, too; others may use the arena meanwhile.
+  /// Also builds the hierarchy. Meanwhile other threads may use the arena.
   ChunkId add(std::span<const InstanceRecord> records);
   void free(ChunkId id);
   ChunkView find(ChunkId id, std::size_t slot) const;

@@ -1,7 +1,7 @@
 #pragma once
-/// Which stretches of a growing segment are in use: first fit, neighbours that are free become one.
+/// Allocates stretches of a growing segment: first fit; free neighbours are merged.
 ///
-/// Threads  plain data; whoever owns it locks.
+/// Threads  plain data; the owner locks.
 
 #include <cstddef>
 #include <map>
@@ -10,12 +10,12 @@ namespace stadion {
 
 class Extents {
 public:
-  /// Where `bytes` are free from now on taken. The segment must reach to end().
+  /// Takes `bytes` and returns their offset. The segment must reach to end().
   std::size_t take(std::size_t bytes);
-  /// Gives back what was taken there, all of it.
+  /// Frees a whole stretch that take() returned.
   void giveBack(std::size_t offset, std::size_t bytes);
 
-  std::size_t end() const { return end_; }  ///< behind everything that has ever been in use
+  std::size_t end() const { return end_; }  ///< end of all stretches that were ever in use
 
 private:
   std::map<std::size_t, std::size_t> free_;  ///< offset to bytes

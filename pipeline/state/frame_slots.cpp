@@ -15,7 +15,7 @@ std::optional<std::size_t> FrameSlots::writable() {
     if (mayReplace && (!oldest || slots_[i].written < slots_[*oldest].written)) oldest = i;
   }
   if (oldest || delivery_ == Delivery::Every) return oldest;
-  // All slots are under lease: one that has outlived its deadline belongs to a reader that hangs.
+  // All slots are leased. A lease that is past its deadline belongs to a reader that hangs.
   for (std::size_t i = 0; i < kSlots; ++i)
     if (slots_[i].state == State::Leased && std::chrono::steady_clock::now() - slots_[i].since > deadline_)
       return i;
@@ -26,7 +26,7 @@ bool FrameSlots::mayBegin(std::uint64_t begun) const {
   return mostUnderWay_ == 0 || begun < shown_ + mostUnderWay_ + (ending() ? 1 : 0);
 }
 
-/// Whether few enough walls still draw the oldest frame.
+/// Returns true if few enough walls still draw the oldest frame.
 bool FrameSlots::ending() const {
   return drawn_ > 0 && drawn_ + last_ >= cursor_.size();
 }
@@ -85,7 +85,7 @@ std::optional<Lease> FrameSlots::lease(std::size_t wall) {
       s.serial = nextSerial_++;
       s.since = std::chrono::steady_clock::now();
       selections_.push_back({s.serial, *slot, s.ticket, cursor_.size()});
-      // What is older than the chosen frame will not be shown any more.
+      // Frames older than the chosen one will not be shown any more.
       for (Slot& other : slots_)
         if (other.state == State::Published && other.written < s.written) other.state = State::Free;
       changed_.notify_all();
@@ -100,7 +100,7 @@ bool FrameSlots::release(const Lease& lease) {
   const std::lock_guard lock(mutex_);
   Slot& s = slots_[lease.slot];
   if (s.state != State::Leased || s.serial != lease.serial) return false;
-  if (--s.readers > 0) return true;  // nobody waits for that
+  if (--s.readers > 0) return true;  // no thread waits for that
   s.state = State::Free;
   changed_.notify_all();
   return true;
@@ -108,7 +108,7 @@ bool FrameSlots::release(const Lease& lease) {
 
 void FrameSlots::limitUnderWay(std::size_t frames, std::size_t last) {
   const std::lock_guard lock(mutex_);
-  if (mostUnderWay_ == frames && last_ == last) return;  // as in nearly every frame
+  if (mostUnderWay_ == frames && last_ == last) return;  // the case in nearly every frame
   mostUnderWay_ = frames, last_ = last;
   changed_.notify_all();
 }

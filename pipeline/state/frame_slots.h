@@ -1,9 +1,8 @@
 #pragma once
-/// Who may touch which slot of the scene state when, and which frame all walls show next.
+/// Controls access to the slots of the scene state, and chooses the next frame for all walls.
 ///
-/// App asks for a slot to write; the Cull stages of all walls are handed the same frames in the same order,
-/// each as a lease on its slot. A slot under lease is never written. The choice of the frame is made once,
-/// when the first wall asks.
+/// App asks for a slot to write. The Cull stages of all walls get the same frames in the same order, each as
+/// a lease on its slot. A leased slot is never written. The frame is chosen once, when the first wall asks.
 ///
 /// Threads  every function from any thread; one thread per wall.
 
@@ -19,14 +18,14 @@
 namespace stadion {
 
 enum class Delivery {
-  Every,   ///< every frame is shown; App waits when the readers fall behind (recording, regression)
+  Every,   ///< every frame is shown; App waits for slow readers (recording, regression)
   Latest,  ///< the newest frame is shown; App never waits for a reader (live)
 };
 
 struct Lease {
   std::size_t slot = 0;
   FrameTicket ticket;
-  std::uint64_t serial = 0;  ///< which frame to show this is, counted from 0
+  std::uint64_t serial = 0;  ///< number of the shown frame, counted from 0
 };
 
 class FrameSlots {
@@ -34,29 +33,28 @@ public:
   FrameSlots(std::size_t walls, Delivery delivery,
              std::chrono::milliseconds deadline = std::chrono::milliseconds(2000));
 
-  /// A slot for App to write; waits for one if need be. Nothing after stop().
+  /// Returns a slot for App to write; waits for one if necessary. Returns nothing after stop().
   std::optional<std::size_t> beginWrite();
   void endWrite(std::size_t slot, const FrameTicket& ticket);
 
-  /// The next frame for `wall`; waits for it. Nothing when the run is over.
+  /// Waits for the next frame for `wall`. Returns nothing when the run is over.
   std::optional<Lease> lease(std::size_t wall);
-  /// Gives the lease back. False if it had lasted past its deadline and the slot was taken away: the work is
-  /// void.
+  /// Ends the lease. Returns false if it was past its deadline and the slot was taken away: the work is void.
   bool release(const Lease& lease);
 
-  /// So many frames at most are under way between App, or where only the newest is shown between its choice,
-  /// and the swap: the fewer, the younger is what is seen, and the less the stages overlap. 0 = as many as
-  /// there is room for. It may change at any time. One more may begin once only `last` walls still draw the
-  /// oldest: processors have nothing else to do.
+  /// Limits the frames in flight. Frames are counted until the swap, from App (Every) or from their selection
+  /// (Latest). A lower limit shows younger frames and overlaps the stages less. 0 = as many as there is room
+  /// for. The limit may change at any time. One frame more may begin once at most `last` walls still draw the
+  /// oldest frame: the processors would be idle otherwise.
   void limitUnderWay(std::size_t frames, std::size_t last = 0);
-  /// A wall has drawn its frame, and waits for the others.
+  /// Reports that a wall has drawn its frame and waits for the others.
   void drawn();
-  /// A frame has been shown on all walls.
+  /// Reports that all walls have shown a frame.
   void shown();
 
-  /// No further frame will be written; the readers finish what there is.
+  /// Ends writing: the readers finish the frames that exist.
   void finish();
-  /// Everybody stops waiting, at once.
+  /// Ends all waiting at once.
   void stop();
 
 private:
@@ -69,7 +67,7 @@ private:
     std::chrono::steady_clock::time_point since{};
 
     std::uint64_t written =
-        0;  ///< how many frames had been written before; a frame that stands still comes again
+        0;  ///< number of frames written before; a paused frame is written again
   };
   struct Selection {
     std::uint64_t serial = 0;

@@ -23,7 +23,7 @@ struct SceneState::Header {
 namespace {
 
 constexpr std::size_t kReserve = std::size_t{1} << 32;
-/// Room for the stamps of all instances that the reserve can hold; what is not used takes no memory.
+/// Room for the stamps of all instances that the reservation can hold; unused room takes no memory.
 constexpr std::size_t kStamps = std::size_t{1} << 19;
 static_assert(kStamps * kInstancesAStamp * sizeof(InstanceRecord) >= kReserve);
 
@@ -65,7 +65,8 @@ InstanceRecord* SceneState::instances(std::size_t slot) const {
   return reinterpret_cast<InstanceRecord*>(memory_[slot % memory_.size()]->data() + kInstancesAt);
 }
 
-/// After the record: who reads the stamp first finds that record, or will see another stamp.
+/// Written after the record: a reader that reads the stamp first finds that record, or sees a newer stamp
+/// later.
 void SceneState::stamp(std::size_t slot, InstanceId id) const {
   const auto now = static_cast<std::uint32_t>(header(slot).writes.load(std::memory_order_relaxed));
   stamps(slot)[id / kInstancesAStamp].store(now, std::memory_order_release);
@@ -88,7 +89,7 @@ void SceneState::makeRoom(std::size_t slot, std::size_t instanceCount) {
   ensure(slot, marks_.size());
 }
 
-/// From the newest slot, but for what has been written already. Returns how many records were copied.
+/// Copies missed records from the newest slot, except those written already. Returns the number of copies.
 std::size_t SceneState::catchUp(std::size_t slot) {
   Missed& missed = missed_[slot];
   const auto bit = static_cast<std::uint8_t>(1U << slot);
@@ -123,7 +124,7 @@ std::size_t SceneState::catchUp(std::size_t slot) {
 
 namespace {
 
-/// Whether the two stand at the same place, are of the same form, and are both seen or both not.
+/// Returns true if both records have the same place, form and visibility.
 bool standAlike(const InstanceRecord& a, const InstanceRecord& b) {
   constexpr std::uint32_t kSeen = InstanceRecord::kShown | InstanceRecord::kTransparent;
   return (a.flags & kSeen) == (b.flags & kSeen) && a.mesh == b.mesh && a.radius == b.radius &&
@@ -132,15 +133,15 @@ bool standAlike(const InstanceRecord& a, const InstanceRecord& b) {
 
 }  // namespace
 
-/// Notes that the instance is published, and says whether it was there before, and elsewhere. The newest slot
-/// has its record so far.
+/// Notes that the instance is published. Returns true if it was published before at another place. The newest
+/// slot still has its previous record.
 bool SceneState::movesBy(const ChangeSet::Instance& change) {
   using Known = Marks::Known;
   Known& known = marks_[change.id].known;
   const bool there = change.record.radius >= 0;
   const Known before = known;
   if (before == Known::Moves && there) return true;
-  // What is only to be drawn in less detail still stands where it stood.
+  // A change of detail alone does not move the instance.
   if (before == Known::Still && there && standAlike(change.record, instances(newest_)[change.id]))
     return false;
   known = !there ? Known::Absent : known == Known::Absent ? Known::Still : Known::Moves;
@@ -176,10 +177,10 @@ void SceneState::miss(std::size_t slot, const ChangeSet& changes) {
   Missed& missed = missed_[slot];
   for (const ChangeSet::StaticItem& s : changes.statics) {
     std::vector<std::uint32_t>& indices = missed.statics[s.chunk];
-    // An object leaves its chunk once; should it be told twice, once is enough.
+    // An object leaves its chunk once; a repeated message is ignored.
     if (indices.empty() || indices.back() != s.index) indices.push_back(s.index);
   }
-  // A slot may never be written (the others always do), so what no longer matters must go here.
+  // A slot may never be written while the others always are, so obsolete entries must be removed here.
   for (const ChangeSet::Chunk& c : changes.chunks)
     if (!c.shown) missed.statics.erase(c.id);
 }
@@ -200,7 +201,7 @@ std::size_t SceneState::publish(std::size_t slot, const ChangeSet& changes) {
 
 void SceneState::begin(std::size_t slot) {
   writing_ = slot, taken_ = 0;
-  // Odd while it is written, also after a frame that was begun and given up.
+  // Odd during writing, also after a frame that was begun and abandoned.
   std::atomic<std::uint64_t>& writes = header(slot).writes;
   writes.fetch_add(writes.load(std::memory_order_relaxed) % 2 == 0 ? 1 : 2, std::memory_order_acq_rel);
 }
@@ -215,7 +216,7 @@ void SceneState::take(std::span<const ChangeSet::Instance> block) {
   InstanceRecord* records = instances(writing_);
   InstanceId last = block.front().id;
   for (const ChangeSet::Instance& i : block) {
-    // What moves together has mostly come together: the next block is likely to be the neighbour.
+    // Instances that move together were mostly added together: the next block is probably the neighbour.
     if (i.id + block.size() < marks_.size()) prefetch(&records[i.id + block.size()]);
     if (i.id / kInstancesAStamp != last / kInstancesAStamp) stamp(writing_, last);
     last = i.id;
@@ -225,7 +226,7 @@ void SceneState::take(std::span<const ChangeSet::Instance> block) {
     InstanceRecord& record = records[i.id];
     record = i.record;
     if (moves) record.flags |= kMoves;
-    // This slot has it, the others have missed it from now on.
+    // This slot has the record; the others have missed it from now on.
     const auto missed = static_cast<std::uint8_t>(others & ~marks.missedBy);
     marks.missedBy = others;
     for (std::size_t slot = 0; missed >> slot != 0; ++slot)

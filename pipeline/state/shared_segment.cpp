@@ -37,7 +37,7 @@ SharedSegment::~SharedSegment() {
 
 void SharedSegment::growTo(std::size_t bytes) {
   if (bytes <= size_) return;
-  // In steps, so that a slowly growing scene does not call the system for every instance.
+  // Grows in steps, so that a slowly growing scene does not call the system for every instance.
   const std::size_t step = std::max<std::size_t>(std::size_t{1} << 16, size_ / 2);
   const std::size_t wanted = std::min(std::max(bytes, size_ + step), reserve_);
   if (bytes > reserve_ || ftruncate(descriptor_, static_cast<off_t>(wanted)) != 0) throw std::bad_alloc();

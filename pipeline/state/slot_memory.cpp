@@ -19,7 +19,7 @@ SlotMemory::SlotMemory(std::size_t reserveBytes)
   void* at = mapped_;
   std::size_t room = mappedBytes_;
   data_ = static_cast<std::byte*>(std::align(kLargePage, reserve_, at, room));
-  madvise(data_, reserve_, MADV_HUGEPAGE);  // where the system does not, small ones do
+  madvise(data_, reserve_, MADV_HUGEPAGE);  // if the system has no large pages, small ones are used
 }
 
 SlotMemory::~SlotMemory() {

@@ -1,13 +1,13 @@
 #pragma once
-/// A growable piece of this process's memory, on large pages where the system has them: who goes through
-/// thousands of records once a frame, after others have had the processor, would else spend much of his time
-/// on finding out where their pages are.
+/// A growable piece of this process's memory, on large pages if the system has them. A reader of thousands of
+/// records a frame would otherwise spend much of its time on address translation, because other threads have
+/// used the processor in between.
 ///
-/// The whole address range is reserved at the start, so growing never moves anything and readers are not
-/// disturbed.
+/// The whole address range is reserved at the start, so growing never moves data and does not disturb
+/// readers.
 ///
 /// Ownership  unmaps on destruction.
-/// Threads    growTo() from one thread at a time; reading what was there before is safe meanwhile.
+/// Threads    growTo() from one thread at a time; reading older content is safe meanwhile.
 
 #include <cstddef>
 
@@ -22,13 +22,13 @@ public:
   SlotMemory& operator=(const SlotMemory&) = delete;
 
   std::byte* data() const { return data_; }
-  /// At least `bytes`; new bytes are zero. Throws std::bad_alloc beyond the reservation.
+  /// Grows to at least `bytes`; new bytes are zero. Throws std::bad_alloc beyond the reservation.
   void growTo(std::size_t bytes) const;
 
 private:
   void* mapped_ = nullptr;
   std::size_t mappedBytes_ = 0, reserve_ = 0;
-  std::byte* data_ = nullptr;  ///< in mapped_, where a large page begins
+  std::byte* data_ = nullptr;  ///< in mapped_, at the start of a large page
 };
 
 }  // namespace stadion

@@ -13,7 +13,7 @@ struct Header {
   std::uint32_t count;
 };
 
-/// One to be sorted in: where its middle is, and its radius, from the origin [m].
+/// A sphere to be sorted: its centre and its radius, relative to the origin [m].
 struct Item {
   std::array<float, 4> at;
   std::uint32_t index;
@@ -32,7 +32,7 @@ std::size_t floatsAt(std::size_t records) {
   return orderAt() + aligned(records * sizeof(std::uint32_t));
 }
 
-/// By what to halve: an axis, or 3, the radius.
+/// Returns the key for halving: an axis, or 3 for the radius.
 std::size_t splitOf(Items items) {
   std::array<float, 4> lo = items[0].at, hi = lo;
   double radii = 0;
@@ -49,7 +49,7 @@ std::size_t splitOf(Items items) {
   return huge && double{hi[3] - lo[3]} > mean ? 3 : widest;
 }
 
-/// Puts neighbours into the same group of `unit`, eight groups into the same one of the next level.
+/// Puts neighbours into the same group of `unit`, and eight groups into the same one of the next level.
 void arrange(Items items, std::size_t unit) {
   while (items.size() <= unit) {
     if (unit == BoundsLayout::kWide) return;
@@ -63,7 +63,7 @@ void arrange(Items items, std::size_t unit) {
   arrange(items.subspan(half), unit);
 }
 
-/// In the middle of most of them: a single one far away does not draw it there.
+/// Returns the middle of most of them: a single distant record does not move it.
 Vec3 middleOf(std::span<const InstanceRecord> records, std::span<const std::uint32_t> shown) {
   Vec3 middle = Vec3::Zero();
   if (shown.empty()) return middle;
@@ -80,7 +80,7 @@ Vec3 middleOf(std::span<const InstanceRecord> records, std::span<const std::uint
   return middle;
 }
 
-/// Numbers that can be sorted.
+/// Returns finite numbers, which can be sorted.
 Item itemOf(const InstanceRecord& r, std::uint32_t index, const Vec3& origin) {
   const auto tame = [](double x) {
     constexpr double kMost = 1e30;

@@ -18,7 +18,7 @@ std::optional<Nanoseconds> HangWatch::hangs() {
   const SharedProgress::Phase phase = progress_.phase();
   if (now - looked_ > kAsleep || phase != phase_) since_ = now, phase_ = phase;
   looked_ = now;
-  // The first picture waits for drivers and for what is uploaded.
+  // The first picture waits for drivers and for uploads.
   const bool plays = phase == SharedProgress::Phase::Playing && shows();
   const Nanoseconds limit = plays ? after_ : kLonger * after_;
   if (now - std::max(since_, progress_.lastShown()) <= limit) return {};

@@ -1,12 +1,13 @@
 #pragma once
-/// Whether a player that is watched still shows pictures, or hangs: in a driver, in a loop, stopped.
+/// Detects that a supervised player hangs and shows no pictures: in a driver, in a loop, or stopped.
 ///
 ///     HangWatch watch(progress, fromSeconds(10));   // as the player is started
 ///     if (const auto silent = watch.hangs()) ...    // a few times a second
 ///
-/// Opening a show, its drivers and devices, and writing its summary may take kLonger times as long.
+/// The limit is kLonger times as long while the player opens a show, its drivers and devices, and while it
+/// writes its summary.
 ///
-/// Threads  who watches.
+/// Threads  the watching thread.
 
 #include "pipeline/supervision/shared_progress.h"
 
@@ -19,13 +20,14 @@ public:
   static constexpr int kLonger = 12;
 
   using Clock = Nanoseconds (*)();
-  /// `after`: while it plays, no picture may come for so long [ns]. `progress` must outlive it. `clock`:
-  /// tells the time as `progress` notes it; a test passes its own.
+  /// `after`: the longest time without a picture while the show plays [ns]. `progress` must outlive it.
+  /// `clock` must be the clock that `progress` uses; a test passes its own.
   HangWatch(const SharedProgress& progress, Nanoseconds after, Clock clock = machineClock);
-  /// How long no picture has come, at least, if it hangs [ns]. Whoever has not asked for a second was stopped
-  /// itself (Ctrl-Z, a debugger, a machine that slept): what was before does not count.
+  /// Returns the least time without a picture if the player hangs [ns]. If a second or more has passed
+  /// between two calls, the watcher itself was stopped (Ctrl-Z, a debugger, a sleeping machine): earlier time
+  /// does not count.
   std::optional<Nanoseconds> hangs();
-  /// It has shown a picture.
+  /// Returns true if the player has shown a picture.
   bool shows() const { return progress_.framesShown() > before_; }
 
 private:

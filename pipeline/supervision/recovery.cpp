@@ -9,7 +9,7 @@ Recovery::Step Recovery::died(Nanoseconds time, Nanoseconds played) {
   ++deaths_;
   if (deaths_ >= kMost) return {Way::GiveUp, {}};
   const bool again = deaths_ >= kFromScene;
-  // A show that begins again has not come anywhere near yet.
+  // A show that restarts is still far from the place of the last crash.
   steadyAt_ = kSteady + (again ? 0 : time);
   const Milliseconds pause =
       deaths_ == 1 ? Milliseconds(0) : std::min(kLongest, kShortest * (1 << (deaths_ - 2)));

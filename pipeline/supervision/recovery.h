@@ -1,10 +1,11 @@
 #pragma once
-/// How a show goes on after its player has died: from the scene that was kept, from its start, or not at all.
+/// Decides how a show continues after its player has crashed: from the saved scene, from its start, or not at
+/// all.
 ///
-/// The first time at once. A player that dies again before the show has got kSteady past where the one before
-/// died, and before it has played for kLong, has died in a row: the pauses before the next one double, after
-/// kFromScene deaths the kept scene is not trusted any more, after kMost the show is given up. All of this
-/// goes by time, so that it is the same at every rate.
+/// The first crash restarts the player at once. A crash counts as one in a row if it comes before the show is
+/// kSteady past the place of the last crash, and before the player has played for kLong. For crashes in a row
+/// the pause before each restart doubles. After kFromScene crashes the saved scene is no longer trusted;
+/// after kMost the show is given up. All limits are times, so they are the same at every rate.
 ///
 /// Threads  one at a time.
 
@@ -28,14 +29,14 @@ public:
     Way way;
     Milliseconds pause;  ///< before the next player is started
   };
-  /// The player has died at that show time; for so long it had played what it had not to catch up with.
+  /// Reports a crash at that show time. `played`: how long the player had played since it caught up.
   Step died(Nanoseconds time, Nanoseconds played);
-  /// Deaths in a row.
+  /// Returns the number of crashes in a row.
   std::size_t deaths() const { return deaths_; }
 
 private:
   std::size_t deaths_ = 0;
-  Nanoseconds steadyAt_ = 0;  ///< show time beyond the place of the last death
+  Nanoseconds steadyAt_ = 0;  ///< show time at which the place of the last crash is safely passed
 };
 
 }  // namespace stadion

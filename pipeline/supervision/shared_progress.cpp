@@ -13,13 +13,13 @@
 namespace stadion {
 namespace {
 
-constexpr std::uint64_t kMark = 0x3476'7065'6573'7453;  ///< of this layout
+constexpr std::uint64_t kMark = 0x3476'7065'6573'7453;  ///< identifies this layout
 constexpr off_t kPageBytes = 4096;
 
-/// The newest of values that one process writes and another one reads, whole.
+/// A value that one process writes and another one reads as a whole; the newest one counts.
 template <class T>
 struct Newest {
-  std::atomic<std::uint64_t> serial = 0;  ///< 0: there is none
+  std::atomic<std::uint64_t> serial = 0;  ///< 0: no value yet
   std::array<T, 2> values{};
 
   const T* find() const {
@@ -126,7 +126,7 @@ void SharedProgress::forget() {
 
 void SharedProgress::obeyed(const OperatorState& state) {
   Moment last = newest();
-  if (last.clock > 0 && operatorState().still() && !state.still()) {  // it stood still until now
+  if (last.clock > 0 && operatorState().still() && !state.still()) {  // the show stood still until now
     last.clock = machineClock();
     page_->moment.next() = last;
     page_->moment.publish();

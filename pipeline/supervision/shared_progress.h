@@ -1,12 +1,11 @@
 #pragma once
-/// What a player and the process that watches over it have in common: how far the show is, whether it goes
-/// on, and the scene as it was a little while ago. It lies in memory and outlives the player, however that
-/// dies.
+/// Memory shared by a player and its supervisor: the show's progress, whether it runs, and a recent snapshot
+/// of the scene. The memory outlives the player, however it crashes.
 ///
-/// A scene is written before the newest one or behind it, and becomes the newest one when all of it is there:
-/// a player that dies while it writes leaves the one before.
+/// A snapshot is written before or behind the newest one. It becomes the newest one only when it is complete,
+/// so a player that crashes while writing leaves the previous one intact.
 ///
-/// Ownership  owns a nameless file in memory, whose descriptor the player inherits.
+/// Ownership  owns a nameless file in memory; the player inherits its descriptor.
 /// Threads    simulated() and keep() on the App thread, shown() on the Draw thread that swaps, the rest from
 ///            any. The player and its watcher at the same time; two players never.
 /// Errors     what lies there may be damaged, since a program that crashed could write to it: a scene that
@@ -33,29 +32,30 @@ Nanoseconds machineClock();
 class SharedProgress {
 public:
   enum class Phase : std::uint32_t {
-    Opening,  ///< files are read, drivers begin
-    Playing,  ///< pictures are to come
+    Opening,  ///< files are read and drivers start
+    Playing,  ///< pictures are expected
     Ending,   ///< the run is over; summaries are written
   };
-  /// A frame, and when it was simulated.
+  /// A frame, and the time of its simulation.
   struct Moment {
     std::uint64_t frame = 0;
     Nanoseconds time = 0;   ///< show time [ns]
-    Nanoseconds clock = 0;  ///< machineClock(); 0: there has been none
-    Nanoseconds due = 0;    ///< where show time would be, had no player died: later while one catches up
+    Nanoseconds clock = 0;  ///< machineClock(); 0: no frame yet
+    Nanoseconds due = 0;    ///< show time without crashes: later than `time` while the player catches up
   };
-  /// A scene that was kept: after which frame.
+  /// A saved scene, and the frame after which it was saved.
   struct Kept {
     std::uint64_t frame = 0;
     Nanoseconds time = 0;       ///< show time [ns]
     std::uint64_t history = 0;  ///< hash of the states up to then
     std::uint64_t bytes = 0;
-    std::uint64_t at = 0;  ///< where it lies; keep() says
+    std::uint64_t at = 0;  ///< its position, set by keep()
   };
 
-  /// For who watches.
+  /// For the supervisor.
   static Result<std::unique_ptr<SharedProgress>> create();
-  /// For the player, by the descriptor that it has inherited; null if that is none of these.
+  /// For the player, with the descriptor that it has inherited. Returns null if the descriptor is another
+  /// file.
   static std::unique_ptr<SharedProgress> attach(int descriptor);
   ~SharedProgress();
   SharedProgress(const SharedProgress&) = delete;
@@ -66,31 +66,31 @@ public:
   void enter(Phase phase);
   Phase phase() const;
   void simulated(const TimeSignature& now, Nanoseconds due);
-  /// A frame has been shown, or the last one once more while the show stands still.
+  /// Reports that a frame was shown, or shown again while the show stands still.
   void shown();
-  /// 0, or the errno of why it cannot be written; the one before is then still the newest.
+  /// Saves a scene. Returns 0, or the errno of a failed write; then the previous scene stays the newest.
   int keep(Kept kept, std::span<const std::uint8_t> scene);
-  /// The player simulates what it has missed until then, by machineClock(), at the latest.
+  /// Reports that the player catches up with missed frames, at most until then, by machineClock().
   void catchesUpUntil(Nanoseconds clock);
-  /// A show begins from its start: no moment and no scene of before is of it.
+  /// Discards all moments and scenes, because a show begins from its start.
   void forget();
-  /// What the operator has decided.
+  /// Reports the operator's decisions.
   void obeyed(const OperatorState& state);
 
   Moment newest() const;
   std::uint64_t framesShown() const;
   Nanoseconds lastShown() const;  ///< machineClock(); 0: none yet
-  /// How long the present player has shown pictures since it had caught up; 0 until then [ns].
+  /// Returns how long the present player has shown pictures since it caught up; 0 until then [ns].
   Nanoseconds played() const;
   std::optional<Kept> kept() const;
-  /// The scene of kept(); empty if it cannot be read.
+  /// Returns the scene of kept(); empty if it cannot be read.
   std::vector<std::uint8_t> scene() const;
-  /// As obeyed() was told last; the rest as it is when a run begins.
+  /// Returns the last state passed to obeyed(), otherwise the state at the start of a run.
   OperatorState operatorState() const;
-  /// Where show time would be now, had it gone on since the newest frame [ns].
+  /// Returns the show time that would be reached now without a stop since the newest frame [ns].
   Nanoseconds timeNow() const;
 
-  /// Players so far; who watches counts them.
+  /// The number of players so far; the supervisor counts them.
   std::uint64_t starts() const;
   void countStart();
 

@@ -60,8 +60,8 @@ struct Glfw {
 #undef STADION_GLFW_MEMBER
 };
 
-// All that a callback of GLFW is given is the window; this says what of ours it belongs to. The same function
-// in every copy of the library.
+// A callback of GLFW gets only the window; this returns our object for it. The function is the same in every
+// copy of the library.
 decltype(&glfwGetWindowUserPointer) ownerOf = nullptr;
 
 Result<Glfw> loadGlfw(const SharedLibrary& library) {
@@ -101,7 +101,7 @@ Key keyOf(int code) {
   return code >= 32 && code < 127 ? static_cast<Key>(code) : Key::Unknown;
 }
 
-/// Where the monitors are, asked anew once a second: they may be arranged anew during a show.
+/// The places of the monitors, asked again once a second: they may be rearranged during a show.
 class MonitorPlaces {
 public:
   explicit MonitorPlaces(const Glfw& glfw) : glfw_(glfw) {}
@@ -162,7 +162,7 @@ public:
       if (!focused) note(w, at(WindowEvent::Kind::FocusLost, 0, 0));
     });
     glfw_.SetWindowCloseCallback(handle_, [](GLFWwindow* w) { note(w, at(WindowEvent::Kind::Close, 0, 0)); });
-    // A full screen that comes back takes its monitor anew.
+    // A full screen that is restored takes its monitor again.
     glfw_.SetWindowIconifyCallback(handle_, [](GLFWwindow* w, int iconified) {
       if (!iconified) static_cast<GlfwWindow*>(ownerOf(w))->saver_.restoreTimeouts();
     });
@@ -171,7 +171,7 @@ public:
     if (!xConnectionLost()) glfw_.DestroyWindow(handle_);
   }
 
-  // Where the connection is lost nothing may be asked of it any more; OpenGL draws into the void.
+  // If the connection is lost, it must not be used any more; OpenGL output is discarded.
   std::optional<Diagnostic> makeCurrent() override {
     if (const auto why = xConnectionLost()) return problem(*why);
     glfw_.GetError(nullptr);
@@ -202,7 +202,7 @@ public:
     glfw_.GetError(nullptr);
     int x = 0, y = 0, across = 0, down = 0;
     glfw_.GetWindowPos(handle_, &x, &y);
-    if (glfw_.GetError(nullptr) != GLFW_NO_ERROR) return {atTop};  // Wayland does not say
+    if (glfw_.GetError(nullptr) != GLFW_NO_ERROR) return {atTop};  // Wayland gives no position
     glfw_.GetWindowSize(handle_, &across, &down);
     if (across <= 0 || down <= 0) return {atTop};
     const PixelRectangle content{x, y, static_cast<std::uint32_t>(across), static_cast<std::uint32_t>(down)};
@@ -303,7 +303,7 @@ private:
     return {first, first + count};
   }
 
-  /// By name, or by number from 1; the first one if nothing is said.
+  /// Finds a monitor by name, or by number from 1; the first one if the name is empty.
   GLFWmonitor* find(const std::string& name) {
     const std::vector<GLFWmonitor*> there = all();
     for (std::size_t i = 0; i < there.size(); ++i)
@@ -367,7 +367,7 @@ private:
   bool loaded_ = false;
 };
 
-/// Sets a variable of the environment for as long as it lives; an empty value changes nothing.
+/// Sets an environment variable during its lifetime; an empty value changes nothing.
 class EnvironmentValue {
 public:
   EnvironmentValue(const char* name, const std::string& value) : name_(name), set_(!value.empty()) {
@@ -390,8 +390,8 @@ private:
 
 }  // namespace
 
-// GLFW keeps its one connection, to one screen of one display, in static memory: a further screen gets a copy
-// of the library.
+// GLFW keeps its one connection, to one screen of one display, in static memory. A further screen therefore
+// gets a copy of the library.
 Result<std::unique_ptr<WindowSystem>> WindowSystem::open(const std::string& screen) {
   using Opened = Result<std::unique_ptr<WindowSystem>>;
   const auto library = screen.empty() ? SharedLibrary::open("libglfw.so.3", "libglfw3")

@@ -6,7 +6,7 @@
 namespace stadion {
 namespace {
 
-/// Empty if they do not overlap.
+/// Returns an empty rectangle if they do not overlap.
 PixelRectangle overlap(const PixelRectangle& a, const PixelRectangle& b) {
   const auto right = [](const PixelRectangle& r) { return r.x + std::int64_t{r.width}; };
   const auto bottom = [](const PixelRectangle& r) { return r.y + std::int64_t{r.height}; };

@@ -1,6 +1,6 @@
 #pragma once
-/// Where a window's content lies on the monitors. A display for interlaced pictures counts its own rows, so
-/// the rows of a window have to be counted from the top of the monitor that shows them.
+/// The place of a window's content on the monitors. A display for interlaced pictures counts its own rows, so
+/// a window's rows must be counted from the top of the monitor that shows them.
 ///
 /// Units    screen coordinates, in which windows and monitors are placed; pixels of the content.
 /// Threads  plain values.
@@ -26,8 +26,8 @@ struct MonitorPart {
   bool operator==(const MonitorPart&) const = default;
 };
 
-/// The parts of a content that has `pixels` for each screen coordinate, the largest part first. Never empty:
-/// a content that lies on no monitor is one part.
+/// Returns the parts of a content that has `pixels` for each screen coordinate, the largest part first. Never
+/// empty: a content that lies on no monitor is one part.
 std::vector<MonitorPart> partsOnMonitors(const PixelRectangle& content,
                                          std::span<const PixelRectangle> monitors, double pixels = 1);
 

@@ -24,7 +24,7 @@ struct OsMesaFunctions {
 struct OsMesa {
   OsMesaFunctions call;
   GlTable gl;
-  std::mutex turns;  // for the contexts themselves too: OSMesa keeps unguarded lists of what belongs to them
+  std::mutex turns;  // also guards the contexts: OSMesa keeps their objects in unguarded lists
 };
 
 class OsMesaTarget : public Target {
@@ -51,7 +51,7 @@ public:
 private:
   OsMesa& mesa_;
   OSMesaContext context_;
-  // OSMesa wants memory for a default framebuffer and copies into it at each flush; nothing is drawn there.
+  // OSMesa needs memory for a default framebuffer, and copies into it at each flush. We draw nothing there.
   std::array<std::uint8_t, 4> pixel_{};
 };
 

@@ -16,7 +16,7 @@ constexpr const char* kVectorWidth = "LP_NATIVE_VECTOR_WIDTH";
 constexpr const char* kThreads = "LP_NUM_THREADS";
 constexpr unsigned kMostThreads = 32;  // Mesa takes no more
 
-/// The C library takes as many bytes as an int counts, and for the second 32 MiB at most.
+/// The C library takes the size as an int, and for the second value at most 32 MiB.
 void keepFreedMemory() {
   constexpr int kKeptAtMost = 1 << 28, kOwnPagesFrom = 1 << 25;  // [bytes]
   mallopt(M_TRIM_THRESHOLD, kKeptAtMost);

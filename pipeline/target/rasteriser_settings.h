@@ -1,6 +1,6 @@
 #pragma once
-/// How Mesa's software rasteriser works in this process. It reads its settings from the environment once,
-/// when the first context is made.
+/// Settings of Mesa's software rasteriser in this process. Mesa reads them from the environment once, when
+/// the first context is made.
 
 #include "engine/base/diagnostic.h"
 
@@ -8,24 +8,24 @@
 
 namespace stadion {
 
-/// Settles the settings that nobody chose: vectors of 256 bits, so that every machine computes the same way,
-/// and one rasteriser thread per core, which all contexts of the process share. And keeps the memory that one
-/// frame frees for the next: the rasteriser frees megabytes in every frame, and the kernel would have to
-/// clear each of their pages anew (a quarter of what a frame costs).
+/// Sets the settings that the environment leaves open: vectors of 256 bits, so that every machine computes
+/// the same way, and one rasteriser thread per core, which all contexts of the process share. Also keeps the
+/// memory that one frame frees for the next. The rasteriser frees megabytes in every frame, and the kernel
+/// would have to clear each of their pages again (a quarter of a frame's cost).
 ///
-/// Threads  changes the environment: the program calls it first thing, before it starts threads.
-/// Errors   says so when the environment asks for a setting with which the rasteriser crashes.
+/// Threads  changes the environment: the program calls it first, before it starts threads.
+/// Errors   reports a setting in the environment with which the rasteriser crashes.
 std::optional<Diagnostic> pinRasteriser();
 
-/// How many threads the rasteriser has, if the environment says it. To be asked before pinRasteriser(), which
-/// says it there itself.
+/// Returns the number of rasteriser threads that the environment sets. Call it before pinRasteriser(), which
+/// sets the same variable.
 std::optional<unsigned> rasteriserThreadsGiven();
 
-/// So many threads, whatever the environment says. Before the first context is made, and like pinRasteriser()
-/// while no other thread looks at the environment.
+/// Overrides the environment's number of threads. Call it before the first context is made and, like
+/// pinRasteriser(), while no other thread reads the environment.
 void setRasteriserThreads(unsigned threads);
 
-/// The check alone: changes nothing. Providers call it before they load Mesa.
+/// Only checks, and changes nothing. Providers call it before they load Mesa.
 std::optional<Diagnostic> checkRasteriser();
 
 }  // namespace stadion

@@ -6,12 +6,12 @@
 namespace stadion {
 namespace {
 
-// Xlib's own types, as its ABI has them: its headers need not be there.
+// Xlib's own types, as its ABI defines them: its headers need not be installed.
 struct XlibDisplay;
 constexpr unsigned short kDpmsModeOn = 0;
 
 constexpr std::chrono::seconds kResetSuspended{15};  ///< programs wait for a minute at least
-constexpr std::chrono::seconds kResetAlone{1};       ///< the shortest time-out of a server
+constexpr std::chrono::seconds kResetAlone{1};       ///< the shortest time-out that a server has
 
 }  // namespace
 
@@ -22,11 +22,12 @@ struct ScreenSaverPause::X {
   int (*flush)(XlibDisplay*) = nullptr;
   int (*resetSaver)(XlibDisplay*) = nullptr;
   int (*setTimeouts)(XlibDisplay*, int, int, int, int) = nullptr;
-  void (*suspend)(XlibDisplay*, int) = nullptr;                ///< null: the server or the library has none
+  void (*suspend)(XlibDisplay*, int) = nullptr;                ///< null: the server or the library has no
+                                                               ///< such function
   int timeout = 0, interval = 0, blanking = 0, exposures = 0;  ///< the user's
 
   bool findXlib() {
-    const auto xlib = SharedLibrary::open("libX11.so.6", "libx11-6");  // the one that GLFW has loaded
+    const auto xlib = SharedLibrary::open("libX11.so.6", "libx11-6");  // the copy that GLFW has loaded
     if (!xlib) return false;
     flush = xlib.value().find<int(XlibDisplay*)>("XFlush");
     resetSaver = xlib.value().find<int(XlibDisplay*)>("XResetScreenSaver");
@@ -37,7 +38,7 @@ struct ScreenSaverPause::X {
     return true;
   }
 
-  /// Fails if the library is not there. A server without the extension is no failure.
+  /// Fails if the library is missing. A server without the extension is no failure.
   std::optional<std::string> findSuspension() {
     const auto saver = SharedLibrary::open("libXss.so.1", "libxss1");
     if (!saver) return saver.error().message;

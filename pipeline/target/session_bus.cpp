@@ -11,7 +11,7 @@
 namespace stadion {
 namespace {
 
-// libdbus' own types and numbers, as its ABI has them: its headers need not be there.
+// libdbus's own types and numbers, as its ABI defines them: its headers need not be installed.
 struct DBusConnection;
 struct DBusMessage;
 struct DBusError {
@@ -58,7 +58,7 @@ std::optional<Dbus> loadDbus() {
   return whole ? std::optional(dbus) : std::nullopt;
 }
 
-/// Whether there is a bus: libdbus would start one for who asks for it.
+/// Checks that there is a bus: libdbus would otherwise start one.
 bool busIsThere() {
   if (const char* address = std::getenv("DBUS_SESSION_BUS_ADDRESS")) return *address != 0;
   const char* runtime = std::getenv("XDG_RUNTIME_DIR");

@@ -1,8 +1,8 @@
 #pragma once
 /// Asks the desktop, over the D-Bus session bus, not to go idle (org.freedesktop.ScreenSaver.Inhibit).
 ///
-/// Nothing is started for it: without a bus, without libdbus, or without a desktop that offers this, nothing
-/// happens. The desktop ends the inhibition when the connection ends, also if the program was killed.
+/// It starts no service. Without a bus, without libdbus, or without a desktop that offers this, it does
+/// nothing. The desktop ends the inhibition with the connection, also if the program was killed.
 ///
 /// Threads  one at a time.
 
@@ -12,13 +12,13 @@ namespace stadion {
 
 class SessionInhibition {
 public:
-  /// Waits for the answer for half a second at most.
+  /// Waits for the answer, half a second at most.
   SessionInhibition();
   ~SessionInhibition();
   SessionInhibition(const SessionInhibition&) = delete;
   SessionInhibition& operator=(const SessionInhibition&) = delete;
 
-  /// Whether a desktop has agreed.
+  /// Returns true if a desktop has agreed.
   bool granted() const { return bus_ != nullptr; }
 
 private:

@@ -1,8 +1,9 @@
 #pragma once
-/// Where a wall is drawn: one OpenGL context, without or with a window, from one of several implementations.
+/// Drawing targets of walls: one OpenGL context, with or without a window, from one of several
+/// implementations.
 ///
-/// The colour result itself is the Renderer's (an offscreen buffer of the target's size per eye), so that all
-/// providers give the same pixels.
+/// The Renderer owns the colour result (an offscreen buffer of the target's size per eye), so all providers
+/// give the same pixels.
 
 #include "engine/base/diagnostic.h"
 
@@ -21,22 +22,21 @@ struct GlTable;
 ///
 /// Ownership  its provider must outlive it.
 /// Threads    current on at most one thread at a time, and a thread has at most one target current. Any
-/// thread
-///            may destroy it once it has been released.
+///            thread may destroy it once it has been released.
 class Target {
 public:
   virtual ~Target() = default;
   Target(const Target&) = delete;
   Target& operator=(const Target&) = delete;
 
-  /// Makes the context current on the calling thread; whatever was current there must have been released.
-  /// Returns what failed, or nothing.
+  /// Makes the context current on the calling thread. Any previous context must have been released. Returns
+  /// the error, or nothing.
   virtual std::optional<Diagnostic> makeCurrent() = 0;
   /// Leaves the calling thread without a context. Expects that this target is current on it.
   virtual void release() = 0;
 
   const GlTable& gl() const { return gl_; }
-  /// Whose turn it is among the provider's contexts, where they have to take turns (Renderer).
+  /// Serialises the provider's contexts if they must not run at the same time (Renderer).
   std::mutex& turns() const { return turns_; }
   std::uint32_t width() const { return width_; }    ///< [pixels]
   std::uint32_t height() const { return height_; }  ///< [pixels]
@@ -59,7 +59,8 @@ public:
   virtual ~GlProvider() = default;
 
   virtual std::string_view name() const = 0;
-  /// A context with OpenGL 4.5 core, or 3.3 core where there is no better. Not current on any thread.
+  /// Creates a context with OpenGL 4.5 core, or with 3.3 core if there is no better one. It is current on no
+  /// thread.
   virtual Result<std::unique_ptr<Target>> create(std::uint32_t width, std::uint32_t height) = 0;
 };
 
@@ -73,11 +74,12 @@ Result<std::unique_ptr<GlProvider>> openGlProvider(GlProviderKind kind);
 Result<std::unique_ptr<GlProvider>> openOsMesa();
 Result<std::unique_ptr<GlProvider>> openEgl();
 
-/// What stands against pictures of this size from this provider, or nothing. Asks it through a context that
-/// is made for the purpose; expects that none is current on the calling thread, and leaves none.
+/// Returns why this provider cannot make pictures of this size, or nothing. Tests it with a temporary
+/// context. Expects that no context is current on the calling thread, and leaves none.
 std::optional<Diagnostic> checkPictureSize(GlProvider& provider, std::uint32_t width, std::uint32_t height);
 
-/// "llvmpipe (LLVM 15.0.6, 256 bits), OpenGL 4.5 (Core Profile) Mesa 22.3.6": of the target current here.
+/// Describes the target current here: "llvmpipe (LLVM 15.0.6, 256 bits), OpenGL 4.5 (Core Profile) Mesa
+/// 22.3.6".
 std::string describeGl(const GlTable& gl);
 
 }  // namespace stadion

@@ -7,7 +7,7 @@
 namespace stadion {
 namespace {
 
-// Xlib's own types, as its ABI has them: its headers need not be there.
+// Xlib's own types, as its ABI defines them: its headers need not be installed.
 struct XDisplay;
 struct XErrorEvent {
   int type;
@@ -32,18 +32,18 @@ void note(const char* why) {
 
 void watchXConnection(void* display) {
   if (!display) return;
-  const auto xlib = SharedLibrary::open("libX11.so.6", "libx11-6");  // the one that GLFW has loaded
+  const auto xlib = SharedLibrary::open("libX11.so.6", "libx11-6");  // the copy that GLFW has loaded
   if (!xlib) return;
   const auto onExit = xlib.value().find<void(XDisplay*, IoErrorExit, void*)>("XSetIOErrorExitHandler");
   const auto onIoError = xlib.value().find<IoError(IoError)>("XSetIOErrorHandler");
   const auto onError = xlib.value().find<Error(Error)>("XSetErrorHandler");
   if (!onExit || !onIoError || !onError) return;
-  onIoError([](XDisplay*) { return 0; });  // instead of Xlib's own words: who asks why says them
+  onIoError([](XDisplay*) { return 0; });  // replaces Xlib's own message: lost() reports the reason
   onExit(
       static_cast<XDisplay*>(display),
       [](XDisplay*, void*) { note("the X server has ended, or somebody has killed a window of the show"); },
       nullptr);
-  // Another program may destroy a window without ending the connection. What else is wrong does no harm.
+  // Another program may destroy a window without ending the connection. Other errors do no harm.
   onError([](XDisplay*, XErrorEvent* e) {
     if (e->error == kBadWindow || e->error == kBadDrawable) note("a window of the show was destroyed");
     return 0;

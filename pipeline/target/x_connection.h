@@ -1,23 +1,23 @@
 #pragma once
 /// Keeps Xlib from ending the process when its connection breaks: the X server has ended or was restarted, or
-/// somebody has killed a window (xkill).
+/// a user has killed a window (xkill).
 ///
-/// Xlib calls exit() then, beneath whatever the program's other threads do. With this it notes what happened
-/// and goes on; the windows are dead, but stages can stop and files can be written.
+/// Xlib would call exit() then, while other threads of the program run. This class records the loss and goes
+/// on. The windows are dead, but stages can stop and files can be written.
 ///
 /// Threads  watchXConnection() and Xlib's calls on the main thread; xConnectionLost() any.
-/// Errors   libX11 before 1.7 cannot be kept from it, and ends the process as ever.
+/// Errors   libX11 before 1.7 cannot be kept from it, and still ends the process.
 
 #include <optional>
 #include <string>
 
 namespace stadion {
 
-/// From now on, for this connection. `display` is Xlib's Display; null (another window system) does nothing.
+/// Starts watching this connection. `display` is Xlib's Display; null (another window system) does nothing.
 void watchXConnection(void* display);
 
-/// Why windows can no longer be shown; nothing while they can. Of the whole process, as Xlib's handlers are:
-/// a room whose one screen is gone is not shown any more.
+/// Returns why windows can no longer be shown; nothing while they can. It holds for the whole process, as
+/// Xlib's handlers do: a room that has lost one screen is not shown any more.
 std::optional<std::string> xConnectionLost();
 
 }  // namespace stadion

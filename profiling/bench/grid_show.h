@@ -1,6 +1,6 @@
 #pragma once
-/// A show of very many nodes, for measurements: pillars on a grid, some of them carried up and down by a path
-/// each, the others standing still.
+/// A show of very many nodes, for measurements: pillars on a grid. A path moves each of some of them up and
+/// down; the others stand still.
 ///
 /// Threads  a plain function.
 
@@ -14,7 +14,7 @@ struct GridShow {
   std::size_t moving = 5'000;  ///< paths, each with an object; visited by App in every frame
 };
 
-/// The script. It wants suites/pillar.obj of the asset root scripts/.
+/// Returns the script. It needs suites/pillar.obj of the asset root scripts/.
 std::string gridScript(const GridShow& show = {});
 
 }  // namespace stadion

@@ -1,6 +1,6 @@
 #pragma once
-/// Does the pipeline overlap its stages? Runs the real frame loop over stages that wait a fixed time instead
-/// of computing.
+/// Checks that the pipeline overlaps its stages: runs the real frame loop over stages that wait a fixed time
+/// instead of computing.
 
 #include "pipeline/loop/frame_loop.h"
 

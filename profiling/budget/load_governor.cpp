@@ -7,10 +7,11 @@
 namespace stadion {
 namespace {
 
-constexpr double kToldApart = 10;              ///< [s], of one node's overruns
-constexpr double kMuchWorse = 3;               ///< times what was told last: that is told at once
-constexpr std::uint64_t kFramesUnderWay = 64;  ///< those that nobody has shown by then never will be
-constexpr double kLevelSaves = 0.5;  ///< what one level is expected to leave of the frame: one at a time
+constexpr double kToldApart = 10;              ///< [s], between reports of one node's overruns
+constexpr double kMuchWorse = 3;               ///< ratio to the last report: such an overrun is reported at
+                                               ///< once
+constexpr std::uint64_t kFramesUnderWay = 64;  ///< frames that were not shown by then never will be
+constexpr double kLevelSaves = 0.5;  ///< part of the frame's cost that one level is expected to leave
 
 ReliefPolicy policyOf(const NodeTerms& terms, double rate) {
   return {{terms.budget > 0 ? terms.budget : HUGE_VAL, static_cast<std::uint64_t>(std::ceil(rate))},
@@ -48,14 +49,14 @@ std::string nameOfLevel(const std::vector<Concession>& ladder, std::uint32_t lev
 
 LoadGovernor::LoadGovernor(GovernorOptions options, const NodeNames& names)
     : options_(std::move(options)), names_(names), stress_(options_.stress) {
-  // Where stages overlap, what makes one of them shorter does nothing for the other.
+  // If stages overlap, shortening one does not shorten the other.
   if (options_.pipelined)
     frame_ = {{true, false, {}, {}}, {false, true, {}, {}}};
   else
     frame_ = {{true, true, {}, {}}};
 }
 
-// What it is told of.
+// Input from the probe.
 
 void LoadGovernor::take(std::size_t, const SpanRecord& r) {
   if (r.frame == kNoFrame) return;
@@ -90,7 +91,7 @@ void LoadGovernor::take(const DrawnAlone& drawn, const std::vector<NodeShare>& n
   costs_.take(drawn, nodes);
 }
 
-// What was done on other threads for App, or for the swap, may be read a little later than these.
+// Records of other threads that work for App, or for the swap, may come a little later than these.
 void LoadGovernor::caughtUp() {
   std::vector<std::string> lines;
   {
@@ -101,7 +102,7 @@ void LoadGovernor::caughtUp() {
     appEnded_.clear(), shown_.clear();
     lines.swap(lines_);
   }
-  // Nobody waits for a terminal.
+  // Messages go out without the lock, so no thread waits for a terminal.
   for (const std::string& line : lines)
     if (options_.tell) options_.tell(line);
 }
@@ -168,7 +169,7 @@ void LoadGovernor::judgeFrame(std::uint64_t frame) {
   if (at == times_.end()) return;
   const StageTimes t = at->second;
   times_.erase(times_.begin(), times_.upper_bound(frame >= kFramesUnderWay ? frame - kFramesUnderWay : 0));
-  // What looking at drawing took is nobody's load; it holds up the next frame, too.
+  // The cost of sampling belongs to no node; it delays the next frame, too.
   if (t.sampled) sampledUntil_ = frame + 2;
   if (!options_.paced || !options_.acts || frame < sampledUntil_) return;
   const double period = 1e3 / options_.rate;
@@ -194,7 +195,7 @@ std::uint32_t LoadGovernor::FrameRelief::usefulOf(const std::vector<Concession>&
   return useful;
 }
 
-/// The frame's levels, on the ladders of the nodes, the lowest priority first.
+/// Spreads the frame's levels over the ladders of the nodes, the lowest priority first.
 void LoadGovernor::spreadFrameLevels() {
   for (Governed& g : governed_) g.forFrame = 0;
   for (const FrameRelief& relief : frame_) {
@@ -250,7 +251,7 @@ bool LoadGovernor::see(const Scene& scene) {
   return true;
 }
 
-/// Once: that budgets are thought to be kept although nobody knows.
+/// Reports once that budgets seem to be kept although some costs are unknown.
 void LoadGovernor::tellUncounted() {
   const auto g = std::ranges::find_if(
       governed_, [](const Governed& of) { return of.report.budget > 0 && !of.report.drawCounted; });
@@ -261,8 +262,7 @@ void LoadGovernor::tellUncounted() {
                   titleOf(g->of.node)));
 }
 
-/// Of the nodes that are there now. What was given up stays given up, as far as those are still there who
-/// gave it up.
+/// Builds the ladder from the present nodes. Degradations stay in place if their nodes still exist.
 void LoadGovernor::layFrameLadder(FrameRelief& relief) {
   FrameLadder ladder;
   std::map<std::pair<NodeRef, std::uint32_t>, std::uint32_t> levelOf;
@@ -317,7 +317,7 @@ FrameLoad LoadGovernor::decide(std::uint64_t frame) {
   return load;
 }
 
-/// When it begins, and when it can do no more, is told: of each as of a node's overruns.
+/// Reports when stress begins and when it can do no more, each as rarely as a node's overruns.
 void LoadGovernor::applyStress(std::uint64_t frame) {
   const std::uint32_t before = std::exchange(stressApplied_, stress_.level());
   stressFrom_ = frame, ++stressChanges_;

@@ -1,11 +1,12 @@
 #pragma once
-/// Looks at what a live show's nodes and frames cost, tells overruns, and decides who gives up what.
+/// Measures the cost of a live show's nodes and frames, reports overruns, and decides which nodes degrade.
 ///
-/// Each node with a budget has a ladder of its own (relief_policy.h). The whole show has two means: stress
-/// (stress_filter.h), and, once stress can do no more, the ladders of all nodes one after the other, the
-/// lowest priority first: what is given up for the frame's sake and for the node's own, the greater counts.
+/// Each node with a budget has a degradation ladder of its own (relief_policy.h). The whole show has two
+/// means. The first is stress (stress_filter.h). Once stress can do no more, the second is the ladders of all
+/// nodes, one after the other, the lowest priority first. A node applies the higher of its own level and the
+/// frame's level.
 ///
-/// Decisions are made on the log's thread and taken by App at the start of its next frame.
+/// Decisions are made on the log's thread; App takes them at the start of its next frame.
 ///
 /// Threads  SpanReader's on the log's thread; decide() and see() on App's; reports from any.
 
@@ -25,16 +26,16 @@ namespace stadion {
 
 struct GovernorOptions {
   double rate = 60;                ///< [1/s]
-  bool paced = true;               ///< frames come by the clock: what takes longer than one is late
+  bool paced = true;               ///< frames come by the clock: a frame longer than its period is late
   bool pipelined = true;           ///< else the stages' times add up
-  bool acts = true;                ///< else it only tells
-  bool drawnElsewhere = false;     ///< other processes draw: what that takes is not known by node
+  bool acts = true;                ///< else it only reports
+  bool drawnElsewhere = false;     ///< other processes draw: its cost by node is not known
   std::vector<std::string> walls;  ///< names
   StressOptions stress;
-  std::function<void(const std::string&)> tell;  ///< a line; on the log's thread
+  std::function<void(const std::string&)> tell;  ///< receives a line; on the log's thread
 };
 
-/// How a node kept its budget, each time that its file was there.
+/// How a node kept its budget, over all loads of its file.
 struct BudgetReport {
   std::string name, file;
   std::uint32_t line = 0;
@@ -43,13 +44,14 @@ struct BudgetReport {
   double mean = 0, worst = 0;  ///< [ms]
   std::uint64_t worstFrame = 0;
   std::string worstStage;     ///< "App", "Draw of wall front"
-  bool drawCounted = true;    ///< else what drawing it took is not in these
-  bool drawMeasured = true;   ///< else it was never looked at: it was not seen, or hidden before its turn
-  std::uint64_t changes = 0;  ///< times that something was given up or taken back
-  std::uint32_t highest = 0, now = 0, levels = 0;  ///< of its ladder
+  bool drawCounted = true;    ///< false: these exclude drawing
+  bool drawMeasured = true;   ///< false: drawing was never measured: the node was not visible, or hidden
+                              ///< before its turn
+  std::uint64_t changes = 0;  ///< changes of the degradation level
+  std::uint32_t highest = 0, now = 0, levels = 0;  ///< levels of its ladder
 };
 
-/// What stress there was: everything counts as so many times farther away when levels of detail are chosen.
+/// The stress of the show: the factor on all distances when levels of detail are chosen.
 struct StressReport {
   double highest = 1, now = 1;
   std::uint64_t changes = 0;
@@ -59,60 +61,61 @@ class LoadGovernor final : public SpanReader, public LoadDecider {
 public:
   LoadGovernor(GovernorOptions options, const NodeNames& names);
 
-  // Of the log's thread.
+  // For the log's thread.
   using SpanReader::take;
   void take(std::size_t track, const SpanRecord& record) override;
   void take(const ShortVisits& visits) override;
   void take(const SharedSpan& shared) override;
   void take(const DrawnAlone& drawn, const std::vector<NodeShare>& nodes) override;
   void caughtUp() override;
-  /// The worst overrun of a frame that is not over for long.
+  /// Returns the worst overrun of a frame that ended recently.
   std::optional<Overrun> overrunOf(std::uint64_t frame) const;
 
-  // Of App's thread.
-  /// Whether it watches others than before.
+  // For App's thread.
+  /// Returns true if it watches other nodes than before.
   bool see(const Scene& scene);
-  /// Whom, and on whose account their costs go; null: nobody.
+  /// Returns the watched nodes and the accounts of their costs; null: none.
   std::shared_ptr<const NodeAccounts> accounts() const { return accounts_; }
   FrameLoad decide(std::uint64_t frame) override;
 
   /// By file and line.
   std::vector<BudgetReport> reports() const;
-  /// Nothing if it only tells.
+  /// Returns nothing if it only reports.
   std::optional<StressReport> stress() const;
 
 private:
   struct Governed {
     GovernedNode of;
     ReliefPolicy policy;
-    std::uint32_t forFrame = 0;  ///< the level that the whole frame asks of it
+    std::uint32_t forFrame = 0;  ///< the level that the whole frame requires
     std::uint32_t applied = 0;
     BudgetReport report;
     double sum = 0;
     double toldAt = -1e9;      ///< [s]
-    double toldMs = 0;         ///< what it took then
+    double toldMs = 0;         ///< its cost then
     std::uint64_t untold = 0;  ///< overruns since then
     std::uint32_t wanted() const { return std::max(policy.wanted(), forFrame); }
   };
-  /// What a frame's stages took [ms].
+  /// Durations of a frame's stages [ms].
   struct StageTimes {
     double app = 0;
     std::map<std::uint32_t, double> cull, draw;  ///< by wall
-    bool sampled = false;                        ///< its drawing took longer, for it was looked at
+    bool sampled = false;                        ///< its drawing was sampled, and took longer for it
   };
 
-  /// By file, line and path: what comes and goes all day is one node.
+  /// By file, line and path: a node that is loaded repeatedly is one node.
   using Reports = std::map<std::tuple<std::string, std::uint32_t, std::string>, BudgetReport>;
   static void addTo(Reports& all, const BudgetReport& report);
   void judgeNodes(std::uint64_t frame);
   void judgeFrame(std::uint64_t frame);
   using FrameLadder = std::vector<std::pair<NodeRef, std::uint32_t>>;
-  /// What all ladders give up together, one after the other, for the frame's sake.
+  /// The levels of all ladders together, one after the other, for the frame.
   struct FrameRelief {
-    bool app = false, drawn = false;     ///< what takes too long: App, or Cull and Draw
-    std::optional<ReliefPolicy> policy;  ///< nothing: there is nothing to give up
-    FrameLadder ladder;                  ///< its levels, from 1 on: whose, and which of its own
-    /// How many levels of a ladder make that shorter, with those that come before them.
+    bool app = false, drawn = false;     ///< stages that take too long: App, or Cull and Draw
+    std::optional<ReliefPolicy> policy;  ///< nothing: no node can degrade
+    FrameLadder ladder;                  ///< for each of its levels, from 1 on: the node and the level of
+                                         ///< that node's ladder
+    /// Returns how many levels of a ladder shorten that, with the levels before them.
     std::uint32_t usefulOf(const std::vector<Concession>& gives) const;
   };
   void spreadFrameLevels();
@@ -129,17 +132,18 @@ private:
   mutable std::mutex mutex_;
   NodeCosts costs_;
   std::vector<Governed> governed_;
-  std::vector<std::size_t> byPriority_;  ///< of those that can give up something, the lowest first
+  std::vector<std::size_t> byPriority_;  ///< nodes that can degrade, the lowest priority first
   std::vector<FrameRelief> frame_;       ///< pipelined: for App, for Cull and Draw; else one for all
-  std::uint64_t sampledUntil_ = 0;       ///< frames before it show what looking at drawing took
+  std::uint64_t sampledUntil_ = 0;       ///< frames before it include the cost of sampling
   StressFilter stress_;
   std::uint32_t stressApplied_ = 0, highestStress_ = 0;
   std::uint64_t stressChanges_ = 0, stressFrom_ = 0;
-  double toldStressAt_ = -1e9, toldMostStressAt_ = -1e9;  ///< [s], that there is some, and the most
-  bool scalable_ = false;                                 ///< there is something that stress acts on
+  double toldStressAt_ = -1e9, toldMostStressAt_ = -1e9;  ///< [s], of the report that there is stress, and of
+                                                          ///< the report of its maximum
+  bool scalable_ = false;                                 ///< the show has nodes that stress affects
   std::map<std::uint64_t, StageTimes> times_;
   std::vector<std::uint64_t> appEnded_, appEndedBefore_, shown_, shownBefore_;
-  std::vector<std::string> lines_;  ///< to be told, by the log's thread
+  std::vector<std::string> lines_;  ///< reports to be sent by the log's thread
   std::uint64_t seen_ = ~std::uint64_t{0};
   std::shared_ptr<const NodeAccounts> accounts_;
   bool toldUncounted_ = false;
@@ -147,7 +151,7 @@ private:
   double now_ = 0;  ///< [s]
 };
 
-/// "half (every 4th frame)", "lod (1.5 times)": what the level gives up beyond the one below it.
+/// Returns a name such as "half (every 4th frame)", "lod (1.5 times)": the step from the level below.
 std::string nameOfLevel(const std::vector<Concession>& ladder, std::uint32_t level);
 
 }  // namespace stadion

@@ -9,10 +9,10 @@
 namespace stadion {
 namespace {
 
-/// A sample that is older, and no new one has come though its turn has, says nothing any more: the node is
-/// out of sight, or drawn otherwise [frames].
+/// A sample older than this expires if no new one came in its turn: the node is out of sight, or drawn in
+/// another way [frames].
 constexpr std::uint64_t kOld = 600;
-/// So long is waited for a sample of what is drawn otherwise; without one it is out of sight [frames].
+/// Wait for a sample after a change of how a node is drawn; without one it is out of sight [frames].
 constexpr std::uint64_t kAwaited = 128;
 
 }  // namespace
@@ -59,7 +59,7 @@ bool hasLevels(const Scene& scene) {
 
 void NodeCosts::govern(std::vector<GovernedNode> nodes, std::map<NodeRef, std::vector<std::size_t>> above,
                        NodeRef sky) {
-  // What is known of those that stay, under their new places.
+  // Keeps the data of remaining nodes under their new places.
   std::vector<std::optional<std::size_t>> place(nodes_.size());
   for (std::size_t i = 0; i < nodes_.size(); ++i) {
     const auto at = std::ranges::find(nodes, nodes_[i].node, &GovernedNode::node);
@@ -67,7 +67,7 @@ void NodeCosts::govern(std::vector<GovernedNode> nodes, std::map<NodeRef, std::v
   }
   std::map<SampleKey, Sample> samples;
   for (const auto& [key, sample] : samples_) {
-    if (key.what == Span::Sky && key.node != sky) continue;  // another one is seen now
+    if (key.what == Span::Sky && key.node != sky) continue;  // another sky is visible now
     if (const auto to = place[key.governed]) samples[{*to, key.node, key.wall, key.eye, key.what}] = sample;
   }
   std::vector<Drawn> drawn(nodes.size());
@@ -108,7 +108,7 @@ void NodeCosts::sample(const DrawnAlone& s, std::span<const NodeShare> among) {
     if (const auto at = above_.find(node); at != above_.end())
       for (const std::size_t governed : at->second) {
         Sample& known = samples_[{governed, node, s.wall, s.eye, s.what}];
-        // What is drawn in several pieces of a frame costs their sum.
+        // A node that is drawn in several pieces of a frame costs their sum.
         if (known.frame != s.frame) known = {0, known.until < s.frame ? 0 : known.ms, s.frame, 0};
         known.ms += s.ms * double{part};
         known.until = s.frame + std::max(kOld, 2 * s.round);
@@ -142,11 +142,11 @@ std::vector<NodeCost> NodeCosts::of(std::uint64_t frame) const {
   std::vector<bool> sampled(costs.size());
   for (const auto& [key, s] : samples_) {
     const Drawn& drawn = drawn_[key.governed];
-    const bool isSky = key.what == Span::Sky;  // it is seen whoever is hidden
+    const bool isSky = key.what == Span::Sky;  // the sky is visible even if nodes are hidden
     if (s.until < frame || s.frame > frame) continue;
     if (!isSky && (drawn.hidden || s.frame < drawn.since)) continue;
     sampled[key.governed] = sampled[key.governed] || key.what == Span::Draw;
-    const double ms = std::max(0.0, s.ms);  // of next to nothing, a clock may say less than nothing
+    const double ms = std::max(0.0, s.ms);  // for very short times the clock may give negative values
     costs[key.governed].cost.drawn += ms;
     costs[key.governed].sure.drawn += std::min(ms, std::max(0.0, s.before));
     stages[{key.governed, isSky || key.what == Span::Draw, key.wall}] += ms;

@@ -1,12 +1,12 @@
 #pragma once
-/// What nodes with terms cost, frame by frame: all that is spent on them and on what stands below them.
+/// The costs of watched nodes, frame by frame: all time spent on them and on the nodes below them.
 ///
-/// App is known of each frame. Cull and Draw are known from samples (FrameLog: who shared in culling, which
-/// batches were drawn alone); between two samples the last one counts, until another has not come for two
-/// rounds of sampling. A sample may be disturbed: what is to be acted on is the lesser of the last two.
+/// App's cost is known for each frame. Costs of Cull and Draw are known from samples (FrameLog: shares of
+/// culling, batches drawn alone). Between two samples the last one counts, until the next one is overdue by
+/// two rounds of sampling. A sample may be disturbed, so decisions use the lesser of the last two.
 ///
-/// Units    milliseconds. Threads  the log's thread, but see(), which is App's; names and terms are locked by
-///          the owner.
+/// Units    milliseconds.
+/// Threads  the log's thread, except see(), which is App's; the owner locks names and terms.
 
 #include "engine/scene/scene.h"
 #include "profiling/budget/relief_policy.h"
@@ -17,28 +17,28 @@
 
 namespace stadion {
 
-/// A node that has a budget or something to give up.
+/// A node with a budget or a degradation ladder.
 struct GovernedNode {
   NodeRef node;
   NodeTerms terms;
-  bool drawn = false;  ///< something of it, or below it, may be drawn
+  bool drawn = false;  ///< it, or a node below it, may be drawn
 };
 
-/// What one of them cost in one frame.
+/// The cost of such a node in one frame.
 struct NodeCost {
   LoadCost cost;
-  LoadCost sure;  ///< as far as two samples in a row say so
-  /// Whether what is drawn of it has been looked at since it was drawn otherwise than before.
+  LoadCost sure;  ///< the part that two samples in a row confirm
+  /// Its drawing was sampled since the last change of how it is drawn.
   bool known = true;
-  bool drawKnown = true;         ///< drawing it has been looked at, or nothing of it was ever seen
-  Span dearest = Span::App;      ///< the stage in which it cost most
+  bool drawKnown = true;         ///< its drawing was sampled, or it was never visible
+  Span dearest = Span::App;      ///< the most expensive stage
   std::uint32_t wall = kNoWall;  ///< of that stage
 };
 
 class NodeCosts {
 public:
-  /// Whose costs are kept from now on. `above`: of each node that stands below some of them, these, by their
-  /// places in the list. `sky`: who is drawn where nothing else is.
+  /// Sets the nodes to measure. `above`: for each node below some of them, their places in the list. `sky`:
+  /// the node that draws the background.
   void govern(std::vector<GovernedNode> nodes, std::map<NodeRef, std::vector<std::size_t>> above,
               NodeRef sky);
   const std::vector<GovernedNode>& governed() const { return nodes_; }
@@ -48,19 +48,19 @@ public:
   void take(const SharedSpan& shared);
   void take(const DrawnAlone& drawn, const std::vector<NodeShare>& nodes);
 
-  /// From that frame on a governed node is drawn otherwise, or not at all: what was known of it is void.
+  /// From that frame on a governed node is drawn in another way, or not at all: earlier samples are void.
   void drawnOtherwise(std::size_t governed, std::uint64_t frame, bool hidden);
 
-  /// What the governed nodes cost in that frame, as far as it is known now.
+  /// Returns the costs of the governed nodes in that frame, as far as known.
   std::vector<NodeCost> of(std::uint64_t frame) const;
   void forget(std::uint64_t upToFrame);
 
 private:
-  /// Of one wall and one eye's drawing, or of one part of culling.
+  /// A sample of one wall and one eye's drawing, or of one part of culling.
   struct Sample {
-    double ms = 0, before = 0;  ///< before: in the sample before; 0 = there was none
+    double ms = 0, before = 0;  ///< before: in the previous sample; 0 = none
     std::uint64_t frame = 0;
-    std::uint64_t until = 0;  ///< frame after which it says nothing any more
+    std::uint64_t until = 0;  ///< last frame for which it counts
   };
   struct SampleKey {
     std::size_t governed;
@@ -71,12 +71,12 @@ private:
   };
   void spend(std::uint64_t frame, NodeRef node, double ms);
   void sample(const DrawnAlone& taken, std::span<const NodeShare> among);
-  /// How a governed node has been drawn, and since when.
+  /// How a governed node is drawn, and since when.
   struct Drawn {
     std::uint64_t since = 0;
     bool hidden = false;
-    bool seen = false, sampled = false;  ///< a wall has shown something of it; that has been drawn alone
-    std::uint64_t round = 0;             ///< so long a sample of its drawing may take to come [frames]
+    bool seen = false, sampled = false;  ///< a wall has shown it; it has been drawn alone
+    std::uint64_t round = 0;             ///< longest time until its drawing is sampled [frames]
   };
 
   std::vector<GovernedNode> nodes_;
@@ -87,13 +87,14 @@ private:
   std::vector<Drawn> drawn_;  ///< by governed node
 };
 
-/// Whether the show has anything that stress acts on.
+/// Returns true if the show has levels of detail that stress affects.
 bool hasLevels(const Scene& scene);
 
-/// Whether something of the node, or below it, may be drawn. Null: a static object.
+/// Returns true if the node, or a node below it, may be drawn. Null: a static object.
 bool mayBeDrawn(const Node* node);
 
-/// The governed nodes of the loads that are there, and of each node those at or above it, the nearest first.
+/// Returns the governed nodes of the present loads, and for each node those at or above it, the nearest
+/// first.
 std::pair<std::vector<GovernedNode>, std::map<NodeRef, std::vector<std::size_t>>>
 governedNodes(const Scene& scene);
 

@@ -9,18 +9,19 @@ namespace {
 constexpr double kMild = 1.25, kSevere = 3;  ///< of the budget
 constexpr int kEnough = 4, kEnoughInTrouble = 2;
 constexpr double kSmooth = 1.0 / 16;
-constexpr double kMostCounted = 2;        ///< of the budget, of one frame in the smoothed cost
+constexpr double kMostCounted = 2;        ///< limit of one frame's share in the smoothed cost, relative to
+                                          ///< the budget
 constexpr double kSteadyOver = 1.05;      ///< of the budget, smoothed
-constexpr std::size_t kSteadyAfter = 32;  ///< frames, before the smoothed cost says anything
-constexpr std::size_t kSettled = 30;      ///< frames, after which the smoothed cost is that of the level
-constexpr double kSays = 0.05;            ///< of what it was: less is left of it by chance, and tells nothing
-constexpr double kRoom = 0.8;             ///< of the budget, for a dearer level
-constexpr double kCalm = 1.0;             ///< of the budget: a frame that costs more is no calm one
+constexpr std::size_t kSteadyAfter = 32;  ///< frames before the smoothed cost counts
+constexpr std::size_t kSettled = 30;      ///< frames after which the smoothed cost belongs to the level
+constexpr double kSays = 0.05;            ///< of the previous cost: a smaller rest is chance
+constexpr double kRoom = 0.8;             ///< of the budget, for a more expensive level
+constexpr double kCalm = 1.0;             ///< of the budget: a frame above it is an overrun
 constexpr std::uint32_t kMostFailures = 6;
-constexpr std::uint32_t kKnownBetter = 3;  ///< tries spared where a level is known to be too dear
-constexpr std::uint64_t kTrial = 4;  ///< times the patience: so long a level that was taken back is on trial
+constexpr std::uint32_t kKnownBetter = 3;  ///< tries saved if a level is known to be too expensive
+constexpr std::uint64_t kTrial = 4;  ///< times the patience: the trial of a recovered level
 
-// What concessions usually save; what they really save is known once they have been made.
+// Usual savings of degradations; the true savings are known after they were applied.
 constexpr double kLodSaves = 0.75;
 
 }  // namespace
@@ -45,7 +46,7 @@ void ReliefPolicy::applied(std::uint64_t frame) {
   if (level_ == wanted_) return;
   trying_ = wanted_ < level_;
   troubled_ = wanted_ > level_;
-  // Until something is measured at the new level, it costs what is expected.
+  // Until the new level is measured, its expected cost counts.
   const LevelSavings &from = levels_[level_], &to = levels_[wanted_];
   mean_.app = from.app > 0 ? mean_.app * to.app / from.app : 0;
   mean_.drawn = from.drawn > 0 ? mean_.drawn * to.drawn / from.drawn : 0;
@@ -64,7 +65,7 @@ void ReliefPolicy::relay(std::vector<LevelSavings> levels, const std::vector<std
 
 void ReliefPolicy::note(const LoadCost& cost) {
   window_[seen_ % kWindow] = cost;
-  // Of those that run now and then, the frames in between belong to it.
+  // For nodes that run now and then, the frames in between belong to the cycle.
   const std::size_t cycle = levels_[level_].cycle;
   LoadCost typical;
   for (std::size_t i = 0; i < std::min(cycle, seen_ + 1); ++i) {
@@ -74,7 +75,7 @@ void ReliefPolicy::note(const LoadCost& cost) {
   const double share = typical.total() / options_.budget;
   strikes_[seen_ % kWindow] = share > kSevere ? 2 : share > kMild ? 1 : 0;
   const double weight = seen_ == 0 && level_ == 0 && mean_.total() == 0 ? 1 : kSmooth;
-  // One spike says nothing of the steady cost.
+  // One spike says nothing about the steady cost.
   const double counted = std::min(1.0, kMostCounted / std::max(share, 1e-9));
   mean_.app += weight * (counted * typical.app - mean_.app);
   mean_.drawn += weight * (counted * typical.drawn - mean_.drawn);
@@ -97,12 +98,12 @@ double ReliefPolicy::expectedAt(std::uint32_t level) const {
   return scaled(mean_.app, from.app, to.app) + scaled(mean_.drawn, from.drawn, to.drawn);
 }
 
-/// The first level that is expected to fit, else the one that helps most.
+/// Chooses the first level that is expected to fit, else the one that helps most.
 void ReliefPolicy::giveUp(std::uint64_t frame) {
   if (trying_ && frame - since_ < kTrial * options_.patience)
     failures_ = std::min(failures_ + 1, kMostFailures);
   trying_ = false;
-  // What has been over is more than the smoothed cost says.
+  // Frames over budget weigh more than the smoothed cost.
   LoadCost worst;
   for (std::size_t i = 0; i < std::min(seen_, kWindow); ++i)
     if (window_[i].total() > worst.total()) worst = window_[i];
@@ -119,8 +120,8 @@ void ReliefPolicy::giveUp(std::uint64_t frame) {
   wanted_ = best;
 }
 
-/// What the level below would cost: as many times more than this one as it did when it was left. Where things
-/// have come back already, that time is over.
+/// The expected cost of the level below: the present cost times the ratio when that level was left. Once
+/// levels have recovered, the old ratio is out of date.
 double ReliefPolicy::expectedBack() const {
   const auto &before = known_[level_ - 1], &settled = settled_[level_];
   if (troubled_ && before && settled && *settled > kSays * *before) return mean_.total() * *before / *settled;

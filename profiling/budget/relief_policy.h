@@ -1,16 +1,17 @@
 #pragma once
-/// When something that costs too much gives something up, how much, and when it gets it back.
+/// Decides when a node degrades, by how much, and when it recovers.
 ///
-/// It gives up at once on a clear overrun: two frames of more than three times the budget, or four that are a
-/// quarter over it, of eight; one such frame spoils nothing. It goes to the first level of its ladder that is
-/// expected to fit, by what that level cost the last time, else by what its concessions usually save.
+/// It degrades at once on a clear overrun: of eight frames, two with more than three times the budget, or
+/// four that are a quarter over it. A single such frame changes nothing. It goes to the first level of its
+/// ladder that is expected to fit. The expectation is the level's last cost, or else the usual savings of its
+/// degradations.
 ///
-/// It gets back one level after a second of calm (`patience` frames, none of them over), if the dearer level
-/// is expected to leave a fifth of the budget free. If that cannot be expected or is not known, it is tried
-/// all the same, after a time that doubles with every try that failed: so what goes on being too dear is
-/// tried less and less often, and what has become cheap again recovers.
+/// It recovers one level after a second without overruns (`patience` frames), if the more expensive level is
+/// expected to leave a fifth of the budget free. If that is not expected or not known, the level is tried
+/// anyway, after a time that doubles with every failed try. A node that stays too expensive is thus tried
+/// ever less often, and one that has become cheap recovers.
 ///
-/// Units    milliseconds, frames. No clock: it knows what it is told.
+/// Units    milliseconds, frames. It has no clock, and knows only its input.
 /// Threads  plain values; one thread at a time.
 
 #include "engine/core/load_control.h"
@@ -21,17 +22,17 @@
 
 namespace stadion {
 
-/// Of one frame.
+/// The cost of one frame.
 struct LoadCost {
   double app = 0;    ///< [ms] of App
   double drawn = 0;  ///< [ms] of Cull and Draw, all walls and eyes
   double total() const { return app + drawn; }
 };
 
-/// What is left of the cost at a level of a ladder, by experience: of App and of Cull and Draw.
+/// The part of the cost that a level usually leaves: of App, and of Cull and Draw.
 struct LevelSavings {
   double app = 1, drawn = 1;
-  std::uint32_t cycle = 1;  ///< frames, of which one bears the cost
+  std::uint32_t cycle = 1;  ///< frames, of which one has the cost
 };
 /// By level, from 0 on.
 std::vector<LevelSavings> savingsOf(const std::vector<Concession>& ladder);
@@ -40,23 +41,23 @@ class ReliefPolicy {
 public:
   struct Options {
     double budget = 1;            ///< [ms]
-    std::uint64_t patience = 60;  ///< frames of calm before anything is taken back
+    std::uint64_t patience = 60;  ///< frames without overruns before recovering a level
   };
 
   ReliefPolicy(Options options, std::vector<LevelSavings> levels);
 
-  /// What a frame cost; frames in their order. Frames from before the last level took effect count for
-  /// nothing. Returns the level that is wanted now.
+  /// Adds a frame's cost; frames come in order. Frames from before the last level took effect do not count.
+  /// Returns the level that is wanted now.
   std::uint32_t take(std::uint64_t frame, const LoadCost& cost);
-  /// The level that was wanted takes effect with this frame.
+  /// Reports that the wanted level takes effect with this frame.
   void applied(std::uint64_t frame);
-  /// The ladder has changed: `becomes` says of each level of the old one, from 0 on, which level of the new
-  /// one gives up the same. All that is known stays known.
+  /// Replaces the ladder. `becomes` maps each level of the old one, from 0 on, to the equal level of the new
+  /// one. All knowledge is kept.
   void relay(std::vector<LevelSavings> levels, const std::vector<std::uint32_t>& becomes);
 
   std::uint32_t wanted() const { return wanted_; }
   std::uint32_t level() const { return level_; }
-  /// What is expected of a level, from what the present one costs.
+  /// Returns the expected cost of a level, from the cost of the present one.
   double expectedAt(std::uint32_t level) const;
 
 private:
@@ -76,13 +77,13 @@ private:
   std::array<LoadCost, kWindow> window_{};
   std::array<int, kWindow> strikes_{};
   std::size_t seen_ = 0;        ///< frames at this level
-  std::uint64_t calm_ = 0;      ///< of them, the last ones without any trouble
+  std::uint64_t calm_ = 0;      ///< the last of them without overruns
   LoadCost mean_;               ///< smoothed
-  std::uint32_t failures_ = 0;  ///< tries to take something back that failed, one after the other
+  std::uint32_t failures_ = 0;  ///< failed tries to recover a level, in a row
   bool trying_ = false;         ///< the present level is such a try
-  bool troubled_ = false;       ///< the present level was given up for: one clear sign is enough now
-  std::vector<std::optional<double>> known_;    ///< what levels cost when they were left for a higher one
-  std::vector<std::optional<double>> settled_;  ///< and a while after they were reached
+  bool troubled_ = false;       ///< the last level was left for an overrun: one clear sign is enough now
+  std::vector<std::optional<double>> known_;    ///< costs of levels when they were left for a higher one
+  std::vector<std::optional<double>> settled_;  ///< costs of levels a while after they were reached
 };
 
 }  // namespace stadion

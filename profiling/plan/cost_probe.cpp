@@ -88,7 +88,7 @@ void CostProbe::endStage(Span what, const Moment& now) {
   if (what == Span::Draw) endDraw(cost.walls[wall_], now), ++seen.drawn;
 }
 
-/// What comes after the last picture is counted with it.
+/// Work after the last picture is counted with it.
 void CostProbe::endDraw(WallCost& wall, const Moment& now) {
   const auto othersSince = [](const Moment& from, const Moment& to) {
     return std::max(0.0, to.process - from.process - (to.own - from.own));

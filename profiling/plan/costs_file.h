@@ -1,15 +1,17 @@
 #pragma once
-/// What a show's frames cost, as a file: measured once, planned with anywhere.
+/// The costs of a show's frames as a file: measured once, used for plans on any machine.
 ///
 ///     {"format": "stadion-plan-costs 1", "show": "kick.evs", "size": "800x600", "look": "full",
 ///      "eyes": 2, "walls": ["front", "left"], "cores": 2, "raster_threads": 2, "waits_in_turn": true,
 ///      "frames": [{"app": 0.05, "app_helpers": 0, "swap": 0.002,
 ///                  "walls": [{"cull": 0.01, "pictures": [[0.4, 10.5, 1.9], [0.4, 10.5, 1.9]]}]}]}
 ///
-/// Costs are milliseconds of processor time; a picture is what its calls cost the drawing thread, what
-/// rasterising it costs the rasteriser's threads together, and how many of these work at a time.
+/// Costs are milliseconds of processor time. A picture has three numbers: the time of its calls in the
+/// drawing thread, the time of its rasterising in all threads of the rasteriser together, and how many of
+/// these work at a time.
 ///
-/// Threads  plain values, any thread. Errors  a text that says what is wrong and where.
+/// Threads  plain values, any thread.
+/// Errors   a message that says what is wrong and where.
 
 #include "engine/base/diagnostic.h"
 #include "profiling/plan/schedule.h"
@@ -18,7 +20,7 @@ namespace stadion::plan {
 
 struct ShowCosts {
   std::string show, size;
-  std::string look = "full";  ///< or "plain"; files that do not say were measured in the full one
+  std::string look = "full";  ///< or "plain"; a file without it was measured in the full look
   std::size_t eyes = 2;
   std::vector<std::string> walls;  ///< names
   double cores = 1;                ///< of the machine where it was measured
@@ -29,7 +31,7 @@ struct ShowCosts {
 
 /// One line.
 std::string toJson(const ShowCosts& costs);
-/// Also from a larger object that has it as "costs". `name` is told in errors.
+/// Also reads a larger object that has it as "costs". `name` appears in errors.
 Result<ShowCosts> readCosts(const std::string& text, const std::string& name);
 
 }  // namespace stadion::plan

@@ -52,7 +52,7 @@ bool isIn(const Bar& bar, const Part& part) {
   return bar.end > part.begin && bar.begin < part.end;
 }
 
-/// Waits lie below work.
+/// Draws waits below work.
 std::vector<const Bar*> painted(const Schedule& s, const Part& part) {
   std::vector<const Bar*> bars;
   for (const Bar& b : s.bars)

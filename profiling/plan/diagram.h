@@ -8,10 +8,10 @@
 
 namespace stadion::plan {
 
-/// For a terminal. Work is the frame's last digit, waits are marks, which a last line explains.
+/// For a terminal. Work is shown as the frame's last digit, waits as marks; the last line explains them.
 std::string diagramText(const Schedule& schedule, std::size_t frames, std::size_t columns = 100);
 
-/// One frame a colour, waits pale, swaps as lines; each bar has a tooltip.
+/// One colour a frame, pale waits, swaps as lines; each bar has a tooltip.
 std::string diagramSvg(const Schedule& schedule, std::size_t frames, const std::string& title);
 
 }  // namespace stadion::plan

@@ -7,7 +7,7 @@ namespace stadion::plan {
 namespace {
 
 constexpr std::size_t kFilling = 4, kEmptying = 3;
-/// A processor, or a rasteriser, that is in use for so much of the time leaves no room for anything else.
+/// A processor, or a rasteriser, with this load has no room for more work.
 constexpr double kFull = 0.93;
 
 double medianOf(std::vector<double> values) {
@@ -17,7 +17,7 @@ double medianOf(std::vector<double> values) {
   return *middle;
 }
 
-/// The frames that are looked at: [first, last) of those shown.
+/// The frames that count: [first, last) of those shown.
 struct Window {
   std::size_t first = 0, last = 0;
   double begin = 0, end = 0;
@@ -32,7 +32,7 @@ Window windowOf(const Schedule& s) {
   return w;
 }
 
-/// Time of a row's bars in the window, of those that `counts`.
+/// Returns the time of a row's bars in the window that `counts` accepts.
 template <class Counts>
 double timeIn(const Schedule& s, const Window& w, const Counts& counts) {
   double sum = 0;
@@ -62,7 +62,7 @@ std::vector<Use> usesOf(const Schedule& s, const Window& w, const Plan& plan) {
   return uses;
 }
 
-/// What is shared stands in everybody's way: it counts before the threads that wait for it.
+/// A shared resource delays all threads, so it is named before the threads that wait for it.
 std::string bottleneckOf(const std::vector<Use>& uses) {
   const auto full = [&](std::string_view name) {
     return std::ranges::any_of(uses,

@@ -49,7 +49,7 @@ FrameCost meanOf(const ShowCosts& costs) {
     mean.app += part * f.app, mean.appHelpers += part * f.appHelpers, mean.swap += part * f.swap;
     for (std::size_t w = 0; w < f.walls.size(); ++w) {
       mean.walls[w].cull += part * f.walls[w].cull;
-      mean.walls[w].pictures.resize(1, {0, 0, 0});  // all eyes together; here atOnce is how long it takes
+      mean.walls[w].pictures.resize(1, {0, 0, 0});  // all eyes together; here atOnce is a duration
       for (const PictureCost& p : f.walls[w].pictures) {
         mean.walls[w].pictures[0].calls += part * p.calls;
         mean.walls[w].pictures[0].raster += part * p.raster;
@@ -60,7 +60,7 @@ FrameCost meanOf(const ShowCosts& costs) {
   return mean;
 }
 
-/// A costs file may come from anywhere: what it calls things is no command to a terminal.
+/// A costs file may come from any source, so its names must not control a terminal.
 std::string shown(const std::string& name) {
   constexpr std::size_t kMostCharacters = 100;
   return printable(name, kMostCharacters);

@@ -1,5 +1,5 @@
 #pragma once
-/// What `stadion plan` says.
+/// The output of `stadion plan`.
 ///
 /// Threads  plain values.
 
@@ -10,11 +10,11 @@ namespace stadion::plan {
 
 struct Question {
   Plan plan;
-  bool sequential = true, pipelined = true;  ///< which of them the table has
+  bool sequential = true, pipelined = true;  ///< modes in the table
 };
 
-/// The plan's own machine: the rasteriser keeps the same part of its threads busy, of which it has one for
-/// each core, 32 at most.
+/// Returns the plan's machine. It has a rasteriser thread for each core, 32 at most, and the same part of
+/// them is busy.
 Machine machineWith(double cores, const ShowCosts& costs);
 
 std::string reportText(const ShowCosts& costs, const Question& question);

@@ -54,7 +54,7 @@ private:
     double raster, threads;
   };
   struct Rasteriser {
-    bool taken = false;  ///< somebody has his turn
+    bool taken = false;  ///< a wall has its turn
     std::deque<Picture> pictures;
   };
 
@@ -94,7 +94,7 @@ private:
     if (simulation_.now() > begin) out_.bars.push_back({row, what, frame, begin, simulation_.now()});
   }
 
-  // When the next frame may begin (pipeline/loop/pacer.h).
+  // Returns the time at which the next frame may begin (pipeline/loop/pacer.h).
   double nextBegin(double& next) const {
     if (plan_.pacing == Pacing::Free) return 0;
     const double period = 1000 / plan_.rate, now = simulation_.now();
@@ -190,7 +190,7 @@ private:
     ++drawnOut_;
   }
 
-  /// To the rasteriser.
+  /// Sends work to the rasteriser.
   void send(std::size_t wall, std::uint64_t frame, const PictureCost& cost) {
     ++walls_[wall].inWork;
     const double threads = cost.atOnce > 1 ? cost.atOnce * plan_.machine.rasterThreads : cost.atOnce;
@@ -214,7 +214,7 @@ private:
 
   bool allDrawn() const { return drawnOut_ == (plan_.pipelined ? plan_.walls : machines_); }
 
-  // One frame after the other, one stage after the other.
+  // Runs one frame after the other, one stage after the other.
   Process sequential(std::size_t machine) {
     double next = -1;
     for (std::uint64_t frame = 0; frame < plan_.frames; ++frame) {

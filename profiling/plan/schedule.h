@@ -1,13 +1,14 @@
 #pragma once
-/// How the frames of a show fall out in time, on a machine that need not be there.
+/// Simulates the timing of a show's frames on a machine that need not exist.
 ///
-/// What the frame loop does (pipeline/loop/frame_loop.h) is done here by processes that only compute as long as
-/// the stages were measured to: one thread for App and, for each wall, one for Cull and one for Draw, or one
-/// for all of it; three slots of scene state; two draw lists a wall; all walls swap together. The software
-/// rasteriser is modelled as it works: walls take turns with their calls, what they call for is rasterised by
-/// threads of its own, one picture after the other, and a wall keeps its turn until its picture is done.
+/// The frame loop (pipeline/loop/frame_loop.h) is modelled by processes that compute for the measured times
+/// of the stages. There is one thread for App and, for each wall, one for Cull and one for Draw, or one
+/// thread for all. There are three slots of scene state and two draw lists a wall; all walls swap together.
+/// The software rasteriser is modelled, too: walls take turns with their calls, and threads of its own
+/// rasterise one picture after the other. A wall keeps its turn until its picture is done.
 ///
-/// Units    milliseconds of processor time and of time. Threads  plain values.
+/// Units    milliseconds of processor time and of time.
+/// Threads  plain values.
 
 #include <cstddef>
 #include <cstdint>
@@ -20,7 +21,7 @@ namespace stadion::plan {
 struct PictureCost {
   double calls = 0;   ///< of the drawing thread
   double raster = 0;  ///< of the rasteriser's threads together, afterwards
-  double atOnce = 1;  ///< how many of them work at a time; a picture of few tiles keeps few busy
+  double atOnce = 1;  ///< number of them that work at a time; few in a picture of few tiles
 };
 
 struct WallCost {
@@ -38,18 +39,18 @@ struct FrameCost {
 
 struct Machine {
   double cores = 1;
-  double rasterThreads = 1;  ///< for one where it was measured: as many times more work at a time
+  double rasterThreads = 1;  ///< relative to the measuring machine: this factor more work at a time
 };
 
 enum class Pacing { Free, Lock, Float };
 
-/// Who runs what. Machines, and rasterisers on a machine, have their walls in turn: wall w is the
-/// (w mod n)th's.
+/// Distribution of the work. Walls are assigned to machines, and to rasterisers on a machine, in turn: wall w
+/// to number w mod n.
 struct Plan {
   bool pipelined = true;
-  std::size_t walls = 1;  ///< more than were measured: those again
+  std::size_t walls = 1;  ///< if more than were measured, those are repeated
   Machine machine;
-  std::size_t machines = 1;     ///< alike, each with an App of its own; all walls swap together
+  std::size_t machines = 1;     ///< equal machines, each with an App of its own; all walls swap together
   std::size_t rasterisers = 1;  ///< on each machine; more than one: walls are processes
   bool waitsInTurn = true;      ///< for each picture, as llvmpipe does; else for all of them, afterwards
   Pacing pacing = Pacing::Free;
@@ -66,13 +67,13 @@ enum class Doing : std::uint8_t {
   Swap,
   ForTurn,    ///< Draw waits for other walls' calls
   ForPixels,  ///< Draw waits for the rasteriser
-  ForWalls,   ///< Draw waits for the walls that are not done
+  ForWalls,   ///< Draw waits for other walls to finish
 };
 constexpr bool isWait(Doing d) {
   return d >= Doing::ForTurn;
 }
 
-/// A stretch of time of one thread, or of the rasteriser.
+/// An interval of one thread, or of the rasteriser.
 struct Bar {
   std::size_t row = 0;  ///< in Schedule::rows
   Doing what = Doing::App;
@@ -82,7 +83,7 @@ struct Bar {
 
 struct ShownFrame {
   std::uint64_t frame = 0;
-  double began = 0;  ///< App, which samples the poses
+  double began = 0;  ///< start of App, which samples the poses
   double shown = 0;
 };
 
@@ -94,8 +95,8 @@ struct Schedule {
   double end = 0;
 };
 
-/// Expects a cost at least, with a wall at least. Frame n costs what measured frame n did, the first again
-/// after the last.
+/// Expects at least one cost, with at least one wall. Frame n costs what measured frame n did; after the last
+/// one the first follows again.
 Schedule scheduleOf(const std::vector<FrameCost>& costs, const Plan& plan);
 
 }  // namespace stadion::plan

@@ -7,7 +7,7 @@ namespace stadion::plan {
 namespace {
 
 constexpr double kNever = std::numeric_limits<double>::infinity();
-/// What is left of a job when it is done, by rounding [ms].
+/// Rest of a finished job, from rounding [ms].
 constexpr double kNothing = 1e-12;
 
 }  // namespace
@@ -75,7 +75,7 @@ void Simulation::run() {
   }
 }
 
-/// One at a time: it may take what others wait for, too.
+/// Wakes one process: it may take a resource for which others wait, too.
 bool Simulation::wakeOne() {
   const auto at = std::ranges::find_if(waiting_, [](const Waiting& w) { return w.condition(); });
   if (at == waiting_.end()) return false;
@@ -84,7 +84,7 @@ bool Simulation::wakeOne() {
   return true;
 }
 
-/// To the next time at which something happens. False: nothing ever will.
+/// Advances to the next event. Returns false if there is none.
 bool Simulation::advance() {
   double next = kNever;
   for (const Machine& m : machines_) next = std::min(next, m.untilNext());

@@ -1,19 +1,20 @@
 #pragma once
-/// Discrete events: processes that compute and wait, on processors that those who compute share alike.
+/// A discrete-event simulation: processes compute and wait, and computing processes share processors equally.
 ///
-/// A process is a coroutine that says what a thread would do:
+/// A process is a coroutine that does what a thread would do:
 ///
 ///     Process cull(Simulation& s) {
 ///       co_await s.until([&] { return leased; });
 ///       co_await s.compute(0, 3.5);
 ///     }
 ///
-/// Where more threads are ready than a machine has processors, each gets the same part of them, as from a
-/// fair scheduler whose slices are short. Whoever has waited longest goes on first. So the same processes
-/// always end in the same times.
+/// If more threads are ready than a machine has processors, each gets the same share, as from a fair
+/// scheduler with short time slices. The process that has waited longest continues first. The same processes
+/// thus always end at the same times.
 ///
-/// Units    milliseconds. Threads  one.
-/// Errors   what a process throws comes out of run().
+/// Units    milliseconds.
+/// Threads  one.
+/// Errors   run() throws the exceptions of processes.
 
 #include <coroutine>
 #include <cstddef>
@@ -50,15 +51,15 @@ private:
 
 class Simulation {
 public:
-  /// Machines, each with so many processors.
+  /// Makes machines with these numbers of processors.
   explicit Simulation(std::vector<double> processors);
 
-  /// It begins with run().
+  /// The process begins with run().
   void start(Process process);
-  /// Until no process can go on.
+  /// Runs until no process can continue.
   void run();
   double now() const { return now_; }
-  /// Processor time used so far.
+  /// Returns the processor time used so far.
   double busy(std::size_t machine) const { return machines_[machine].busy; }
 
   class Wait {
@@ -74,9 +75,9 @@ public:
     bool ready_;
   };
 
-  /// Takes `work` of processor time, on as many as `threads` processors at a time.
+  /// Uses `work` of processor time, on at most `threads` processors at a time.
   Wait compute(std::size_t machine, double work, double threads = 1);
-  /// Waits until it is so. The condition may depend on what processes do, not on the time.
+  /// Waits until the condition holds. It may depend on what processes do, but not on the time.
   Wait until(std::function<bool()> condition);
   Wait sleepUntil(double when);
 
@@ -90,7 +91,7 @@ private:
     double busy = 0;
     std::vector<Job> jobs{};
 
-    /// Of what one thread would get if it were alone.
+    /// Returns the rate relative to a thread that is alone.
     double rate() const;
     double untilNext() const;
     void advance(double ms, std::deque<std::coroutine_handle<>>& done);

@@ -1,6 +1,6 @@
 #pragma once
-/// The three slots of scene state between App and Cull, without threads: who may write, what is read next
-/// (pipeline/state/frame_slots.h).
+/// The three slots of scene state between App and Cull, without threads: the slot to write, and the slot to
+/// read next (pipeline/state/frame_slots.h).
 
 #include <algorithm>
 #include <array>
@@ -32,7 +32,7 @@ public:
   }
   void finish() { finished_ = true; }
 
-  /// Whether there is the `serial`th frame to show; also when none will come.
+  /// Returns true if the `serial`th frame to show exists, or never will.
   bool canRead(std::size_t serial) const {
     return serial < chosen_.size() || finished_ || next() < slots_.size();
   }
@@ -63,7 +63,7 @@ private:
     std::size_t unread = 0;
   };
 
-  /// A free one, else the oldest that nobody has begun to read; the end: none.
+  /// Returns a free slot, else the oldest one that no reader has begun; the end if there is none.
   std::size_t writable() const {
     std::size_t oldest = slots_.size();
     for (std::size_t i = 0; i < slots_.size(); ++i) {
@@ -73,7 +73,7 @@ private:
     }
     return oldest;
   }
-  /// The one to be shown next; the end: none.
+  /// Returns the slot to be shown next; the end if there is none.
   std::size_t next() const {
     std::size_t best = slots_.size();
     for (std::size_t i = 0; i < slots_.size(); ++i) {

@@ -33,7 +33,7 @@ bool countsAllocations() {
 #if STADION_COUNTS_ALLOCATIONS
 namespace {
 
-/// As the standard has it: the handler is asked until there is memory, or throws.
+/// As the standard requires: calls the handler until there is memory, or until it throws.
 template <class Take>
 void* allocate(std::size_t bytes, const Take& take) {
   ++soFar.count, soFar.bytes += bytes;

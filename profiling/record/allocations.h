@@ -1,11 +1,11 @@
 #pragma once
-/// How often a thread asked for memory, and for how much, since it began: with operator new, which this
-/// replaces by one that counts. What C libraries allocate is not counted.
+/// Counts a thread's allocations and their bytes since it began. It replaces operator new by one that counts;
+/// allocations of C libraries are not counted.
 ///
 /// Off    in builds with sanitizers, which have an operator new of their own: always 0.
-/// Cost   two additions to the thread's own memory and one to the process's, whether or not anybody asks.
+/// Cost   two additions to the thread's own memory and one to the process's, even if the counts are not read.
 ///
-/// Threads  each its own counts; that of all of them is for any thread.
+/// Threads  each reads its own counts; the count of all threads is for any thread.
 
 #include <cstdint>
 
@@ -21,11 +21,11 @@ struct Allocations {
   }
 };
 
-/// Of the calling thread.
+/// Returns the counts of the calling thread.
 Allocations allocationsSoFar();
-/// How often any thread of this process asked.
+/// Returns the number of allocations of all threads of this process.
 std::uint64_t allocationsOfAllThreads();
-/// Whether this build counts.
+/// Returns true if this build counts.
 bool countsAllocations();
 
 }  // namespace stadion

@@ -31,7 +31,7 @@ Diagnostic cannotKeep(const std::string& file, int why) {
 
 constexpr const char* kFix = "; name a file that is not there yet, or one that such frames were kept in";
 
-/// Whether the name still stands for the file that was opened.
+/// Returns true if the name still belongs to the opened file.
 bool isStill(const std::string& name, int file) {
   struct stat named {
   }, opened{};
@@ -39,19 +39,19 @@ bool isStill(const std::string& name, int file) {
          named.st_dev == opened.st_dev;
 }
 
-/// Whether it begins so.
+/// Returns true if the file begins with this text.
 bool begins(int file, std::string_view with) {
   char magic[sizeof kMagic] = {};
   return ::pread(file, magic, sizeof magic, 0) == static_cast<ssize_t>(sizeof magic) &&
          std::string_view(magic, with.size()) == with;
 }
 
-/// Whether it may be written over: nothing is in it, or frames of an earlier run.
+/// Returns true if it may be overwritten: it is empty, or has frames of an earlier run.
 bool mayBeReplaced(int file, off_t bytes) {
   return bytes == 0 || begins(file, {kMagic, sizeof kMagic});
 }
 
-/// Ends within its field, and does nothing to a terminal.
+/// Returns true if the text ends within its field and contains no control characters.
 template <std::size_t N>
 bool isText(const char (&field)[N]) {
   const char* end = static_cast<const char*>(std::memchr(field, 0, N));
@@ -66,7 +66,7 @@ bool isSound(const StageFacts& s) {
          std::isfinite(s.loading) && std::isfinite(s.delayed) && std::isfinite(s.late) && std::isfinite(s.at);
 }
 
-/// Whether every field holds what a frame's may.
+/// Returns true if every field has a valid value.
 bool isSound(const FrameFacts& f, std::uint32_t walls) {
   const bool place = f.walls <= walls && f.wall < std::max(1U, f.walls) && f.holder < std::max(1U, f.walls) &&
                      (isStage(f.stage));
@@ -136,7 +136,7 @@ struct BlackBox::Ring {
   }
 };
 
-/// A file that is ours to write, with room for everything.
+/// An open file that this run may write, with room for all data.
 struct BlackBox::Place {
   FileDescriptor file;
   bool made = false;
@@ -257,7 +257,7 @@ Result<BlackBox::Content> BlackBox::read(const std::string& file) {
     if (!isSound(facts, ring->walls)) return damaged();
     content.frames.push_back(std::move(facts));
   }
-  // A program that died may have begun to write over the oldest one.
+  // A crashed program may have begun to overwrite the oldest one.
   if (count > 1 && content.frames[0].frame >= content.frames[1].frame)
     content.frames.erase(content.frames.begin());
   return content;

@@ -1,12 +1,11 @@
 #pragma once
-/// The last 600 frames of a run, kept in a file while it plays: whatever becomes of the program, they are
-/// there afterwards. Each late frame gets its cause.
+/// The last 600 frames of a run, written to a file while it plays. They survive a crash of the program. Each
+/// late frame gets its cause.
 ///
 /// Threads    SpanReader's; counts and latest() from any.
-/// Ownership  the file stays if a frame was late, the program died, or it was to stay(); else it is removed
-/// if this one made it.
-///            It is locked meanwhile: another run cannot keep its frames there. A file that is neither empty
-///            nor such a file is never touched.
+/// Ownership  The file stays if a frame was late, if the program crashed, or after stay(). Otherwise it is
+///            removed if this object made it. It is locked meanwhile: another run cannot keep its frames
+///            there. A file that is neither empty nor a black box is never changed.
 
 #include "profiling/record/frame_judge.h"
 
@@ -22,20 +21,20 @@ namespace stadion {
 
 struct BlackBoxOptions {
   std::string file{};
-  double rate = 60;                                ///< [1/s]; 0 = nobody waits for frames: none is late
+  double rate = 60;                                ///< [1/s]; 0 = frames are not paced: none is late
   std::vector<std::string> walls{};                ///< names
-  std::function<void(const std::string&)> tell{};  ///< a late frame, in words; on the log's thread
-  /// Who overran its budget in a frame; null: nobody knows of budgets.
+  std::function<void(const std::string&)> tell{};  ///< receives a late frame, in words; on the log's thread
+  /// Returns the node that overran its budget in a frame; null: there are no budgets.
   std::function<std::optional<Overrun>(std::uint64_t frame)> overrun{};
   bool sequential = false;  ///< the stages' times add up
-  bool wanted = true;       ///< somebody asked for it: a show does not go without
+  bool wanted = true;       ///< the user asked for it: the show does not run without it
 };
 
 class BlackBox final : public SpanReader {
 public:
   static constexpr std::size_t kFrames = 600;
 
-  /// Fails, and leaves the file as it is, if frames cannot be kept there.
+  /// Fails, and leaves the file as it is, if frames cannot be written there.
   static Result<std::unique_ptr<BlackBox>> create(BlackBoxOptions options, const NodeNames& names);
   ~BlackBox() override;
 
@@ -47,20 +46,20 @@ public:
   /// Late frames by cause.
   std::map<Cause, std::uint64_t> verdicts() const;
   std::uint64_t late() const;
-  /// The run has failed: the file is kept, late frames or none.
+  /// Reports that the run has failed: the file is kept even without late frames.
   void stay() { stays_ = true; }
   bool stays() const { return stays_ || late() > 0; }
   const std::string& file() const { return options_.file; }
 
-  /// What such a file holds, the oldest frame first; fails with what is wrong with it, also if it is damaged.
+  /// The content of a black box, the oldest frame first. Reading fails with the error if the file is damaged.
   struct Content {
     std::vector<std::string> walls;
     std::vector<FrameFacts> frames;
   };
   static Result<Content> read(const std::string& file);
-  /// Whether a run keeps its frames there at the moment.
+  /// Returns true if a run writes its frames there at the moment.
   static bool isWritten(const std::string& file);
-  /// Removes such a file, of whatever version; none that a run writes, and nothing else.
+  /// Removes a black box of any version, but none that a run is writing, and no other file.
   static void remove(const std::string& file);
 
 private:

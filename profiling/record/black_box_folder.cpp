@@ -18,7 +18,7 @@ namespace fs = std::filesystem;
 
 constexpr const char* kEnding = ".frames";
 
-/// An absolute path that the environment names; empty if it does not.
+/// Returns an absolute path from the environment; empty if it is not set.
 fs::path named(const char* variable) {
   const char* value = std::getenv(variable);
   return value && *value == '/' ? fs::path(value) : fs::path();

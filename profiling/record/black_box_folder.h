@@ -1,14 +1,14 @@
 #pragma once
-/// Where runs keep their last frames if nobody names a file: stadion/last-frames in the user's folder for
-/// state
-/// ($XDG_STATE_HOME, else ~/.local/state); where that cannot be written, stadion-UID in the one for temporary
-/// files.
+/// The folder for the last frames of runs without a named file: stadion/last-frames in the user's state
+/// folder ($XDG_STATE_HOME, else ~/.local/state). If that cannot be written, it is stadion-UID in the folder
+/// for temporary files.
 ///
-/// A file's name begins with when its run began (UTC): the last name in the alphabet is the newest run's.
+/// A file's name begins with the start of its run (UTC), so the alphabetically last name belongs to the
+/// newest run.
 ///
 /// Threads    any; several programs may use it at a time.
-/// Ownership  when a run begins, the newest kMost - 1 stay; older ones are removed, but none that a run still
-///            writes, and nothing else that is there.
+/// Ownership  When a run begins, the newest kMost - 1 files stay. Older ones are removed, except those that a
+///            run still writes, and except other files.
 
 #include <filesystem>
 #include <string>
@@ -20,15 +20,15 @@ class BlackBoxFolder {
 public:
   static constexpr std::size_t kMost = 16;
 
-  /// The user's. Makes the folder.
+  /// Returns the user's folder, and creates it if needed.
   static BlackBoxFolder ofThisUser();
   explicit BlackBoxFolder(std::filesystem::path path) : path_(std::move(path)) {}
 
   const std::filesystem::path& path() const { return path_; }
-  /// For a run that begins now: a file that is not there yet, with room made for it. (If there is no folder,
-  /// making the file fails and says so.)
+  /// Returns a new file name for a run that begins now, and removes old files. (If there is no folder,
+  /// creating the file fails and says so.)
   std::string newFile() const;
-  /// What is there, the newest first.
+  /// Returns the existing files, the newest first.
   std::vector<std::filesystem::path> files() const;
 
 private:

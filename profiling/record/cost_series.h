@@ -30,7 +30,7 @@ public:
   double most() const { return most_; }
   std::uint64_t count() const { return count_; }
   double mean() const { return count_ > 0 ? sum_ / static_cast<double>(count_) : 0; }
-  /// The middle of the bin in which that percentile lies.
+  /// Returns the middle of the bin that contains that percentile.
   double percentile(double percent) const {
     const double wanted = percent / 100 * static_cast<double>(count_);
     double seen = 0;

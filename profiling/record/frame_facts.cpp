@@ -11,7 +11,7 @@ namespace stadion {
 namespace {
 
 constexpr float kLate = 1.5f;               ///< of the budget
-constexpr float kTold = 0.05f;              ///< [ms] a dearest node is told of from here on
+constexpr float kTold = 0.05f;              ///< [ms] the most expensive node is named from here on
 constexpr std::uint32_t kManyFaults = 500;  ///< pages; some 2 MB
 
 struct Suspect {
@@ -21,7 +21,7 @@ struct Suspect {
   float all() const { return facts->ms + facts->turn + facts->late; }
 };
 
-/// All stages whose time says something.
+/// Returns all stages with a meaningful time.
 std::vector<Suspect> suspectsOf(const FrameFacts& f) {
   std::vector<Suspect> all{{&f.app, Span::App, 0}};
   for (std::uint32_t wall = 0; wall < f.walls; ++wall) {
@@ -38,7 +38,7 @@ float sumOf(const std::vector<Suspect>& stages) {
   return sum;
 }
 
-/// The stage that took longest, its turn included. One after the other, all walls of a stage count together.
+/// Returns the longest stage, its turn included. In a sequential run, all walls of a stage count together.
 Suspect longest(const FrameFacts& f, const std::vector<Suspect>& stages) {
   std::map<Span, float> together;
   for (const Suspect& s : stages) together[s.stage] += s.all();
@@ -47,7 +47,7 @@ Suspect longest(const FrameFacts& f, const std::vector<Suspect>& stages) {
   });
 }
 
-/// Of the walls but one.
+/// Returns the slowest of the walls, except one.
 std::uint32_t dearestDraw(const FrameFacts& f, std::uint32_t except) {
   std::uint32_t dearest = except == 0 && f.walls > 1 ? 1 : 0;
   for (std::uint32_t wall = dearest + 1; wall < f.walls; ++wall)
@@ -70,7 +70,7 @@ Cause causeOf(const Suspect& s, float budget) {
                                  : Cause::Swap;
 }
 
-/// By how much a stage began later than it could have.
+/// The delay of a stage's start.
 struct Wait {
   Span stage;
   std::uint32_t wall;
@@ -81,8 +81,8 @@ float ended(const StageFacts& s) {
   return s.at + s.ms + s.turn;
 }
 
-/// Of App, later than a frame after App before it; of what comes next, on the wall that was drawn last, after
-/// the stage before, and after the frame before was shown.
+/// Returns the waits: App's, if it starts later than a frame after the previous App. Then those of the later
+/// stages on the wall that was drawn last, from the stage before and from the previous frame's swap.
 std::array<Wait, 4> waitsOf(const FrameFacts& f) {
   std::uint32_t last = 0;
   for (std::uint32_t wall = 1; wall < f.walls; ++wall)
@@ -97,8 +97,8 @@ std::array<Wait, 4> waitsOf(const FrameFacts& f) {
            {Span::Swap, 0, between(f.draw[last], f.swap)}}};
 }
 
-/// Of a frame whose stages were short. No wait for a tick lasts longer than a frame, unless its end was slept
-/// through.
+/// Returns the cause for a frame with short stages. A wait for a tick lasts longer than a frame only if the
+/// thread overslept.
 Cause causeOf(const Wait& wait, const FrameFacts& f) {
   if (wait.ms < 0.25f * (f.period - f.budget)) return Cause::Unknown;
   const bool follows = wait.stage == Span::App && f.tick < 1.1f * f.budget;
@@ -147,7 +147,7 @@ void judge(FrameFacts& f) {
   const Suspect s = longest(f, stages);
   f.stage = s.stage, f.wall = s.wall;
   f.holder = dearestDraw(f, f.wall);
-  // Each may be short, and all together long.
+  // Each stage may be short, and all together long.
   const bool tookLong = std::max(s.all(), sumOf(stages)) >= 0.5f * f.budget;
   if (tookLong) {
     f.cause = causeOf(s, f.budget);

@@ -1,10 +1,11 @@
 #pragma once
-/// What is known of one frame when it has been shown, and whose fault it is if it came late.
+/// The facts known about a frame when it has been shown, and the cause if it came late.
 ///
 /// FrameRecord and StageFacts are plain fixed-width records. A file that outlives the program holds them
 /// (black_box.h).
 ///
-/// Units    milliseconds. Threads  plain values.
+/// Units    milliseconds.
+/// Threads  plain values.
 
 #include "engine/core/frame_probe.h"
 
@@ -15,19 +16,19 @@
 
 namespace stadion {
 
-/// How one stage fared.
+/// Measurements of one stage.
 struct StageFacts {
-  float ms = 0;                ///< as it was, without waiting for its turn
+  float ms = 0;                ///< duration, without waiting for its turn
   float processor = 0;         ///< of its own thread
   float turn = 0;              ///< Draw: waited for other walls that use the rasteriser
-  float loading = 0;           ///< App: files; Draw: models and pictures on their way to the graphics
-  std::uint32_t switches = 0;  ///< how often the system gave its processor to others
+  float loading = 0;           ///< App: files; Draw: models and textures being uploaded
+  std::uint32_t switches = 0;  ///< number of times that the system gave its processor to others
   std::uint32_t faults = 0;    ///< pages that had to be fetched
-  /// So long its thread could have run but got no processor; Draw: or the rasteriser's thread that had to
-  /// wait most.
+  /// Time in which its thread was ready but had no processor. For Draw, the rasteriser's thread with the
+  /// longest wait counts, too.
   float delayed = 0;
-  float late = 0;  ///< likewise before it began, since the stage before on its thread
-  float at = 0;    ///< when it began, after the frame before was shown; less than 0: before that
+  float late = 0;  ///< the same, between the thread's previous stage and this one
+  float at = 0;    ///< start, relative to the previous frame's swap; negative: before it
 };
 
 enum class Cause : std::uint32_t {
@@ -35,14 +36,14 @@ enum class Cause : std::uint32_t {
   App,
   Cull,
   Draw,
-  Turn,       ///< a wall's Draw had to wait for another's
+  Turn,       ///< a wall's Draw had to wait for another wall's
   Preempted,  ///< the stage's threads got no processor: the system gave it to others
   PageFaults,
   Loading,
   Swap,     ///< showing took long
-  Follows,  ///< App could not begin for frames before it: it had missed its tick, or no slot was free
-  Woken,    ///< a thread that waited for its turn was woken late, though it was not kept from a processor
-  Unknown,  ///< nothing of all that took long
+  Follows,  ///< App could not begin because of earlier frames: it had missed its tick, or no slot was free
+  Woken,    ///< a thread that waited for its turn was woken late, without a lack of processors
+  Unknown,  ///< none of these took long
 };
 
 /// A budget that was overrun in a frame.
@@ -55,25 +56,25 @@ struct Overrun {
 struct FrameRecord {
   std::uint64_t frame = kNoFrame;
   float period = 0;  ///< since the frame before was shown
-  float budget = 0;  ///< what it may be
+  float budget = 0;  ///< the limit of the period
   std::uint32_t walls = 0;
-  std::uint32_t sequential = 0;  ///< the stages followed each other: their times add up
-  std::uint32_t sampled = 0;     ///< its drawing, or that of the frame before, took longer to be looked at
-  float tick = 0, slot = 0;      ///< App waited so long for its tick, for a slot
-  float sinceApp = 0;            ///< from the begin of App before it to this one's
-  float waited = 0;              ///< Follows, Woken: by so much the stage of the cause began late
-  /// Whose App this is: not its own, if one that was passed over since the last one shown held App up more.
+  std::uint32_t sequential = 0;  ///< the stages ran one after the other: their times add up
+  std::uint32_t sampled = 0;     ///< sampling lengthened its drawing, or that of the previous frame
+  float tick = 0, slot = 0;      ///< App's wait for its tick, for a slot
+  float sinceApp = 0;            ///< from the previous start of App to this one
+  float waited = 0;              ///< Follows, Woken: delay of the stage in question
+  /// The frame of this App. It is another frame if a skipped one since the last swap delayed App more.
   std::uint64_t appFrame = kNoFrame;
   StageFacts app, swap;
   std::uint32_t node[2] = {0, 0};  ///< the dearest in App: load, position
   float nodeMs = 0;
   Cause cause = Cause::None;
-  Span stage = Span::App;    ///< that of the cause
-  std::uint32_t wall = 0;    ///< likewise
+  Span stage = Span::App;    ///< the stage of the cause
+  std::uint32_t wall = 0;    ///< the wall of the cause
   std::uint32_t holder = 0;  ///< Cause::Turn: the wall that had the rasteriser
-  char name[112] = {};       ///< of the dearest node in App, with its file and line
-  char most[112] = {};       ///< Cull and Draw: of the node that has most to cull or to draw there
-  char over[112] = {};       ///< of the node that overran its budget most, if one did
+  char name[112] = {};       ///< of the most expensive node in App, with its file and line
+  char most[112] = {};       ///< Cull and Draw: of the node with the most to cull or to draw there
+  char over[112] = {};       ///< of the node with the worst budget overrun, if there is one
   float overMs = 0, overBudget = 0;
 
   NodeRef dearest() const { return {node[0], node[1]}; }
@@ -90,12 +91,12 @@ struct FrameFacts : FrameRecord {
   std::vector<StageFacts> cull, draw;  ///< by wall; one element if there is no wall
 };
 
-/// Fills in the cause, from the other facts. A frame is late if its period is half as long again as it may
-/// be. One whose drawing was sampled may be late for that: it is, if something but drawing took long.
+/// Fills in the cause from the other facts. A frame is late if its period exceeds the limit by half. Sampling
+/// may lengthen a frame; a sampled frame counts as late only if something other than drawing took long.
 void judge(FrameFacts& facts);
 
-/// Whether the dearest node in App is why it was late: only of App that took long by itself. What had no
-/// processor, waited or fetched memory is dear wherever that befell it.
+/// Returns true if the most expensive node in App explains the delay. This needs an App stage that took long
+/// by itself: a lack of processors, a wait or a page fault makes any node look expensive.
 bool nodeExplains(const FrameFacts& facts);
 
 /// "frame 812 came after 66.8 ms (16.7): Draw of wall floor took 41.2 ms". The names are the walls'.

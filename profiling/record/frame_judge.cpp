@@ -6,13 +6,13 @@
 namespace stadion {
 namespace {
 
-constexpr std::size_t kMostOpen = 64;  ///< frames that nobody has shown yet; older ones never will be
+constexpr std::size_t kMostOpen = 64;  ///< frames that were not shown by then never will be
 
 float milliseconds(ProfileClock::duration d) {
   return std::chrono::duration<float, std::milli>(d).count();
 }
 
-/// `under`: what was going on within it.
+/// `under`: events within the stage.
 StageFacts factsOf(const SpanRecord& r, StageFacts stage) {
   stage.ms = static_cast<float>(r.took) - stage.turn;
   stage.processor = static_cast<float>(r.use.processor);
@@ -44,7 +44,7 @@ void FrameJudge::take(std::size_t track, const SpanRecord& r) {
   switch (r.what) {
   case Span::ForTick: pending.tick += static_cast<float>(r.took); return;
   case Span::ForTurn: pending.under.turn += static_cast<float>(r.took); return;
-  case Span::ForDraw: pending.rest += static_cast<float>(r.took); return;  // that is Cull's time
+  case Span::ForDraw: pending.rest += static_cast<float>(r.took); return;  // this time belongs to Cull
   case Span::ShadowMaps: pending.shadows += static_cast<float>(r.took); return;
   case Span::Loading:
   case Span::Upload: pending.under.loading += static_cast<float>(r.took); return;
@@ -67,7 +67,7 @@ void FrameJudge::take(std::size_t track, const SpanRecord& r) {
     (r.what == Span::Cull ? open.cull : open.draw)[r.wall] = r.began;
     if (r.what == Span::Draw) open.shadows[r.wall] = shadows;
   }
-  // It holds up the next frame, too.
+  // Sampling delays the next frame, too.
   if (r.what == Span::Draw && r.disturbed) sampledUntil_ = std::max(sampledUntil_, r.frame + 2);
 }
 
@@ -88,7 +88,7 @@ void FrameJudge::take(const CountRecord& c) {
   if (c.what == Count::Largest) largest_[c.wall] = c.node;
 }
 
-/// Of each part of Cull, the node that had most of it the last time that it was shared.
+/// Keeps, for each part of Cull, the node with the largest share in the last sample.
 void FrameJudge::take(const SharedSpan& s) {
   if (stageOf(s.what) != Span::Cull || s.wall == kNoWall || s.among.empty()) return;
   std::map<NodeRef, std::size_t> parts;
@@ -107,13 +107,13 @@ NodeRef FrameJudge::dearestCulled(std::uint32_t wall) const {
   return dearest.node;
 }
 
-/// Empty if nobody knows it.
+/// Returns an empty text if the node is unknown.
 std::string FrameJudge::title(NodeRef node) const {
   const auto name = node.valid() ? names_.find(node) : std::nullopt;
   return name ? name->path + " " + name->file + ":" + std::to_string(name->line) : "";
 }
 
-/// App caught up after one of the frames that will never be shown: what held up that one held up this one.
+/// If App catches up after a frame that will never be shown, that frame's delay also delays this one.
 void FrameJudge::takePassedOver(Open& open) const {
   const auto held = [](const FrameFacts& f) { return f.app.ms + f.app.late + f.tick + f.slot; };
   for (const auto& [number, passed] : open_) {
@@ -127,7 +127,7 @@ void FrameJudge::takePassedOver(Open& open) const {
   }
 }
 
-/// Its stages in time, after the frame before was shown.
+/// Places its stages in time, relative to the previous frame's swap.
 void FrameJudge::place(Open& open, const SpanRecord& swap) {
   const auto placed = [&](StageFacts& stage, ProfileClock::time_point began) {
     if (began != ProfileClock::time_point{}) stage.at = milliseconds(began - lastShown_);

@@ -16,8 +16,8 @@ namespace stadion {
 class FrameJudge final : public SpanReader {
 public:
   using Shown = std::function<void(const FrameFacts&)>;
-  /// `rate` in frames a second: 0 = nobody waits for frames, none is late. `shown` learns of each frame, in
-  /// the order in which they were shown. `sequential`: the stages' times add up.
+  /// `rate` in frames a second: 0 = frames are not paced, none is late. `shown` gets each frame, in the order
+  /// in which they were shown. `sequential`: the stages' times add up.
   FrameJudge(double rate, std::size_t walls, const NodeNames& names, Shown shown, bool sequential = false)
       : budget_(rate > 0 ? static_cast<float>(1e3 / rate) : 0),
         walls_(walls), names_(names), shown_(std::move(shown)), sequential_(sequential) {}
@@ -38,7 +38,7 @@ private:
     std::vector<ProfileClock::time_point> cull, draw;
     std::vector<bool> shadows;  ///< took most of the wall's Draw
   };
-  /// What went on in a thread since its last stage.
+  /// Events in a thread since its last stage.
   struct Pending {
     StageFacts under;  ///< within the stage that is under way
     float tick = 0, slot = 0;
@@ -59,16 +59,17 @@ private:
   const NodeNames& names_;
   Shown shown_;
   bool sequential_;
-  std::uint64_t sampledUntil_ = 0;  ///< frames before it show what sampling drawing took
+  std::uint64_t sampledUntil_ = 0;  ///< frames before it include the cost of sampling
   std::map<std::uint64_t, Open> open_;
   std::map<std::size_t, Pending> pending_;    ///< by track
   ProfileClock::time_point lastApp_{};        ///< when it began
-  std::map<std::uint32_t, NodeRef> largest_;  ///< by wall: who has most to draw, as far as is known
+  std::map<std::uint32_t, NodeRef> largest_;  ///< by wall: the known node with the most to draw
   struct Culled {
     double ms = 0;
     NodeRef node;
   };
-  std::map<std::pair<std::uint32_t, Span>, Culled> culled_;  ///< likewise, to cull: by wall and part of Cull
+  std::map<std::pair<std::uint32_t, Span>, Culled> culled_;  ///< likewise, for culling: by wall and part of
+                                                             ///< Cull
   ProfileClock::time_point lastShown_{};
 };
 

@@ -8,21 +8,21 @@ namespace stadion {
 namespace {
 
 constexpr std::chrono::milliseconds kNap{2};
-/// Visits of nodes, of some six spans each: beyond the first figure a frame is light, and the second is what
-/// is recorded on average.
+/// Visits of nodes, of some six spans each. Above the first number a frame is light; the second is the
+/// average number of recorded visits.
 constexpr std::uint64_t kManyVisits = 300, kVisitsAFrame = 30;
-/// Nodes among which a span is shared: of more, it is asked for more rarely.
+/// Nodes that share a span; above this number, shares are sampled less often.
 constexpr std::uint64_t kManyShares = 500;
-/// There the eyes are sampled so many times more rarely, in large parts.
+/// On such walls the eyes are sampled this many times less often, in large parts.
 constexpr std::uint64_t kCrowdedEvery = 4;
 constexpr std::chrono::microseconds kDear{250};
 
-/// There are as many of them as there are nodes that are visited.
+/// Spans that occur once for each visited node.
 constexpr bool isOfVisit(Span what) {
   return isOfNode(what) || what == Span::Settle || what == Span::Mail;
 }
 
-/// The first multiple of `every` that is not less.
+/// Returns the first multiple of `every` that is not less.
 std::uint64_t nextMultiple(std::uint64_t frame, std::uint64_t every) {
   return (frame + every - 1) / every * every;
 }
@@ -45,8 +45,8 @@ FrameLog::FrameLog(std::vector<SpanReader*> readers, FrameLogOptions options)
   });
 }
 
-/// Of many spans in one another, in this thread now. The median of some rounds counts: this thread may lose
-/// its processor in the midst of one.
+/// Measures nested spans in this thread. The median of some rounds counts, since the thread may lose its
+/// processor during one.
 void FrameLog::measureOverhead() {
   constexpr int kRounds = 63, kSpansARound = 1000;
   FrameProbe& probe = *this;
@@ -74,13 +74,13 @@ void FrameLog::measureOverhead() {
   };
   overhead_ = {median(inside), median(outside)};
   measureLightOverhead();
-  // Whoever comes to this thread later gets a track that knows it.
+  // A thread that comes later gets a track that includes the measurement.
   tracks_.clear();
   number_ = nextNumber();
   appFrame_ = kNoFrame, nextWhole_ = 0;
 }
 
-/// Of visits in which nothing is done, in a frame that is not recorded as a whole.
+/// Measures empty visits, in a frame that is not recorded as a whole.
 void FrameLog::measureLightOverhead() {
   constexpr int kRounds = 63, kVisits = 1000;
   const NodeRef node{1, 0};
@@ -121,7 +121,7 @@ void FrameLog::finish() {
   collectSafely();
 }
 
-// Who only looks on ends nothing: without memory, something of what was recorded is missing, and counted.
+// Recording must not end a show: without memory, records are lost and counted.
 void FrameLog::collectSafely() noexcept {
   try {
     collect();
@@ -130,7 +130,7 @@ void FrameLog::collectSafely() noexcept {
   }
 }
 
-/// Each thread looks for its own once.
+/// Each thread looks up its own once.
 SpanTrack& FrameLog::track() {
   thread_local std::pair<std::uint64_t, SpanTrack*> mine{0, nullptr};
   if (mine.first != number_) {
@@ -147,7 +147,7 @@ void FrameLog::began(Span what, std::uint64_t frame, std::uint32_t wall) {
   t.began(what, frame, wall, {});
 }
 
-/// As many visits as in the frame before are expected.
+/// Expects as many visits as in the previous frame.
 void FrameLog::beginApp(SpanTrack& t, std::uint64_t frame) {
   appFrame_.store(frame, std::memory_order_relaxed);
   const std::uint64_t visits = t.takeCount();
@@ -159,7 +159,7 @@ void FrameLog::beginApp(SpanTrack& t, std::uint64_t frame) {
   t.beginLightly();
 }
 
-// What runs on no stage's thread, runs for App.
+// Work outside the stages' threads is done for App.
 void FrameLog::began(Span what, NodeRef node) {
   if (isOfVisit(what) && light_.load(std::memory_order_relaxed)) {
     beganInVisit(what, node);
@@ -172,8 +172,8 @@ void FrameLog::began(Span what, NodeRef node) {
   t.began(what, frame != kNoFrame ? frame : appFrame_.load(std::memory_order_relaxed), t.wall(), node);
 }
 
-// A visit lasts from the one before to the node's Settle; of those that simulate side by side that is told
-// apart.
+// A visit lasts from the previous one to the node's Settle. Nodes that simulate in parallel are
+// distinguished.
 void FrameLog::beganInVisit(Span what, NodeRef node) {
   const bool aside = what == Span::Simulate && crew_.load(std::memory_order_relaxed);
   if (what != Span::Settle && !aside) return;
@@ -187,7 +187,7 @@ void FrameLog::ended(Span what) {
   if (light && isOfVisit(what)) {
     const bool aside = what == Span::Simulate && crew_.load(std::memory_order_relaxed);
     if (what == Span::Settle || aside) endedVisit();
-    // Whom to visit has been found out, for all.
+    // The nodes to visit are known, for all of them.
     if (what == Span::Mail && !std::exchange(called_, true)) track().beginLightly();
     return;
   }
@@ -201,7 +201,7 @@ void FrameLog::ended(Span what) {
 void FrameLog::endedVisit() {
   SpanTrack& t = track();
   const NodeAccounts::Account account = accounts_ ? accounts_->of(t.namedLightly()) : NodeAccounts::kNone;
-  // Only App itself adds up.
+  // Only App's own thread adds up.
   const bool helps = t.depth() == 0 && account != NodeAccounts::kNone;
   const std::uint64_t ticks =
       t.endLightly(appFrame_.load(std::memory_order_relaxed), helps ? 0 : dearTicks_, nanosecondsATick_);
@@ -248,7 +248,7 @@ void FrameLog::shared(Span what, std::uint64_t frame, std::uint32_t wall, std::s
   shared_.push_back(std::move(s));
 }
 
-/// Where frames are passed over, whichever is drawn next: a show that takes too long is looked at, too.
+/// If frames are skipped, the next drawn one is sampled: a show that is too slow is sampled, too.
 DrawSample FrameLog::drawSample(std::uint64_t frame, std::uint32_t wall) {
   if (!samples_ || frame < options_.from) return DrawSample::None;
   const std::uint64_t first = options_.sampleEvery / 2 + (options_.whole ? 0 : 1);
@@ -293,8 +293,8 @@ void FrameLog::drewAlone(const DrawnAlone& drawn, std::span<const NodeShare> nod
 
 namespace {
 
-/// The track whose next record ended first: readers learn of all threads' frames side by side, however much
-/// has come together.
+/// Returns the track with the next record that ended first. Readers thus see the frames of all threads in
+/// step, however many records have accumulated.
 std::optional<std::size_t> firstEnded(const std::vector<SpanTrack*>& tracks) {
   std::optional<std::size_t> first;
   ProfileClock::time_point ended;

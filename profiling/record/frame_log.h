@@ -1,18 +1,18 @@
 #pragma once
-/// Records what frames are spent on: a probe that writes each thread's spans into a buffer of its own,
-/// without locks, and a thread that collects them.
+/// Records the costs of frames: a probe writes each thread's spans into a buffer of its own, without locks,
+/// and a thread collects them.
 ///
-/// What recording takes is measured beforehand and taken off: the figures are those of a show that nobody
-/// watches.
+/// The cost of recording is measured beforehand and subtracted: the figures are those of a show without a
+/// probe.
 ///
-/// Of drawing and of what nodes share, samples are taken, every `sampleEvery` frames, or in the next one that
-/// is drawn, so that recording costs little: the stages' times are exact, a node's share of Cull and Draw is
-/// that of the frames sampled.
+/// Recording must cost little, so drawing and shared costs are sampled. A sample is taken every `sampleEvery`
+/// frames, or in the next one that is drawn. The stages' times are exact; a node's share of Cull and Draw
+/// comes from the samples.
 ///
-/// Where App visits very many nodes, so are its frames: in most of them a node's visit is only recorded if it
-/// took kDear, and what is in none of these is told of the frames that are recorded as a whole (SpanRecord).
-/// Of nodes that are watched (NodeAccounts) the shorter visits are added up, by account and frame; and only
-/// they are drawn alone, unless all is to be explained.
+/// If App visits very many nodes, most of its frames are light. In a light frame a node's visit is recorded
+/// only if it took kDear. The other visits are known from the frames that are recorded as a whole
+/// (SpanRecord). For watched nodes (NodeAccounts), short visits are added up by account and frame. Only
+/// watched nodes are drawn alone, unless all costs must be explained.
 ///
 /// Threads    the probe's functions on the threads that do the work; the readers' on one thread of the log's
 ///            own, and on finish()'s once that has ended.
@@ -38,37 +38,39 @@ struct SharedSpan {
   std::uint32_t wall = kNoWall;
   double ms = 0;
   std::vector<NodeRef> among;
-  std::uint64_t round = 0;  ///< after so many frames it is told again
+  std::uint64_t round = 0;  ///< the next one comes after this many frames
 };
 
-/// What visits that were not recorded took in one frame, of all nodes on that holder's account.
+/// The unrecorded visits of one frame: their time, for all nodes on that holder's account.
 struct ShortVisits {
   std::uint64_t frame = 0;
   NodeRef holder;
   double ms = 0;
 };
 
-/// Whoever wants to know. Threads  one at a time.
+/// Receives the records.
+///
+/// Threads  one at a time.
 class SpanReader {
 public:
   virtual ~SpanReader() = default;
-  /// `track` numbers the threads from 0, in the order in which they came. Spans of one thread come in the
+  /// `track` numbers the threads from 0, in the order in which they appeared. Spans of one thread come in the
   /// order of their ends, those of different threads nearly so.
   virtual void take(std::size_t track, const SpanRecord& record) = 0;
   virtual void take(const CountRecord&) {}
   virtual void take(const ShortVisits&) {}
   virtual void take(const SharedSpan&) {}
   virtual void take(const DrawnAlone&, const std::vector<NodeShare>&) {}
-  /// All that there is at the moment has been handed on.
+  /// Called when all present records have been passed on.
   virtual void caughtUp() {}
 };
 
 struct FrameLogOptions {
   bool samples = true;  ///< shares and drawing too; drawing: as setSamples() says
-  bool shares = false;  ///< shares without it, too
-  bool whole = true;    ///< of drawing: also what there is to be explained
+  bool shares = false;  ///< shares even without drawing
+  bool whole = true;    ///< of drawing: also the totals to be explained
   std::uint64_t sampleEvery = 16;
-  std::uint64_t from = 4;  ///< frames before it are not recorded: what is touched for the first time is slow
+  std::uint64_t from = 4;  ///< first frame to be recorded: first use of data is slow
 };
 
 class FrameLog final : public FrameProbe {
@@ -87,15 +89,15 @@ public:
   std::size_t nextBatch(std::uint32_t wall, std::uint32_t eye, std::size_t batches) override;
   void drewAlone(const DrawnAlone& drawn, std::span<const NodeShare> nodes) override;
 
-  /// Whether drawing is sampled from now on. Any thread.
+  /// Turns sampling of drawing on or off. Any thread.
   void setSamples(bool on) { samples_ = on; }
-  /// Who is watched from now on; null: nobody. On App's thread.
+  /// Sets the nodes to watch; null: none. On App's thread.
   void watch(std::shared_ptr<const NodeAccounts> accounts);
 
-  /// Hands on what is left. After the last frame.
+  /// Passes on the remaining records. Call it after the last frame.
   void finish();
   const SpanOverhead& overhead() const { return overhead_; }
-  /// Records that were lost because collecting could not keep up.
+  /// Returns the number of records that were lost because collecting could not keep up.
   std::uint64_t lost() const;
 
 private:
@@ -105,16 +107,16 @@ private:
     DrawnAlone drawn;
     std::vector<NodeShare> nodes;
   };
-  /// Of a wall's eye.
+  /// The sampling state of a wall's eye.
   struct Turn {
     std::size_t next = 0;     ///< batch
     std::uint64_t round = 0;  ///< [frames]
   };
 
-  /// When a wall's drawing is sampled.
+  /// The next sample of a wall's drawing.
   struct Due {
-    std::uint64_t frame = 0;  ///< from this one on, in the next that is drawn
-    bool some = false;        ///< its eyes have been drawn alone, in the next one some batches are
+    std::uint64_t frame = 0;  ///< the next drawn frame from this one on
+    bool some = false;        ///< its eyes have been drawn alone; the next sample draws some batches alone
   };
 
   void measureOverhead();
@@ -131,29 +133,30 @@ private:
   std::vector<SpanReader*> readers_;
   FrameLogOptions options_;
   SpanOverhead overhead_;
-  std::uint64_t number_;  ///< of this log, among all there were: what threads remember of one is no other's
+  std::uint64_t number_;  ///< number of this log in the process: threads must not confuse the tracks of two
+                          ///< logs
   std::atomic<std::uint64_t> appFrame_ = kNoFrame;
   std::atomic<bool> light_ = false;  ///< App's frame is not recorded as a whole
-  std::atomic<bool> crew_ = false;   ///< nodes simulate side by side, on App's thread and on others
-  std::uint64_t nextWhole_ = 0;      ///< App's own
-  bool called_ = false;              ///< App's own: it is known whom the frame visits
+  std::atomic<bool> crew_ = false;   ///< nodes simulate in parallel, on App's thread and on others
+  std::uint64_t nextWhole_ = 0;      ///< used by App only
+  bool called_ = false;              ///< used by App only: the nodes to visit in this frame are known
   std::uint64_t dearTicks_ = 0;      ///< kDear
-  std::uint64_t lightTicks_ = 0;     ///< what recording a visit takes in a light frame
+  std::uint64_t lightTicks_ = 0;     ///< cost of recording a visit in a light frame
   double nanosecondsATick_ = 1;
-  std::vector<std::uint64_t> shortTicks_;  ///< App's own, by account: of visits that were not recorded
+  std::vector<std::uint64_t> shortTicks_;  ///< used by App only, by account: of visits that were not recorded
   RecordRing<ShortVisits> shortVisits_{kShortVisits};
   mutable std::mutex mutex_;
   std::vector<std::unique_ptr<SpanTrack>> tracks_;
   std::vector<SharedSpan> shared_;
   std::vector<Alone> alone_;
-  /// Written by App, with the lock; App itself, and who helps it, reads it without.
+  /// App writes it with the lock; App and the worker pool read it without.
   std::shared_ptr<const NodeAccounts> accounts_;
   std::vector<Turn> turns_;                            ///< by wall and eye
   std::map<std::uint32_t, std::uint64_t> nextShares_;  ///< frames, by wall
   std::map<std::uint32_t, Due> nextDrawn_;             ///< by wall
-  std::set<std::uint32_t> crowded_;                    ///< walls of very many nodes
+  std::set<std::uint32_t> crowded_;                    ///< walls with very many nodes
   std::atomic<bool> samples_;
-  std::atomic<std::uint64_t> notCollected_ = 0;  ///< times, for want of memory
+  std::atomic<std::uint64_t> notCollected_ = 0;  ///< number of times, for lack of memory
   std::atomic<bool> done_ = false;
   std::thread collector_;
 };

@@ -6,7 +6,7 @@ namespace stadion {
 namespace {
 
 constexpr double kNewest = 0.1;
-constexpr std::chrono::seconds kStill{1};  ///< after so long without a swap there is no rate
+constexpr std::chrono::seconds kStill{1};  ///< after this time without a swap there is no rate
 
 double millisecondsBetween(ProfileClock::time_point a, ProfileClock::time_point b) {
   return std::chrono::duration<double, std::milli>(b - a).count();

@@ -1,7 +1,7 @@
 #pragma once
-/// What frames cost at the moment, for somebody who looks on while the show plays.
+/// The current costs of frames, for display while the show plays.
 ///
-/// Each value is the mean of the last second or so: new durations count a tenth.
+/// Each value is the mean of about the last second: new durations count a tenth.
 ///
 /// Threads  SpanReader's; read from any.
 

@@ -1,8 +1,8 @@
 #pragma once
-/// On whose account what a node costs goes: on that of the nearest at or above it that somebody watches.
-/// For whoever asks of every visit and of every instance: nothing is looked up in trees.
+/// Maps a node to the account of its costs: that of the nearest watched node at or above it. It is asked for
+/// every visit and every instance, so it uses tables and no trees.
 ///
-/// Threads  built by one thread; unchanging from then on.
+/// Threads  built by one thread; constant from then on.
 
 #include "engine/core/message.h"
 
@@ -19,7 +19,7 @@ public:
   static constexpr Account kNone = ~Account{0};
 
   explicit NodeAccounts(std::vector<NodeRef> holders) : holders_(std::move(holders)) {}
-  /// In the order of loads, then of positions.
+  /// Call it in the order of loads, then of positions.
   void add(NodeRef node, Account account) {
     if (loads_.empty() || loads_.back().number != node.load) loads_.push_back({node.load, {}});
     std::vector<Account>& whose = loads_.back().whose;

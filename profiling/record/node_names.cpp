@@ -5,7 +5,7 @@
 namespace stadion {
 namespace {
 
-/// So many loads that came again and went are still known by their numbers, for what is read late.
+/// Repeated loads that are unloaded are still known by their numbers, up to this many, for late readers.
 constexpr std::size_t kMostGone = 64;
 
 }  // namespace

@@ -1,7 +1,6 @@
 #pragma once
-/// Who the nodes of a show are, also those that have been unloaded since. A file that comes again, asked for
-/// by the same node and with the same nodes in it, brings the same nodes: they are known by the number of its
-/// first load.
+/// The names of a show's nodes, including unloaded ones. If the same node loads a file again with the same
+/// nodes in it, these count as the same nodes. They are identified by the number of the first load.
 ///
 /// Threads  see() on the App thread; names may be asked for by another thread at the same time.
 
@@ -30,17 +29,17 @@ struct NodeName {
 
 class NodeNames {
 public:
-  /// Looks at what has come and gone since it looked last.
+  /// Records the loads and unloads since the last call.
   void see(const Scene& scene);
-  /// Nothing if there never was such a node.
+  /// Returns nothing if there never was such a node.
   std::optional<NodeName> find(NodeRef node) const;
-  /// The number of the first load that brought the nodes which this one brought; nothing if nobody knows it.
+  /// Returns the number of the first load with the same nodes as this one; nothing if it is unknown.
   std::optional<std::uint32_t> firstLoad(std::uint32_t load) const;
 
 private:
   struct File {
     std::string name;
-    NodeRef owner;                ///< as it was loaded first
+    NodeRef owner;                ///< of the first load
     std::vector<NodeName> nodes;  ///< by position
     bool there = true;
   };
@@ -48,7 +47,7 @@ private:
   static File read(const Scene& scene, const Load& load);
   void add(const Scene& scene, const Load& load);
   void forgetGone(const std::set<std::uint32_t>& there);
-  /// Of the file with that load's nodes; null if nobody knows them.
+  /// Returns the file with that load's nodes; null if it is unknown.
   const File* fileOf(std::uint32_t load) const;
   std::string pathOf(NodeRef node) const;
 

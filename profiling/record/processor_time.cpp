@@ -22,18 +22,18 @@ double seconds(const timeval& t) {
   return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec);
 }
 
-/// What /proc/PID/stat says of a process.
+/// The content of /proc/PID/stat.
 struct Process {
   pid_t number = 0, parent = 0;
   double ended = 0;  ///< of its children that have ended [s]
 };
 
-/// number 0: it is gone.
+/// number 0: the process has ended.
 Process processAt(const std::filesystem::path& folder) {
   std::ifstream in(folder / "stat");
   std::string text;
   std::getline(in, text);
-  const std::size_t name = text.rfind(')');  // the name before it may hold anything
+  const std::size_t name = text.rfind(')');  // the name before it may contain any characters
   if (name == std::string::npos) return {};
   char state = 0;
   int parent = 0;
@@ -57,7 +57,7 @@ std::multimap<pid_t, Process> processesByParent() {
   return all;
 }
 
-/// Of all its threads, also those that have ended; 0 if it is gone.
+/// Returns the time of all its threads, including those that have ended; 0 if the process has ended.
 double ownSeconds(pid_t process) {
   clockid_t clock{};
   timespec t{};

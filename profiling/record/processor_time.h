@@ -1,12 +1,12 @@
 #pragma once
-/// Processor time of this process, its threads and everything it started.
+/// Processor time of this process, its threads and all its descendants.
 ///
-/// Children that run count as well as those that have ended, and theirs. (RUSAGE_CHILDREN knows only those
-/// that have ended and were waited for.)
+/// Running children count as well as finished ones, and so do their children. (RUSAGE_CHILDREN knows only
+/// children that have ended and were waited for.)
 ///
 /// Units    seconds.
 /// Threads  plain function, any thread.
-/// Errors   a process that ends while it is looked at may be left out for that moment.
+/// Errors   a process that ends during the call may be missing in that result.
 
 namespace stadion {
 

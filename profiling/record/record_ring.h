@@ -1,8 +1,8 @@
 #pragma once
-/// Records on their way from the thread that makes them to the one that collects them, without a lock.
+/// Passes records from the thread that makes them to the thread that collects them, without a lock.
 ///
-/// Whenever all has been collected it begins again at its first place: a ring that few records pass through
-/// stays in the cache. Memory that no record has reached yet is not touched: most rings never use it.
+/// Whenever all records have been collected, it starts again at its first place: a ring with few records
+/// stays in the cache. Memory beyond the furthest record so far is not touched: most rings never use it.
 ///
 /// Threads  claim() and push() on the maker's; next() and take() on the collector's; lost() on any.
 
@@ -26,11 +26,12 @@ public:
     while (made_ < std::min(capacity_, kReady)) make();
   }
 
-  /// The place of the next record, until it is pushed; null, and counted, if nobody has collected.
+  /// Returns the place of the next record, until it is pushed. Returns null, and counts a loss, if the ring
+  /// is full.
   Record* claim() {
     const std::size_t head = head_.load(std::memory_order_relaxed);
     const std::size_t tail = tail_.load(std::memory_order_acquire);
-    // The collector looks at it only after a push, and until then there is nothing to look at.
+    // The collector reads it only after a push, and until then the ring is empty.
     if (head == tail) first_.store(head, std::memory_order_relaxed);
     if (head - tail < capacity_) {
       if (placeOf(head) == made_) make();
@@ -41,12 +42,12 @@ public:
   }
   void push() { head_.store(head_.load(std::memory_order_relaxed) + 1, std::memory_order_release); }
 
-  /// The oldest, until it is taken; null if there is none.
+  /// Returns the oldest record, until it is taken; null if there is none.
   const Record* next() const {
     const std::size_t tail = tail_.load(std::memory_order_relaxed);
     return tail == head_.load(std::memory_order_acquire) ? nullptr : at(tail);
   }
-  /// Takes it, if there is one.
+  /// Takes the oldest record, if there is one.
   bool take(Record& out) {
     const Record* oldest = next();
     if (!oldest) return false;
@@ -54,11 +55,11 @@ public:
     tail_.store(tail_.load(std::memory_order_relaxed) + 1, std::memory_order_release);
     return true;
   }
-  /// Records for which there was no room.
+  /// Returns the number of records for which there was no room.
   std::uint64_t lost() const { return lost_.load(std::memory_order_relaxed); }
 
 private:
-  static constexpr std::size_t kReady = 1024;  ///< records that take no page fault
+  static constexpr std::size_t kReady = 1024;  ///< records that cause no page fault
 
   std::size_t placeOf(std::size_t number) const {
     return (number - first_.load(std::memory_order_relaxed)) % capacity_;
@@ -66,12 +67,12 @@ private:
   Record* at(std::size_t number) { return reinterpret_cast<Record*>(memory_.get()) + placeOf(number); }
   const Record* at(std::size_t number) const { return const_cast<RecordRing*>(this)->at(number); }
 
-  /// Places are reached one after the other.
+  /// Places are constructed one after the other.
   void make() { std::construct_at(reinterpret_cast<Record*>(memory_.get()) + made_), ++made_; }
 
   std::size_t capacity_, made_ = 0;
   std::unique_ptr<std::byte[]> memory_;
-  std::atomic<std::size_t> first_ = 0;  ///< the number of the record that lies at the first place
+  std::atomic<std::size_t> first_ = 0;  ///< the number of the record at the first place
   std::atomic<std::size_t> head_ = 0, tail_ = 0;
   std::atomic<std::uint64_t> lost_ = 0;
 };

@@ -12,7 +12,7 @@
 namespace stadion {
 namespace {
 
-constexpr std::uint64_t kLookAgain = 256;  ///< calls, after which the rasteriser's threads are looked for
+constexpr std::uint64_t kLookAgain = 256;  ///< calls between two searches for the rasteriser's threads
 
 /// "ran waited slices", in nanoseconds but the last.
 double delayIn(int file) {

@@ -1,9 +1,9 @@
 #pragma once
-/// How long threads could have run, but got no processor: what Linux's scheduler says.
+/// Times in which threads were ready but had no processor, from Linux's scheduler.
 ///
 /// Units    milliseconds, since the thread began.
-/// Threads  all calls from one thread: it is the one whose delay comes first.
-/// Errors   where the system does not say, nothing ever waits.
+/// Threads  all calls from one thread, which is the first in the results.
+/// Errors   if the system gives no figures, all delays are 0.
 
 #include <cstdint>
 #include <vector>
@@ -17,22 +17,22 @@ public:
   RunDelay(const RunDelay&) = delete;
   RunDelay& operator=(const RunDelay&) = delete;
 
-  /// Of the calling thread first, then of each thread of the software rasteriser, as far as they are known;
-  /// valid until the next call.
+  /// Returns the delays of the calling thread and then of each known thread of the software rasteriser; valid
+  /// until the next call.
   const std::vector<double>& ofDrawing();
-  /// Of the calling thread.
+  /// Returns the delay of the calling thread.
   double own();
 
 private:
   void findRasteriser();
   int ownFile();
 
-  std::vector<int> files_;  ///< the calling thread's, then the rasteriser's
+  std::vector<int> files_;  ///< first the calling thread's, then the rasteriser's
   std::vector<double> delays_;
   std::uint64_t looked_ = 0;
 };
 
-/// The most that one of them has waited between two looks; threads that came later are left out.
+/// Returns the longest delay of one of them between two readings; threads that came later are left out.
 double mostDelayed(const std::vector<double>& before, const std::vector<double>& now);
 
 }  // namespace stadion

@@ -1,5 +1,5 @@
 #pragma once
-/// What one thread did: its spans, on their way from it to whoever collects them.
+/// The spans of one thread, on their way to the thread that collects them.
 ///
 /// Threads  began() and ended() on the thread itself, take() on the collector's; they meet without a lock.
 
@@ -19,19 +19,18 @@ namespace stadion {
 
 using ProfileClock = std::chrono::steady_clock;
 
-/// What recording a span itself takes, as far as the span contains it, and outside of it [ns].
+/// The cost of recording a span: the part inside the span's time, and the part outside of it [ns].
 struct SpanOverhead {
   double inside = 0, outside = 0;
 };
 
-/// What the system says of a thread.
+/// The system's figures of a thread.
 struct ThreadUse {
   double processor = 0;        ///< [ms]
   std::uint64_t switches = 0;  ///< it lost its processor to others
   std::uint64_t faults = 0;    ///< pages that had to be fetched
-  double delayed = 0;  ///< [ms] without a processor, though something was to be done; of a Draw also the
-                       ///< rasteriser's threads
-  double late = 0;     ///< [ms] likewise, between the stage before on this thread and this one
+  double delayed = 0;  ///< [ms] ready but without a processor; for Draw also the rasteriser's threads
+  double late = 0;     ///< [ms] the same, between the thread's previous stage and this one
 
   static ThreadUse now() {
     rusage use{};
@@ -47,20 +46,20 @@ struct ThreadUse {
   }
 };
 
-/// So much of it, within a span that is under way.
+/// A counted amount of work, within a span that is under way.
 struct CountRecord {
   Count what = Count::Visits;
   std::uint64_t amount = 0;
   Span within = Span::App;
   std::uint64_t frame = kNoFrame;
   std::uint32_t wall = kNoWall;
-  NodeRef node;                   ///< whose work it is, if it is a node's
-  ProfileClock::time_point when;  ///< that span's begin
+  NodeRef node;                   ///< the working node, if there is one
+  ProfileClock::time_point when;  ///< start of that span
 };
 
-/// A span that is over. Within a thread spans end in the order of their ends: parts before what holds them.
+/// A finished span. Within a thread, spans come in the order of their ends: parts before their whole.
 struct SpanRecord {
-  ProfileClock::time_point began, ended;  ///< as they were, recording included
+  ProfileClock::time_point began, ended;  ///< as measured, recording included
   std::uint64_t frame = kNoFrame;
   std::uint32_t wall = kNoWall;
   NodeRef node;
@@ -68,7 +67,7 @@ struct SpanRecord {
   std::uint8_t depth = 0;   ///< 0 = in no other
   bool whole = true;        ///< of a frame in which every node's spans are recorded (FrameLog)
   double took = 0;          ///< [ms] without recording
-  double own = 0;           ///< [ms] of it in no part
+  double own = 0;           ///< [ms] of it outside its parts
   ThreadUse use;            ///< of stages
   Allocations allocations;  ///< parts included
   bool disturbed = false;   ///< some of these were the probe's own
@@ -81,7 +80,7 @@ public:
 
   explicit SpanTrack(SpanOverhead overhead = {}) : overhead_(overhead) {}
 
-  /// What comes below it inherits the frame and the wall.
+  /// Parts of the span inherit the frame and the wall.
   void began(Span what, std::uint64_t frame, std::uint32_t wall, NodeRef node) {
     if (depth_ >= kDeepest) {
       ++depth_;
@@ -114,14 +113,14 @@ public:
     r.took = 1e-6 * took, r.own = 1e-6 * std::max(0.0, took - open.within);
     spans_.push();
   }
-  /// What is under way allocates for the probe's sake.
+  /// Marks the spans under way: the probe allocates in them.
   void disturb() { disturbed_ = depth_ > 0; }
-  /// Whether the records that follow are of a frame that is recorded as a whole.
+  /// Sets whether the following records belong to a frame that is recorded as a whole.
   void setWhole(bool whole) { whole_ = whole; }
 
-  /// Instead of the spans of a visit: what follows is a node's, until endLightly(). It is recorded only if it
-  /// took `leastTicks`, else returned; it has no parts, and stays part of what holds it. The next one begins
-  /// at once.
+  /// Begins a light visit instead of its spans: the following time belongs to a node, until endLightly(). The
+  /// visit is recorded only if it took `leastTicks`, else its time is returned. It has no parts, and stays
+  /// part of the enclosing span. The next visit begins at once.
   void beginLightly() { light_.began = TickClock::now(); }
   void nameLightly(NodeRef node) { light_.node = node; }
   NodeRef namedLightly() const { return light_.node; }
@@ -141,7 +140,7 @@ public:
     spans_.push();
     return 0;
   }
-  /// Within the span that is under way.
+  /// Counts work within the span that is under way.
   void counted(Count what, std::uint64_t amount, NodeRef node) {
     if (depth_ == 0) return;
     const Open& open = open_[std::min(depth_, kDeepest) - 1];
@@ -150,15 +149,15 @@ public:
       counts_.push();
     }
   }
-  /// Visits are counted.
+  /// Counts a visit.
   void count() { ++counted_; }
   std::uint64_t takeCount() { return std::exchange(counted_, 0); }
 
   std::size_t depth() const { return depth_; }
-  /// The frame and wall of the span that is under way.
+  /// Returns the frame and wall of the span that is under way.
   std::uint64_t frame() const { return depth_ > 0 ? open_[std::min(depth_, kDeepest) - 1].frame : kNoFrame; }
   std::uint32_t wall() const { return depth_ > 0 ? open_[std::min(depth_, kDeepest) - 1].wall : kNoWall; }
-  /// How long the last span of that kind took [ms].
+  /// Returns the duration of the last span of that kind [ms].
   double last(Span what) const { return 1e-6 * last_[static_cast<std::size_t>(what)]; }
 
   RecordRing<SpanRecord>& spans() { return spans_; }
@@ -172,13 +171,13 @@ private:
     std::uint64_t frame = kNoFrame;
     std::uint32_t wall = kNoWall;
     NodeRef node;
-    double within = 0;        ///< [ns] that its parts took
-    std::uint32_t spans = 0;  ///< in it, and in those
+    double within = 0;        ///< [ns] used by its parts
+    std::uint32_t spans = 0;  ///< in it and in its parts
     ProfileClock::time_point began;
     ThreadUse use;
     Allocations allocations;
   };
-  /// Where the system's account of the thread's delays stands, as a stage begins and as it ends.
+  /// Reads the thread's delays from the system at the start and the end of a stage.
   void delayed(Open& open) {
     if (open.what == Span::Draw) beforeDraw_ = delay_.ofDrawing();
     const double now = open.what == Span::Draw ? beforeDraw_.front() : delay_.own();
@@ -204,7 +203,7 @@ private:
   Light light_;
   RunDelay delay_;
   double stageEnded_ = -1;          ///< its delay when the last stage ended [ms]; -1 = there was none
-  std::vector<double> beforeDraw_;  ///< what it said
+  std::vector<double> beforeDraw_;  ///< the delays at that time
   bool whole_ = true, disturbed_ = false;
   std::uint64_t counted_ = 0;
   std::size_t depth_ = 0;

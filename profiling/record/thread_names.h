@@ -1,5 +1,5 @@
 #pragma once
-/// What the threads of a run are called, by the stages that they were seen at.
+/// Names of a run's threads, from the stages that they ran.
 ///
 /// Threads  plain values.
 
@@ -16,20 +16,20 @@ class ThreadNames {
 public:
   explicit ThreadNames(std::vector<std::string> walls) : walls_(std::move(walls)) {}
 
-  /// `record` is in no other.
+  /// `record` is an outermost span.
   void see(std::size_t track, const SpanRecord& record);
 
   struct Thread {
     std::size_t track = 0;
     std::string name;  ///< "App", "Cull front", "App helper 2"; "App, Cull, Draw" of a sequential run
   };
-  /// From the top: App, those that help it, Cull, Draw.
+  /// Returns the threads from the top: App, its helpers, Cull, Draw.
   std::vector<Thread> threads() const;
 
 private:
   struct Seen {
     bool app = false;
-    std::optional<std::uint32_t> cull, draw;  ///< of which wall
+    std::optional<std::uint32_t> cull, draw;  ///< the wall of each
   };
   std::string wallName(std::uint32_t wall) const;
 

@@ -1,6 +1,6 @@
 #pragma once
-/// A clock that costs next to nothing to read, for what is nearly always too short to matter: the processor's
-/// own counter where there is one, in a unit of its own.
+/// A clock that is very cheap to read, for spans that are mostly too short to matter. It uses the processor's
+/// counter if there is one, in a unit of its own.
 ///
 /// Threads  any.
 

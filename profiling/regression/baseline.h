@@ -1,11 +1,11 @@
 #pragma once
-/// What a suite found when its baseline was written: to be kept beside the suite and compared with later.
+/// The results of a suite when its baseline was written: stored beside the suite for later comparisons.
 ///
-/// Units    times in multiples of the calibration kernel's (calibration.h), so that a faster machine, or a
-///          busier one, changes little; instructions a frame.
+/// Units    times in multiples of the calibration kernel's (calibration.h), so that a faster or busier
+///          machine changes little; instructions a frame.
 /// Threads  plain values, any thread.
-/// Errors   a file that is none is refused with its name and what is wrong. Version 2 is written; version 1,
-///          which keeps no frames, is read, too.
+/// Errors   a file that is no baseline is refused with its name and the error. Version 2 is written; version
+///          1, which keeps no frames, is read, too.
 
 #include "engine/base/diagnostic.h"
 #include "profiling/regression/spans/facts.h"
@@ -22,10 +22,10 @@ namespace stadion::regression {
 struct BaselineCase {
   RunFacts facts;
   std::map<std::string, std::vector<double>> times;  ///< by stage, round by round
-  KeptStages frames;                          ///< of these rounds; files of version 1 have none
+  KeptStages frames;                          ///< of these rounds; absent in files of version 1
   std::map<std::string, double> instructions;        ///< by stage
-  std::string countedBy = "callgrind";               ///< the instructions
-  CostsByNode nodeTimes, nodeInstructions;           ///< so that the node that moved can be named
+  std::string countedBy = "callgrind";               ///< the source of the instructions
+  CostsByNode nodeTimes, nodeInstructions;           ///< to name the node that changed
 };
 
 using Baseline = std::map<std::string, BaselineCase>;  ///< by playedName
@@ -33,11 +33,11 @@ using Baseline = std::map<std::string, BaselineCase>;  ///< by playedName
 Result<Baseline> readBaseline(const std::string& path);
 std::string toJson(const Baseline& baseline);
 
-/// Takes up what a run of the case found. Of a case that is known already, metrics that are not `asked` for
-/// stay as they were; times and instructions go if they are, and the case compares them no more.
+/// Adds the results of a run of the case. For a known case, metrics that are not in `asked` stay as they
+/// were. Times and instructions are removed if they are in `asked` and the case no longer compares them.
 void takeUp(const RunFacts& found, const Metrics& asked, const SuiteCase& played, const std::string& name,
             Baseline& baseline);
-/// Cases that the suite has not, or not so, by playedName.
+/// Returns cases that the suite lacks, or has with other settings, by playedName.
 std::vector<std::string> othersThan(const Suite& suite, const Baseline& baseline);
 
 /// SUITE.suite -> SUITE.baseline.json

@@ -31,14 +31,14 @@ Json contextOf(const SuiteResult& result) {
           {"against", result.against}};
 }
 
-/// By the clock on the wall, and of the processor, which may be of several threads.
+/// By real time, and by processor time, which may be of several threads.
 Json entry(const std::string& name, std::size_t repetitions, double ms, double processorMs) {
   return {{"name", name},     {"run_name", name}, {"run_type", "iteration"}, {"repetitions", repetitions},
           {"threads", 1},     {"iterations", 1},  {"real_time", ms},         {"cpu_time", processorMs},
           {"time_unit", "ms"}};
 }
 
-/// Without `elapsed`, of builds that do not tell it, processor time stands for both.
+/// Without `elapsed`, from builds that do not report it, processor time stands for both.
 void addStage(const std::string& name, const std::vector<double>& rounds, std::vector<double> elapsed,
               Json& benchmarks) {
   if (elapsed.size() != rounds.size()) elapsed = rounds;

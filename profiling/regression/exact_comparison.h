@@ -1,5 +1,5 @@
 #pragma once
-/// Hashes and counts: equal, or not.
+/// Exact comparison of hashes and counts.
 
 #include "profiling/regression/spans/facts.h"
 #include "profiling/regression/spans/result.h"
@@ -7,17 +7,16 @@
 
 namespace stadion::regression {
 
-/// What facts are compared with, and what it is called in sentences: "the baseline", "the other build".
+/// The facts to compare with, and their name in sentences: "the baseline", "the other build".
 struct Reference {
   const RunFacts* facts = nullptr;  ///< null: there is none
   std::string name;
 };
 
-/// A check for each of the metrics that are asked for. Images are compared only where the same renderer drew
-/// them.
+/// Returns a check for each requested metric. Images are compared only if the same renderer drew them.
 std::vector<Check> compareFacts(const RunFacts& found, const Reference& with, const Metrics& metrics);
 
-/// All facts under one roof, for reports.
+/// Returns all facts in one map, for reports.
 NamedFacts allOf(const RunFacts& facts);
 
 }  // namespace stadion::regression

@@ -57,7 +57,7 @@ struct Point {
   const HistoryEntry* entry;
 };
 
-/// A plot shows at least so much of its middle value [1]: what is within a tolerance looks flat.
+/// The least range of a plot relative to its middle value [1]: changes within a tolerance look flat.
 constexpr double kLeastSpan = 0.06;
 
 /// Points from left to right, the oldest first, on an axis from the least to the greatest value.
@@ -102,7 +102,7 @@ std::string figureOf(const std::string& name, const std::vector<Point>& points) 
   return fmt::format("<figure>{}<figcaption>{}</figcaption></figure>\n", plot(points), markupText(name));
 }
 
-/// Times and instructions first; counts, which hardly ever change, folded away.
+/// Times and instructions come first; counts, which hardly ever change, are folded away.
 std::string historyOf(const std::string& name, const std::vector<HistoryEntry>& history) {
   std::set<std::string> figures;
   for (const HistoryEntry& e : history)

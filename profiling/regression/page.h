@@ -1,5 +1,5 @@
 #pragma once
-/// What a suite has found as a page for a browser: nothing beside the file is needed, no script, no network.
+/// The results of a suite as a self-contained page for a browser: no other files, no script, no network.
 
 #include "profiling/regression/spans/result.h"
 #include "profiling/regression/statistics/history.h"
@@ -9,7 +9,7 @@
 
 namespace stadion::regression {
 
-/// `history`: with this run as its last entry.
+/// `history`: this run is its last entry.
 std::string pageOf(const SuiteResult& result, const std::vector<HistoryEntry>& history);
 
 }  // namespace stadion::regression

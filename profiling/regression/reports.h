@@ -1,5 +1,5 @@
 #pragma once
-/// What a suite has found, for people and for programs.
+/// The results of a suite, for people and for programs.
 ///
 /// Threads  free functions, any thread.
 
@@ -9,15 +9,15 @@
 
 namespace stadion::regression {
 
-/// A line for each check, worst last, and a line that sums up.
+/// Returns a line for each check, worst last, and a summary line.
 std::string tableOf(const SuiteResult& result);
 
 /// JUnit's XML: a test case for each check, a suite for each case.
 std::string junitOf(const SuiteResult& result);
 
 /// Google Benchmark's layout: "context", and "benchmarks" with an entry for each round of each stage and its
-/// median; hashes and counts are further fields of an entry named after the case. Checks are in "checks",
-/// what shows warned of in "warnings".
+/// median. Hashes and counts are further fields of an entry named after the case. Checks are in "checks", the
+/// shows' warnings in "warnings".
 std::string benchmarkJsonOf(const SuiteResult& result);
 
 }  // namespace stadion::regression

@@ -1,5 +1,5 @@
 #pragma once
-/// Suite files: which shows a regression suite plays, how, and what it compares, as text.
+/// Suite files: text that names the shows of a regression suite, their settings, and what is compared.
 ///
 ///     stadion-suite 1
 ///     size 96x72                          # before the first case: of every case
@@ -14,7 +14,7 @@
 ///
 /// Units    tolerances in percent.
 /// Threads  plain values, any thread.
-/// Errors   go to the Diagnostics with line, column and a fix where one is known; there may be several.
+/// Errors   go to the Diagnostics with line, column and a fix if one is known; there may be several.
 
 #include "engine/base/diagnostic.h"
 
@@ -26,7 +26,7 @@
 
 namespace stadion::regression {
 
-/// What of a case is compared.
+/// The metrics of a case to compare.
 struct Metrics {
   bool state = true;          ///< state hashes of all frames, exactly
   bool images = true;         ///< hashes of the last frame's pictures, exactly
@@ -56,7 +56,7 @@ struct SuiteCase {
   std::uint64_t frames = 0;  ///< 0: to the end of the input log
   Metrics metrics;
   Tolerances tolerances;
-  std::uint64_t rounds = 12;  ///< of times, at least 12: fewer cannot tell a difference from chance
+  std::uint64_t rounds = 12;  ///< of times, at least 12: with fewer, chance cannot be excluded
 };
 
 /// What a case is called once it has been played, in baselines, histories and reports: CASE/MODE, and
@@ -71,11 +71,11 @@ struct Suite {
   std::vector<SuiteCase> cases;  ///< in file order
 };
 
-/// Reads the text; nothing if it has errors. Names of files are made relative to the suite's own folder;
-/// whether they are there is not asked.
+/// Reads the text; returns nothing if it has errors. Names of files become relative to the suite's own
+/// folder; their existence is not checked.
 std::optional<Suite> parseSuite(std::string_view text, const std::string& file, Diagnostics& out);
 
-/// Reads the file; shows, wall files and logs that are not there are errors where they are named.
+/// Reads the file. Missing shows, wall files and logs are errors at the place that names them.
 std::optional<Suite> loadSuite(const std::string& path, Diagnostics& out);
 
 }  // namespace stadion::regression

@@ -69,7 +69,7 @@ DoneCases readProgress(const std::string& text, const std::string& identity) {
       for (const Json& r : j.at("results")) results.push_back(resultOf(r));
       done[j.at("case").get<std::string>()] = std::move(results);
     } catch (const Json::exception&) {
-      // Half a line.
+      // An incomplete line.
     }
     at = end + 1;
   }

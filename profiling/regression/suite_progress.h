@@ -1,11 +1,11 @@
 #pragma once
-/// What of a suite has been done: so that a suite that was interrupted goes on where it was.
+/// The finished cases of a suite, so that an interrupted suite continues.
 ///
-///     {"suite": "HEX16"}                       what is played, by whom: of anything else nothing is kept
-///     {"case": "kick", "results": [...]}       one line for each case that is complete
+///     {"suite": "HEX16"}                       identifies the suite and the program; others start afresh
+///     {"case": "kick", "results": [...]}       one line for each finished case
 ///
 /// Threads  plain values, any thread.
-/// Errors   lines that are none are passed over: the last one may be half written.
+/// Errors   invalid lines are skipped: the last one may be incomplete.
 
 #include "profiling/regression/spans/result.h"
 
@@ -19,7 +19,7 @@ using DoneCases = std::map<std::string, std::vector<CaseResult>>;  ///< by case
 
 std::string progressHeading(const std::string& identity);
 std::string progressLine(const std::string& caseName, const std::vector<CaseResult>& results);
-/// Nothing if the text begins with another heading. Cases that could not be played are not done.
+/// Returns nothing if the text begins with another heading. Cases that could not be played are not finished.
 DoneCases readProgress(const std::string& text, const std::string& identity);
 
 }  // namespace stadion::regression

@@ -1,8 +1,8 @@
 #pragma once
-/// How long the frames of a run took, one after the other, and which of them were late.
+/// The durations of a run's frames in order, and the late frames.
 ///
-/// Frames whose drawing was sampled took longer for it, and held up the next one: they are kept apart, and
-/// count neither in distributions nor among the late.
+/// Sampling of drawing lengthens a frame and delays the next one. These frames are kept apart, and count
+/// neither in distributions nor among the late ones.
 ///
 /// Units    milliseconds. Memory  40 bytes a frame and 8 for each wall: 16 MB an hour of four walls at 60 Hz.
 /// Threads  plain values.
@@ -16,10 +16,10 @@
 
 namespace stadion {
 
-/// A frame in a few figures.
+/// The main figures of a frame.
 struct FrameRow {
   std::uint64_t frame = 0;
-  float period = 0;  ///< since the frame before was shown; 0 = unknown
+  float period = 0;  ///< since the previous swap; 0 = unknown
   float app = 0;
   bool sampled = false;  ///< its drawing or that of the frame before
   Cause cause = Cause::None;
@@ -27,7 +27,8 @@ struct FrameRow {
 
 class FrameSeries {
 public:
-  static constexpr std::size_t kMostLate = 60;  ///< that are remembered with all their facts: the latest
+  static constexpr std::size_t kMostLate = 60;  ///< number of late frames kept with all facts: the latest
+                                                ///< ones
 
   void add(const FrameFacts& facts);
 
@@ -37,7 +38,7 @@ public:
   std::span<const float> draw(std::size_t row) const { return stages(2 * row + 1); }
   /// Frames that were judged, by cause; Cause::None: in time.
   const std::map<Cause, std::uint64_t>& causes() const { return causes_; }
-  /// Those that came latest, in the order of frames.
+  /// Returns the latest frames, in the order of frames.
   std::vector<FrameFacts> late() const;
 
 private:

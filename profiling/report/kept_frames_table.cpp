@@ -33,7 +33,7 @@ void KeptFrames::take(std::size_t number, const SpanRecord& r) {
   track.wait.reset(), track.parts.clear();
 }
 
-/// Of the spans of nodes only the dearest have room.
+/// For spans of nodes, there is room only for the most expensive ones.
 void KeptFrames::add(std::uint64_t number, std::size_t track, const SpanRecord& r) {
   const auto ns = [&](ProfileClock::time_point t) {
     return std::chrono::duration_cast<std::chrono::nanoseconds>(t - began_).count();
@@ -64,7 +64,7 @@ void KeptFrames::shown(const FrameFacts& facts) {
 
 void KeptFrames::consider(const FrameFacts& f) {
   if (f.period > 0 && f.sampled == 0) {
-    // Of neighbours the worse one counts.
+    // Of overlapping stretches only the worst one counts.
     const auto near = std::ranges::find_if(worst_, [&](const Stretch& s) { return s.covers(f.frame); });
     const Stretch now{f.frame, static_cast<double>(f.period)};
     if (near == worst_.end())
@@ -74,7 +74,7 @@ void KeptFrames::consider(const FrameFacts& f) {
     std::ranges::sort(worst_, std::ranges::greater(), &Stretch::score);
     if (worst_.size() > kWorst) worst_.pop_back();
   }
-  // Evenly spaced; when there are too many, every second one goes.
+  // Candidates are evenly spaced; if there are too many, every second one is dropped.
   if (f.frame < kAfter || (f.frame - kAfter) % candidateEvery_ != 0) return;
   Stretch candidate{f.frame - kAfter, 0};
   double sum = 0, count = 0;

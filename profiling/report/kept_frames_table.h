@@ -1,11 +1,12 @@
 #pragma once
-/// All spans of a few stretches of a run: around the frames that came latest, and a normal one.
+/// All spans of a few stretches of a run: around the latest frames, and a normal one.
 ///
-/// Which frames these are is known only when they are over, so the last frames are kept, and forgotten unless
-/// they are chosen.
+/// These frames are known only when they are over, so the last frames are kept, and dropped unless they are
+/// chosen.
 ///
-/// Memory   bounded: kRecent frames and the stretches chosen, in each the dearest kNodesAFrame spans of
-/// nodes. Threads  SpanReader's.
+/// Memory   bounded: kRecent frames and the chosen stretches, with at most kNodesAFrame spans of nodes in
+///          each frame, the most expensive ones.
+/// Threads  SpanReader's.
 
 #include "profiling/record/frame_facts.h"
 #include "profiling/record/frame_log.h"
@@ -28,31 +29,32 @@ struct KeptSpan {
 };
 
 struct KeptFrame {
-  FrameFacts facts;  ///< once it has been shown
+  FrameFacts facts;  ///< known once it has been shown
   bool sampled = false;
   std::vector<KeptSpan> spans;
 };
 
-/// Consecutive frames that were chosen for the one in the middle.
+/// Consecutive frames around a chosen one.
 struct Stretch {
   std::uint64_t about = 0;
-  double score = 0;  ///< [ms] the middle one's period, or how far the mean is from the median
+  double score = 0;  ///< [ms] the middle frame's period, or the distance of the mean from the median
   bool covers(std::uint64_t frame) const;
 };
 
 class KeptFrames final : public SpanReader {
 public:
-  static constexpr std::uint64_t kBefore = 13, kAfter = 10;  ///< frames of a stretch, beside the middle one
+  static constexpr std::uint64_t kBefore = 13, kAfter = 10;  ///< frames of a stretch before and after the
+                                                             ///< middle one
   static constexpr std::size_t kRecent = 96, kNodesAFrame = 40, kWorst = 3, kCandidates = 12;
 
   using SpanReader::take;
   void take(std::size_t track, const SpanRecord& record) override;
-  /// A frame has been shown.
+  /// Reports that a frame has been shown.
   void shown(const FrameFacts& facts);
 
-  /// The worst first.
+  /// Returns the stretches, the worst first.
   const std::vector<Stretch>& worst() const { return worst_; }
-  /// The candidate whose frames come most nearly at this distance [ms]; none in a very short run.
+  /// Returns the candidate with frame periods closest to `period` [ms]; none in a very short run.
   const Stretch* normal(double period) const;
   const std::map<std::uint64_t, KeptFrame>& frames() const { return frames_; }
 
@@ -63,7 +65,7 @@ private:
 
   struct Track {
     std::vector<SpanRecord> parts;
-    std::optional<SpanRecord> wait;  ///< for a frame that is not known yet
+    std::optional<SpanRecord> wait;  ///< for a frame that is not yet known
   };
   ProfileClock::time_point began_ = ProfileClock::now();
   std::map<std::size_t, Track> tracks_;

@@ -1,7 +1,7 @@
 #pragma once
-/// The nodes of a report: the dearest, and all that they are placed below, as a tree.
+/// The nodes of a report as a tree: the most expensive ones, and all nodes above them.
 ///
-/// Ownership  points into the figures that it was made of.
+/// Ownership  points into the figures from which it was made.
 
 #include "profiling/report/show_figures.h"
 
@@ -12,19 +12,19 @@ namespace stadion {
 
 struct TableNode {
   NodeName name;
-  std::size_t parent = 0;        ///< index in the table; its own = placed in World
-  const NodeRow* row = nullptr;  ///< what it cost; null: nothing by itself
-  NodeRow rest;                  ///< instead: the sum of those that have no place in the table
+  std::size_t parent = 0;        ///< index in the table; its own index = placed in World
+  const NodeRow* row = nullptr;  ///< its costs; null: no costs of its own
+  NodeRow rest;                  ///< instead: the sum of the nodes without a place in the table
   std::size_t restCount = 0;
 };
 
 class NodeTable {
 public:
-  /// At most `most` nodes that cost something.
+  /// Takes at most `most` nodes with costs.
   NodeTable(const ShowFigures& figures, const NodeNames& names, std::size_t most);
 
   const std::vector<TableNode>& nodes() const { return nodes_; }
-  /// The place of a node, also of one that was not in the figures; -1 = nobody knows it.
+  /// Returns the index of a node, also of one without figures; -1 = unknown.
   long find(NodeRef node);
 
 private:

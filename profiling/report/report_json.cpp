@@ -12,7 +12,8 @@ namespace {
 
 using nlohmann::json;
 
-/// Nodes take about 100 bytes each; of the dearest it is told what they cost on each wall.
+/// Limits of nodes: each takes about 100 bytes. The costs on each wall are included for the most expensive
+/// ones.
 constexpr std::size_t kMostNodes = 12'000, kMostOnWalls = 1200;
 constexpr std::size_t kColumns = 1200;  ///< of the strip that shows the whole run
 
@@ -57,7 +58,7 @@ public:
                            {"p95", number(e.p95, 3)},
                            {"count", e.count}});
     j["dynamics"] = data_.dynamics ? dynamics(*data_.dynamics) : json();
-    j["nodes"] = nodes();  // last: the others may have added some
+    j["nodes"] = nodes();  // last, because the other parts may add nodes
     j["files"] = files_, j["kinds"] = kinds_;
     return j;
   }
@@ -77,7 +78,7 @@ private:
     return h;
   }
 
-  /// Of frames that sampling did not disturb.
+  /// For frames without sampling.
   json distribution(const std::string& name, const char* stage,
                     const std::function<float(std::size_t row)>& of) const {
     std::vector<float> values;
@@ -112,7 +113,7 @@ private:
     return all;
   }
 
-  /// The whole run; several frames share a column if there are too many, and the worst of them is shown.
+  /// Returns the whole run. If there are too many frames, several share a column, and the worst is shown.
   json strip() const {
     const auto& rows = data_.series.rows();
     const std::size_t each = std::max<std::size_t>(1, (rows.size() + kColumns - 1) / kColumns);
@@ -227,7 +228,7 @@ private:
     return s;
   }
 
-  /// What is 0 or as for most nodes is left out; the page's script puts it back (readNodes).
+  /// Leaves out values that are 0 or the same for most nodes; the page's script restores them (readNodes).
   json nodes() {
     json all = json::array();
     std::size_t priced = 0;

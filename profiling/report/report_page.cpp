@@ -5,7 +5,7 @@
 namespace stadion {
 namespace {
 
-/// So that nothing in it ends the script element that holds it.
+/// Escapes it so that no text in it ends the enclosing script element.
 std::string embedded(const std::string& text) {
   std::string out;
   out.reserve(text.size());
@@ -21,7 +21,7 @@ std::string embedded(const std::string& text) {
 
 std::string reportPage(const ReportData& data) {
   std::string page = "<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">\n";
-  // Nothing is ever fetched, whatever a name in the data holds.
+  // The page never loads anything, whatever names are in the data.
   page += "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; style-src "
           "'unsafe-inline'; script-src 'unsafe-inline'\">\n"
           "<meta name=\"viewport\" content=\"width=device-width,initial-scale=1\">\n";

@@ -1,5 +1,5 @@
 #pragma once
-/// Records what a report tells beyond sums: frame after frame, and a few stretches in full.
+/// Records the parts of a report that are no sums: each frame, and a few stretches in full.
 ///
 /// Threads    SpanReader's.
 /// Ownership  borrows the names, which must outlive it.
@@ -13,7 +13,7 @@ namespace stadion {
 
 class ReportRecording final : public SpanReader {
 public:
-  /// `rate` in frames a second, as the show is meant to be seen.
+  /// `rate` in frames a second: the intended one.
   ReportRecording(double rate, const std::vector<std::string>& walls, const NodeNames& names)
       : threads_(walls), judge_(rate, walls.size(), names, [this](const FrameFacts& facts) {
           series_.add(facts);

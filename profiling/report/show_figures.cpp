@@ -7,9 +7,9 @@
 namespace stadion {
 namespace {
 
-/// Walls of so many nodes are sampled more seldom (frame_log.cpp).
+/// Walls with this many nodes are sampled less often (frame_log.cpp).
 constexpr std::uint64_t kCrowd = 500, kCrowdedEvery = 4;
-/// More than so many times what nodes took alone is not theirs.
+/// A scale above this is not due to the nodes.
 constexpr double kMostScaled = 1.5;
 
 class Figures {
@@ -39,8 +39,8 @@ public:
   ShowFigures take() { return std::move(out_); }
 
 private:
-  /// Recording every node takes time, and memory from the caches: App is longer in the frames in which that
-  /// is done. Nodes' times are from these; what they take in the others is in proportion.
+  /// Recording every node takes time, and memory from the caches, so App is longer in these frames. Nodes'
+  /// times come from them; their times in other frames are in proportion.
   double appScale() const {
     const double others = frames_ - wholeFrames_, whole = profile_.wholeApp() / wholeFrames_;
     const auto app = profile_.spans().find({Span::App, kNoWall});
@@ -58,7 +58,8 @@ private:
     return all > 0 ? sum(what, wall) * static_cast<double>(shares) / static_cast<double>(all) : 0;
   }
 
-  /// In how many of the frames sampled that eye saw it; where nobody told the eyes apart, both saw all.
+  /// Returns the number of sampled frames in which that eye saw it. If the eyes were not distinguished, both
+  /// saw all.
   std::uint64_t seenBy(std::size_t eye, std::uint32_t wall, const WallCost& cost) const {
     const bool apart = profile_.shares(Span::LeftEye, wall) + profile_.shares(Span::RightEye, wall) > 0;
     const auto at = cost.shares.find(!apart ? Span::Fill : eye == 0 ? Span::LeftEye : Span::RightEye);
@@ -107,7 +108,7 @@ private:
     out_.nodes.push_back(std::move(row));
   }
 
-  /// Drawn where it was seen, or seen nowhere when somebody looked; else nobody knows what it costs.
+  /// Measured: drawn where it was visible, or sampled and visible nowhere. Otherwise its cost is unknown.
   void markMeasured(NodeRow& row, const NodeProfile& node) {
     for (std::uint32_t wall = 0; wall < row.walls.size(); ++wall) {
       NodeOnWall& on = row.walls[wall];
@@ -127,8 +128,8 @@ private:
     }
   }
 
-  /// An estimate: as many nodes are drawn alone each time as until now. Nothing is missed for want of frames
-  /// if nothing is drawn.
+  /// An estimate: the number of nodes drawn alone in each sample stays the same. If nothing is drawn, no
+  /// frames are missing.
   std::uint64_t framesNeeded() const {
     const bool draws =
         std::ranges::any_of(profile_.spans(), [](const auto& s) { return s.first.first == Span::LeftEye; });
@@ -149,7 +150,7 @@ private:
     return std::max(most, played + log.sampleEvery);
   }
 
-  /// Whom no node of the script stands for: what the trackers say, and the eyes in front of the walls.
+  /// Adds costs that belong to no node of the script: trackers, and the eyes in front of the walls.
   void addVisitor() {
     NodeRow row;
     row.name.path = "visitor", row.name.type = "rig";
@@ -218,7 +219,7 @@ private:
     }
   }
 
-  /// A frame's, of one wall or of all; of the frames that parts are of.
+  /// Returns the cost a frame, of one wall or of all; over the frames with recorded parts.
   double sum(Span what, std::optional<std::uint32_t> wall = {}) const {
     double ms = 0;
     for (const auto& [who, total] : profile_.spans())
@@ -229,7 +230,7 @@ private:
 
   static bool isPartOfApp(Span what) { return what > Span::Swap && what <= Span::Watching; }
 
-  /// In which that was recorded, and counts.
+  /// Returns the number of frames in which that was recorded, and counts.
   double framesOf(Span what, std::uint32_t wall) const {
     const bool ofCull =
         (what == Span::Cull || (what >= Span::Eyes && what <= Span::Sort)) && profile_.keptCulls(wall) > 0;
@@ -240,7 +241,7 @@ private:
 
   void explain() {
     Explained& app = out_.app;
-    // Where others help, App waits for them meanwhile.
+    // If other threads help, App waits for them meanwhile.
     app.stage = "app";
     const double helped = appScale_ * profile_.helped() / wholeFrames_;
     app.measured =
@@ -255,7 +256,7 @@ private:
     Explained& cull = out_.cull;
     cull.stage = "cull", cull.measured = sum(Span::Cull);
     for (const NodeRow& row : out_.nodes) cull.nodes += row.cull;
-    // What no node had a part in.
+    // The parts without a node.
     for (const Span s : {Span::Test, Span::Fill, Span::ShadowCasts, Span::Sort})
       for (std::uint32_t wall = 0; wall < out_.walls.size(); ++wall)
         if (profile_.shares(s, wall) == 0) cull.named += sum(s, wall);
@@ -276,14 +277,14 @@ private:
     }
   }
 
-  /// Drawn by that eye of a wall, all nodes together.
+  /// Returns the cost of all nodes together for that eye of a wall.
   double nodesOf(std::pair<std::uint32_t, std::uint32_t> eye) const {
     double ms = 0;
     for (const NodeRow& row : out_.nodes) ms += row.walls[eye.first].draw[eye.second];
     return ms;
   }
 
-  /// As it was drawn alone.
+  /// Explains the eyes as drawn alone.
   void explainAlone() {
     Explained& alone = out_.alone;
     alone.stage = "alone";
@@ -298,15 +299,15 @@ private:
     return sum;
   }
 
-  /// What was drawn alone, nodes and parts of the stage, is scaled by one factor, so that its sum is what the
-  /// eye took as a whole. In a tiny picture that is mostly what drawing next to nothing takes, and no node's.
+  /// Scales nodes and parts drawn alone by one factor, so that their sum is the eye's whole time. In a tiny
+  /// picture most of that time is fixed cost, and belongs to no node.
   void scaleDraw() {
     for (const auto& [who, eye] : profile_.eyes()) {
       const std::uint32_t wall = who.first, side = who.second;
       if (eye.whole.count() == 0 || wall >= out_.walls.size()) continue;
       if (!std::ranges::all_of(out_.nodes,
                                [&](const NodeRow& row) { return row.walls[wall].drawMeasured[side]; }))
-        continue;  // whoever had no turn must not be counted with the others
+        continue;  // an eye without a sample must not be counted with the others
       const double alone = nodesOf(who) + partsOf(eye);
       const double factor =
           alone > 0 && eye.whole.mean() > 0 ? std::min(kMostScaled, eye.whole.mean() / alone) : 1;
@@ -323,9 +324,9 @@ private:
   const ShowProfile& profile_;
   const NodeNames& names_;
   double frames_, wholeFrames_, appScale_ = 1;
-  /// Nodes, by wall and eye: seen there, and of these drawn alone.
+  /// Numbers of nodes by wall and eye: visible there, and of these drawn alone.
   std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint64_t> seen_, sampled_;
-  std::map<std::pair<std::uint32_t, std::uint32_t>, double> factors_;  ///< what was drawn alone is scaled by
+  std::map<std::pair<std::uint32_t, std::uint32_t>, double> factors_;  ///< the factors of scaling
   ShowFigures out_;
 };
 

@@ -21,7 +21,7 @@ nlohmann::json measured(double ms, bool known) {
   return known || ms > 0 ? nlohmann::json(ms) : nlohmann::json();
 }
 
-/// "-": not measured, or never; a part that was is told.
+/// "-": not measured, or never; a measured part is shown.
 std::string cell(double ms, bool known, int width, int digits) {
   if (!known && ms <= 0) return fmt::format("{:>{}}", "-", width);
   return fmt::format("{:>{}}", fmt::format("{}{:.{}f}", known ? "" : ">", ms, digits), width);
@@ -39,7 +39,7 @@ std::string tooLittleText(const ShowFigures& f) {
   return count == 0 ? "" : fmt::format("~ {} nodes: too little to be told from drawing nothing\n", count);
 }
 
-/// Where the pieces do not add up to the whole, which each of them cost is not known as well as it looks.
+/// If the pieces do not add up to the whole, their costs are less certain than they look.
 std::string apartText(const Explained& alone) {
   constexpr double kMuch = 0.15;
   if (std::abs(alone.covered() - 1) <= kMuch) return {};
@@ -63,7 +63,7 @@ std::string unmeasuredText(const ShowFigures& f) {
       count, f.nodes.size(), f.frames, f.framesNeeded, f.framesNeeded);
 }
 
-/// A node's rows: its App and the parts of it, its Cull by wall, its Draw by wall and eye.
+/// Adds a node's rows: its App and the parts of it, its Cull by wall, its Draw by wall and eye.
 void addRows(const NodeRow& r, const ShowFigures& f, std::string& csv) {
   const std::string who = fmt::format("{},{},{},{}", csvField(r.name.path), csvField(r.name.file),
                                       r.name.line, r.name.type);
@@ -180,7 +180,7 @@ std::string toText(const ShowFigures& f, std::size_t mostNodes) {
 std::string toJson(const ShowFigures& f) {
   nlohmann::json j{{"frames", f.frames}, {"walls", f.walls}};
   j["draw_method"] = f.drawMethod.empty() ? nlohmann::json() : nlohmann::json(f.drawMethod);
-  // No number of frames measures what is never drawn.
+  // No number of frames measures nodes that are never drawn.
   const bool wouldDo = f.framesNeeded > 0 || std::ranges::none_of(f.nodes, isUnmeasured);
   j["frames_needed"] = wouldDo ? nlohmann::json(f.framesNeeded) : nlohmann::json();
   j["whole_frames"] = f.wholeFrames;

@@ -3,7 +3,7 @@
 namespace stadion {
 namespace {
 
-/// What is known of so many loads is asked for again.
+/// Cache limit: more loads than this are looked up again.
 constexpr std::size_t kMostLoads = 256;
 
 }  // namespace
@@ -25,14 +25,14 @@ NodeRef ShowProfile::firstOf(NodeRef node) {
   if (const auto at = firstLoads_.find(node.load); at != firstLoads_.end())
     return {at->second, node.position};
   const auto first = names_->firstLoad(node.load);
-  if (!first) return node;  // it has just come, and will be named
+  if (!first) return node;  // it has just come, and gets its name later
   if (firstLoads_.size() >= kMostLoads) firstLoads_.clear();
   firstLoads_[node.load] = *first;
   if (*first != node.load) adopt(node.load, *first);
   return {*first, node.position};
 }
 
-/// What was told before the load was named.
+/// Adds the figures from before the load was named.
 void ShowProfile::adopt(std::uint32_t load, std::uint32_t first) {
   for (auto at = nodes_.lower_bound({load, 0}); at != nodes_.end() && at->first.load == load;
        at = nodes_.erase(at))
@@ -55,7 +55,7 @@ void ShowProfile::adopt(std::uint32_t load, std::uint32_t first) {
   }
 }
 
-/// Whether the parts of this stage are counted in this frame.
+/// Returns true if the parts of this stage count in this frame.
 bool ShowProfile::keeps(const SpanRecord& r) {
   constexpr double kMuch = 0.05;  // of the stage
   if (r.what != Span::App && r.what != Span::Cull) return true;
@@ -85,7 +85,7 @@ void ShowProfile::take(std::size_t track, const SpanRecord& r) {
     if (kept) spans_[{r.what, r.wall}].kept += r.took;
     return;
   }
-  // As one that was not recorded as a whole.
+  // Counts as a frame that was not recorded as a whole.
   SpanRecord app = r;
   app.whole = false;
   takePart(track, app);
@@ -113,7 +113,7 @@ void ShowProfile::add(const SpanRecord& r) {
   if (r.depth == 0 && isOfNode(r.what)) helped_ += r.took;
 }
 
-/// Nodes that received within it are those for whom it was.
+/// The span belongs to the nodes that received messages in it.
 void ShowProfile::takeMail(std::size_t track, const SpanRecord& r) {
   std::vector<NodeRef>& called = called_[track];
   for (const NodeRef ref : called) profileOf(ref).settle += r.own / static_cast<double>(called.size());
@@ -121,7 +121,7 @@ void ShowProfile::takeMail(std::size_t track, const SpanRecord& r) {
   called.clear();
 }
 
-/// Who is to be visited in a frame was found out for all that were.
+/// The search for the nodes to visit is shared by all nodes visited.
 void ShowProfile::shareRounds() {
   for (const SpanRecord& r : rounds_) {
     for (const NodeRef ref : visited_) profileOf(ref).settle += r.own / static_cast<double>(visited_.size());
@@ -139,7 +139,7 @@ void ShowProfile::addPhase(NodeRef told, const SpanRecord& r) {
     node.phases[static_cast<std::size_t>(r.what) - static_cast<std::size_t>(Span::Receive)] += ms;
   else
     node.settle += ms;
-  // The first phase of a later frame tells that the earlier one's are complete.
+  // The first phase of a later frame shows that the earlier frame's phases are complete.
   Visit& visit = visits_[ref];
   if (visit.frame != r.frame) {
     if (visit.frame != kNoFrame) node.visit.add(visit.ms);

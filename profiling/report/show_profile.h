@@ -1,24 +1,24 @@
 #pragma once
-/// Adds up what a show's frames were spent on: by node, by stage, by wall and eye.
+/// Adds up the costs of a show's frames: by node, by stage, by wall and eye.
 ///
-/// App       each node's phases are timed in the frames that are recorded as a whole: all, unless App visits
+/// App       Each node's phases are timed in the frames that are recorded as a whole: all, unless App visits
 ///           very many nodes (FrameLog).
-/// Cull      tests, filling, sorting are timed for a whole wall; in the frames that are sampled each node
-/// gets
-///           its part: all alike that were tested, all alike that are seen, all alike that cast shadows. So
-///           does publishing, in App.
-/// Draw      in the frames that are sampled a few batches are drawn alone, each in its place, until all have
-///           been; instances of one batch share by the pixels they may cover and their triangles. A node's
-///           cost in a frame is what it cost when drawn, by how often it was drawn. Nothing is normalised
-///           here: ShowFigures scales the rows, and tells how far the sum was from the eye drawn whole.
+/// Cull      Tests, filling and sorting are timed for a whole wall. In sampled frames each node gets its
+///           share: equal shares for all tested, all visible, and all shadow-casting instances. Publishing in
+///           App is shared the same way.
+/// Draw      In sampled frames a few batches are drawn alone, each in its place, until all have been.
+///           Instances of one batch share its cost by the pixels they may cover and by their triangles. A
+///           node's cost in a frame is its cost when drawn, times how often it was drawn. ShowFigures scales
+///           the rows, and reports how far their sum was from the eye drawn whole.
 ///
-/// A frame in which App or a wall's Cull was kept from the processor by others says how long the stage took,
-/// but not who took it: whatever was under way has all of it. It counts for no node and no part of that
-/// stage, unless half of its frames are so.
+/// In some frames other programs keep App or a wall's Cull from the processor. Such a frame gives the stage's
+/// duration, but no shares: the span under way would get all of it. It counts for no node and no part of that
+/// stage, unless half of the stage's frames are so.
 ///
-/// Nodes that go and come again with their file are the same nodes (NodeNames).
+/// Nodes that are unloaded and loaded again with their file are the same nodes (NodeNames).
 ///
-/// Units    milliseconds. Threads  SpanReader's; `names` may be asked meanwhile.
+/// Units    milliseconds.
+/// Threads  SpanReader's; `names` may be used meanwhile.
 
 #include "profiling/record/cost_series.h"
 #include "profiling/record/frame_log.h"
@@ -29,10 +29,10 @@
 
 namespace stadion {
 
-/// A node's cost on one wall, of both eyes.
+/// A node's cost on one wall, for both eyes.
 struct WallCost {
-  std::map<Span, std::uint64_t> shares;  ///< of tests, fillings and so on, in the frames sampled
-  std::array<double, 2> draw{};          ///< alone, in all, by eye
+  std::map<Span, std::uint64_t> shares;  ///< of tests, fillings and so on, in sampled frames
+  std::array<double, 2> draw{};          ///< drawn alone, in all, by eye
   std::array<std::uint64_t, 2> drawn{};
   void add(const WallCost& other);
 };
@@ -40,32 +40,32 @@ struct WallCost {
 struct NodeProfile {
   std::array<double, 3> phases{};  ///< receive, simulate, dispatch, in all
   Allocations allocations;         ///< in all
-  double settle = 0;               ///< whose turn it is, with which messages; what it changed is taken up
-  std::uint64_t published = 0;     ///< how often, in the frames sampled
-  CostSeries visit;                ///< all phases of a frame together, of the frames in which it was visited
+  double settle = 0;               ///< order and messages of its visit; applying its changes
+  std::uint64_t published = 0;     ///< number of times, in sampled frames
+  CostSeries visit;                ///< all phases of a frame together, in frames with a visit
   CostSeries drawing;              ///< each time it was drawn alone, on one wall for one eye
   std::map<std::uint32_t, WallCost> walls;
   void add(const NodeProfile& other);
 };
 
-/// One kind of span, in all.
+/// The total of one kind of span.
 struct SpanTotal {
   CostSeries ms;
-  double kept = 0;  ///< [ms] of a stage: in the frames that its parts are of
-  double own = 0;   ///< in none of its parts
+  double kept = 0;  ///< [ms] of a stage: in the frames of its parts
+  double own = 0;   ///< outside its parts
   Allocations allocations;
-  std::uint64_t counted = 0;  ///< spans whose allocations these are: those that the probe did not disturb
+  std::uint64_t counted = 0;  ///< spans of these allocations: those without allocations of the probe
 };
 
-/// What an eye's drawing consists of, alone.
+/// The parts of an eye's drawing, drawn alone.
 struct EyeCost {
-  CostSeries whole;                  ///< without what drawing nothing takes
+  CostSeries whole;                  ///< without the fixed cost of drawing nothing
   std::map<Span, CostSeries> parts;  ///< sky, resolve: each time it was drawn
   CostSeries batches;
-  CostSeries empty;  ///< what drawing nothing takes
+  CostSeries empty;  ///< the fixed cost of drawing nothing
 };
 
-/// Whose work is counted: a stage's, an eye's, or a node's.
+/// The owner of counted work: a stage, an eye, or a node.
 struct Counted {
   Span of = Span::App;  ///< the stage; LeftEye, RightEye: of Draw
   std::uint32_t wall = kNoWall;
@@ -86,24 +86,25 @@ public:
   void take(const DrawnAlone& drawn, const std::vector<NodeShare>& nodes) override;
 
   const std::map<NodeRef, NodeProfile>& nodes() const { return nodes_; }
-  /// By kind and wall (kNoWall: of no wall).
+  /// Returns totals by kind and wall (kNoWall: no wall).
   const std::map<std::pair<Span, std::uint32_t>, SpanTotal>& spans() const { return spans_; }
   /// By wall and eye.
   const std::map<std::pair<std::uint32_t, std::uint32_t>, EyeCost>& eyes() const { return eyes_; }
-  /// Each time it was counted.
+  /// Returns the series of each count.
   const std::map<Counted, CostSeries>& counts() const { return counts_; }
   std::uint64_t frames() const { return frames_; }
-  /// Frames that the parts of that wall's Cull are of.
+  /// Returns the number of frames with parts of that wall's Cull.
   std::uint64_t keptCulls(std::uint32_t wall) const;
-  /// Frames in which every node's spans were recorded: what App's parts and its nodes took is of these.
+  /// Returns the number of frames in which every node's spans were recorded; App's parts and nodes are from
+  /// these.
   std::uint64_t wholeFrames() const { return wholeFrames_; }
-  /// What App took in them, in all [ms].
+  /// Returns App's total time in them [ms].
   double wholeApp() const { return wholeApp_; }
-  /// What nodes took on threads that help App, in all.
+  /// Returns the total time of nodes on threads that help App.
   double helped() const { return helped_; }
-  /// Of all nodes together: how often they shared a span of that kind, in the frames sampled.
+  /// Returns how often all nodes together shared a span of that kind, in sampled frames.
   std::uint64_t shares(Span what, std::uint32_t wall) const;
-  /// Frames in which shares were told, by wall; kNoWall: of App.
+  /// Returns the number of frames with shares, by wall; kNoWall: of App.
   std::uint64_t sampled(std::uint32_t wall) const;
 
 private:
@@ -122,18 +123,18 @@ private:
     double ms = 0;
   };
   const NodeNames* names_;
-  std::unordered_map<std::uint32_t, std::uint32_t> firstLoads_;  ///< as `names_` said
+  std::unordered_map<std::uint32_t, std::uint32_t> firstLoads_;  ///< from `names_`
   std::map<NodeRef, NodeProfile> nodes_;
-  /// By track: the parts of a stage that is not over.
+  /// By track: the parts of an unfinished stage.
   std::map<std::size_t, std::vector<SpanRecord>> parts_;
   struct Kept {
     std::uint64_t frames = 0, leftOut = 0;
   };
   std::map<std::pair<Span, std::uint32_t>, Kept> kept_;  ///< App, Cull by wall
-  std::map<NodeRef, Visit> visits_;                      ///< that may not be over
+  std::map<NodeRef, Visit> visits_;                      ///< unfinished visits
   std::map<std::size_t, std::vector<NodeRef>> called_;   ///< by thread: since its last Span::Mail
-  std::vector<NodeRef> visited_;                         ///< in the frame that App is at
-  std::vector<SpanRecord> rounds_;  ///< in it, the spans of Mail in which nobody received
+  std::vector<NodeRef> visited_;                         ///< in App's current frame
+  std::vector<SpanRecord> rounds_;  ///< in it, the spans of Mail without a receiver
   std::map<std::pair<Span, std::uint32_t>, SpanTotal> spans_;
   std::map<std::pair<std::uint32_t, std::uint32_t>, EyeCost> eyes_;
   std::map<std::uint32_t, std::uint64_t> sampled_;

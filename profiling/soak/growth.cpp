@@ -23,7 +23,7 @@ ByProcess byProcess(std::span<const SoakSample> samples) {
   return all;
 }
 
-/// So many of each series: of their pairs there are half a million.
+/// Limit for each series: it has half a million pairs.
 constexpr std::size_t kMost = 1000;
 constexpr std::size_t kFewestVisits = 10;
 

@@ -1,8 +1,8 @@
 #pragma once
-/// Whether something grows, from samples of a long run: memory, handles, threads.
+/// Detects growth in samples of a long run: memory, handles, threads.
 ///
-/// Samples come from one process or, where a run was taken up again, from several: each has memory of its
-/// own. In a process a show is opened again and again, each time a visit: where memory lies then is new.
+/// Samples come from one process or, after an interruption, from several; each has memory of its own. A
+/// process opens a show repeatedly; each opening is a visit, with new places in memory.
 ///
 /// Threads  plain values.
 
@@ -15,25 +15,26 @@
 namespace stadion {
 
 struct SoakSample {
-  std::uint32_t process = 0;  ///< which of the processes that played
-  std::uint64_t visit = 0;    ///< which time that a show was opened
+  std::uint32_t process = 0;  ///< number of the process
+  std::uint64_t visit = 0;    ///< number of the opening of the show
   std::uint64_t frame = 0;    ///< of the whole soak
   std::uint64_t residentBytes = 0, heapBytes = 0;
   std::uint64_t handles = 0, threads = 0;
 };
 
-/// Those of each visit that were taken once it had played `frames` frames.
+/// Returns the samples of each visit that were taken after `frames` frames.
 std::vector<SoakSample> afterWarmUp(std::span<const SoakSample> samples, std::uint64_t frames);
 
-/// The middle one of the slopes between any two samples of a visit (Theil and Sen), so that no outliers and
-/// no steps of the allocator decide [of the figure, a frame]. Nothing if there are not two.
+/// Returns the median slope between any two samples of a visit (Theil and Sen), which ignores outliers and
+/// steps of the allocator [of the figure, a frame]. Returns nothing for fewer than two samples.
 std::optional<double> slopeOf(std::span<const SoakSample> samples, std::uint64_t SoakSample::*figure);
 
-/// Likewise from visit to visit of a process, by each one's last sample [of the figure, a visit]. Nothing
-/// unless a process had ten.
+/// Likewise between the visits of a process, by each one's last sample [of the figure, a visit]. Returns
+/// nothing unless a process had ten visits.
 std::optional<double> slopeOfVisits(std::span<const SoakSample> samples, std::uint64_t SoakSample::*figure);
 
-/// By how much the highest figure of each process' later half is above that of its earlier half, at most.
+/// Returns the greatest increase, over all processes, of the highest figure from the earlier to the later
+/// half.
 std::int64_t growthOf(std::span<const SoakSample> samples, std::uint64_t SoakSample::*figure);
 
 }  // namespace stadion

@@ -2,10 +2,11 @@
 /// The text of single events of a trace: the JSON object format that chrome://tracing and Perfetto read.
 ///
 /// Times are on a grid of an eighth of a microsecond. Viewers add times as floating-point numbers and compare
-/// the sums to find what lies in what; on this grid the sums are exact, so that what was nested stays nested.
-/// Recording one span takes about as long.
+/// the sums to find the nesting. On this grid the sums are exact, so nested slices stay nested. Recording one
+/// span takes about as long.
 ///
-/// Units  [us] since the trace began. Threads  plain functions.
+/// Units    [us] since the trace began.
+/// Threads  plain functions.
 
 #include <cstdint>
 #include <string>
@@ -19,7 +20,7 @@ constexpr Ticks ticksOf(std::int64_t nanoseconds) {
   return nanoseconds / 125;
 }
 
-/// Quoted and escaped; what is no UTF-8 is replaced.
+/// Quotes and escapes the text, and replaces bytes that are not UTF-8.
 std::string jsonText(std::string_view text);
 
 struct Slice {
@@ -30,7 +31,7 @@ struct Slice {
   std::string_view args;  ///< members of a JSON object
 };
 
-/// Appended to `out`, each event on a line that ends with a comma.
+/// Appends each event to `out`, on a line that ends with a comma.
 void addSlice(std::string& out, const Slice& slice);
 
 /// A point of an arrow from slice to slice, bound to the slice around it.
@@ -39,7 +40,7 @@ void addFlow(std::string& out, FlowPoint point, std::uint64_t id, std::size_t th
 
 void addCounter(std::string& out, std::string_view name, std::string_view series, Ticks at, double value);
 
-/// How a thread is called, and its place from the top.
+/// A thread's name, and its place from the top.
 void addThreadName(std::string& out, std::size_t thread, std::string_view name, std::size_t place);
 void addProcessName(std::string& out, std::string_view name);
 

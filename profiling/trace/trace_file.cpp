@@ -9,7 +9,7 @@ namespace {
 
 constexpr std::size_t kFlushAt = 1 << 16;
 
-/// Category, by whose time it is.
+/// Returns the category: the kind of time.
 std::string_view categoryOf(Span what) {
   if (isWait(what)) return "wait";
   if (isStage(what)) return "stage";
@@ -44,7 +44,7 @@ void TraceFile::take(std::size_t number, const SpanRecord& r) {
   track.spans.clear(), track.wait.reset();
 }
 
-/// A counter keeps its value until it is told another.
+/// A counter keeps its value until the next one.
 void TraceFile::take(const CountRecord& c) {
   if (!isAsked(c.frame)) return;
   std::string name(nameOf(c.what));
@@ -57,12 +57,11 @@ void TraceFile::take(const CountRecord& c) {
   trace::addCounter(text_, name, "count", ticks(c.when), static_cast<double>(c.amount));
 }
 
-/// A stage with all that it holds. Viewers take the first of two slices that begin together for the outer
-/// one.
+/// Writes a stage with all its parts. If two slices begin together, viewers take the first for the outer one.
 void TraceFile::write(std::size_t number, const SpanRecord& root) {
   Track& track = tracks_[number];
   if (track.wait) writeSpan(number, *track.wait, root.frame);
-  // Parts of a stage whose own record was lost lie outside of this one.
+  // Parts of a stage with a lost record lie outside of this one.
   std::erase_if(track.spans,
                 [&](const SpanRecord& s) { return s.began < root.began || s.ended > root.ended; });
   std::ranges::sort(track.spans, [](const SpanRecord& a, const SpanRecord& b) {
@@ -95,7 +94,7 @@ void TraceFile::writeSpan(std::size_t number, const SpanRecord& r, std::uint64_t
   trace::addSlice(text_, {name, categoryOf(r.what), number + 1, ticks(r.began), ticks(r.ended), args});
 }
 
-/// While the operator pauses, a frame comes more than once: only its first way is told.
+/// While the operator pauses, a frame comes more than once: only the first is written.
 bool TraceFile::isFirst(Span stage, std::uint32_t wall, std::uint64_t frame) {
   const auto [at, isNew] = newest_.try_emplace({stage, wall}, frame);
   if (!isNew && frame <= at->second) return false;

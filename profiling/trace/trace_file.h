@@ -2,10 +2,10 @@
 /// Writes every span of a run into a file for a trace viewer (Perfetto, chrome://tracing), while it runs.
 ///
 /// A thread of the run is a thread of the trace. Its slices nest strictly: stages hold their parts, which
-/// hold nodes; waits have a category of their own. Arrows lead from App to Cull to Draw of one frame, for
-/// each wall. A counter tells how long after the one before each frame was shown.
+/// hold nodes. Waits have a category of their own. Arrows lead from App to Cull to Draw of one frame, for
+/// each wall. A counter shows the time between each shown frame and the previous one.
 ///
-/// Memory     one stage's spans a thread, and the names of the nodes that were seen.
+/// Memory     one stage's spans a thread, and the names of the visible nodes.
 /// Threads    SpanReader's; finish() after the log's.
 /// Ownership  borrows the names, which must outlive it. The file appears complete, with finish(), or not at
 ///            all.
@@ -26,8 +26,9 @@ namespace stadion {
 
 struct TraceOptions {
   std::string file;
-  std::uint64_t first = 0, last = kNoFrame;  ///< frames that are written
-  std::uint64_t mostBytes = 100'000'000;     ///< no frame is begun beyond; those that were begun are finished
+  std::uint64_t first = 0, last = kNoFrame;  ///< frames to be written
+  std::uint64_t mostBytes = 100'000'000;     ///< no frame is begun beyond this; frames already begun are
+                                             ///< finished
   std::string show;
   std::vector<std::string> walls;  ///< names
 };
@@ -40,18 +41,18 @@ public:
   void take(std::size_t track, const SpanRecord& record) override;
   void take(const CountRecord& count) override;
 
-  /// Why there will be no file, such as a folder that is not there.
+  /// Returns why there will be no file, such as a missing folder.
   const std::optional<Diagnostic>& error() const { return file_.error(); }
-  /// Completes the file. Nothing if all went well, else why there is none.
+  /// Completes the file. Returns nothing on success, else why there is none.
   std::optional<Diagnostic> finish();
-  /// What was asked for and is not in it: "frames 412 to 599: the run ended with frame 411", or empty. After
-  /// finish().
+  /// Returns the requested part that is missing: "frames 412 to 599: the run ended with frame 411", or empty.
+  /// For use after finish().
   std::string leftOut() const;
 
 private:
   struct Track {
-    std::vector<SpanRecord> spans;   ///< that are in a stage which is under way
-    std::optional<SpanRecord> wait;  ///< for a frame that is not known yet
+    std::vector<SpanRecord> spans;   ///< spans of the stage under way
+    std::optional<SpanRecord> wait;  ///< for a frame that is not yet known
   };
   struct Name {
     std::string text, args;  ///< as JSON
@@ -80,8 +81,8 @@ private:
   std::map<std::pair<Span, std::uint32_t>, std::uint64_t> newest_;  ///< frame, by stage and wall
   std::map<std::string, std::uint64_t> lastCounts_;                 ///< by name: "triangles, front left"
   std::optional<trace::Ticks> lastShown_;
-  std::uint64_t oldestFrame_ = kNoFrame, newestFrame_ = 0;  ///< that App told of
-  std::uint64_t cutFrom_ = kNoFrame;                        ///< left out for its size
+  std::uint64_t oldestFrame_ = kNoFrame, newestFrame_ = 0;  ///< frames that App reported
+  std::uint64_t cutFrom_ = kNoFrame;                        ///< first frame left out for size
   std::uint64_t bytes_ = 0;
   std::string text_;
 };

@@ -5,7 +5,7 @@
 #include <map>
 #include <tuple>
 
-// An icosahedron stands on one corner. Each side is divided into a triangular grid whose lines pass through
+// An icosahedron stands on one corner. Each side is divided into a triangular grid. Its lines pass through
 // the thirds of the edges, where the truncation cuts, and the grid is pushed out to the sphere. The seam
 // between two hexagons runs along the middle third of an edge: there the first row of the grid is split once
 // more.

@@ -1,5 +1,5 @@
 #pragma once
-/// A flat picture out of convex pieces that tile the plane: painting a shape cuts the pieces under it.
+/// A flat picture of convex pieces that tile the plane: painting a shape cuts the pieces under it.
 
 #include "assets/generator/craft/models.h"
 
@@ -22,7 +22,7 @@ public:
   void lay(Piece piece, std::uint32_t paint) { tiles_.push_back({std::move(piece), paint}); }
   /// Gives everything inside the convex `shape` another paint.
   void paint(const Piece& shape, std::uint32_t paint);
-  /// Triangles without overlaps whose corners meet only corners, at z = 0, appended to the model.
+  /// Appends triangles at z = 0 to the model, without overlaps; their corners meet only corners.
   void triangulateInto(Model& model) const;
 
 private:

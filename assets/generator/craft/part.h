@@ -1,5 +1,5 @@
 #pragma once
-/// Coloured surfaces out of which the models of Olympia are put together, and the file they are written to.
+/// Coloured surfaces, from which the models of Olympia are built, and the file format of the models.
 ///
 /// Frames   +X right, +Y forward, +Z up. Triangles are counter-clockwise seen from outside.
 /// Units    metres; colours are sRGB from 0 to 1.
@@ -16,10 +16,10 @@ struct Vertex {
   Point p;
   Rgb colour{1, 1, 1};         ///< multiplies the picture
   std::array<double, 2> uv{};  ///< in pictures' widths
-  Point n{0, 0, 0};            ///< unit; zero = whoever reads the file smooths
+  Point n{0, 0, 0};            ///< unit; zero = the reader of the file makes smooth normals
 };
 
-/// What a part is made of.
+/// The material of a part.
 struct Finish {
   std::string name;
   std::string picture;      ///< file beside the model; empty = none
@@ -46,9 +46,9 @@ struct Placement {
 void add(Part& to, const Part& from, const Placement& place = {});
 /// Appends a quadrilateral, counter-clockwise, with corners of its own.
 void addQuad(Part& to, const std::array<Vertex, 4>& corners);
-/// Gives every vertex a colour made of it.
+/// Sets every vertex's colour to a function of the vertex.
 void paint(Part& part, const std::function<Rgb(const Vertex&)>& colour);
-/// Lays the picture on from the sides that the triangles face, `metres` a width.
+/// Projects the picture from the sides that the triangles face, `metres` a width.
 void layPicture(Part& part, double metres);
 
 /// A box; every face has corners of its own.

@@ -1,6 +1,6 @@
 #pragma once
-/// Pictures that models wear, as PNG files. They are written without compression, because what a compressor
-/// makes depends on its version.
+/// Textures of the models, as PNG files. They are written without compression, because a compressor's output
+/// depends on its version.
 
 #include <cstdint>
 #include <string>
@@ -19,7 +19,7 @@ struct PngKind {
 std::string png(std::uint32_t width, std::uint32_t height, PngKind kind, const std::string& palette,
                 const std::string& rows);
 
-/// Square grey pictures that repeat without a seam. They are near white: what wears one has its own colour.
+/// Square grey textures that repeat without a seam. They are near white: the model gives the colour.
 std::string earthPicture();   ///< trodden sand with pebbles, for 3 x 3 m
 std::string meadowPicture();  ///< dry grass, for 4 x 4 m
 std::string stonePicture();   ///< shelly limestone, for 2 x 2 m

@@ -17,8 +17,7 @@ Piece box(double x0, double y0, double x1, double y1) {
   return {spot(x0, y0), spot(x1, y0), spot(x1, y1), spot(x0, y1)};
 }
 
-// A frame of lines whose outer edges are given; the sides may reach beyond the pitch's end line and are cut
-// there.
+// A frame of lines with given outer edges. The sides may reach beyond the pitch's end line and are cut there.
 void paintFrame(Mosaic& field, double x, double y0, double y1) {
   field.paint(box(-x, y0, -x + kLine, y1), Chalk);
   field.paint(box(x - kLine, y0, x, y1), Chalk);

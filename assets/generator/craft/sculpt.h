@@ -1,5 +1,5 @@
 #pragma once
-/// Smooth bodies out of lumps that melt into each other, as a sculptor puts clay on clay.
+/// Smooth bodies of lumps that blend into each other, like a sculptor's clay.
 ///
 /// Units    metres. Negative distances are inside.
 
@@ -9,19 +9,19 @@ namespace stadion::assets {
 
 class Clay {
 public:
-  /// A ball whose axes are along X, Y and Z. What is put on melts into what is there over `melt` metres.
+  /// Adds a ball with axes along X, Y and Z. It blends into the existing clay over `melt` metres.
   Clay& ball(Point middle, Point radii, double melt = 0.02);
-  /// The same on both sides of x = 0.
+  /// Adds the same on both sides of x = 0.
   Clay& balls(Point middle, Point radii, double melt = 0.02);
-  /// A rod with round ends that may differ.
+  /// Adds a rod with round ends, which may have different radii.
   Clay& rod(Point a, Point b, double ra, double rb, double melt = 0.02);
   Clay& rods(Point a, Point b, double ra, double rb, double melt = 0.02);
   /// Takes away a ball.
   Clay& hollow(Point middle, Point radii, double melt = 0.01);
-  /// Moves the surface out by so much, where positive.
+  /// Moves the surface outwards by this amount, where it is positive.
   Clay& relief(std::function<double(Point)> out);
 
-  /// About how far a point is from the surface.
+  /// Returns the approximate distance of a point from the surface.
   double distance(Point p) const;
   /// Away from the surface, unit.
   Point outward(Point p) const;

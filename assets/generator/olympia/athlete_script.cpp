@@ -87,7 +87,8 @@ std::string path(const std::string& target, Samples samples, const std::string& 
   return out + " )\n";
 }
 
-/// Chest and head of who waits: he breathes and looks about. Passes are long, so that few ends are told.
+/// Chest and head of a waiting athlete: he breathes and looks about. Passes are long, so that few ends are
+/// reported.
 std::string idle() {
   std::string out = "# He breathes, and his head is never quite still.\n"
                     "group( name=breath, parent=chest )\npath( target=breath, loop=on, smooth=on";

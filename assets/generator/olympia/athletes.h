@@ -1,5 +1,5 @@
 #pragma once
-/// What the athletes do, and the sub-scenes in which they do it.
+/// The athletes' performances, and their sub-scenes.
 
 #include "assets/generator/olympia/motion.h"
 

@@ -203,7 +203,7 @@ Parts robe(Rgb cloth, Rgb border) {
     return mix(0.74, 1.03, 0.5 + 0.5 * std::clamp(folds(p), -1.0, 1.0)) * colour;
   });
   part.finish = {"wool", "", 0.95, 0};
-  // It ends above the ground, and nobody looks under it.
+  // The robe ends above the ground, so its underside is never seen.
   for (Vertex& v : part.vertices) v.p.z = std::max(v.p.z, -0.90);
   return {part};
 }

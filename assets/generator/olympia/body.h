@@ -9,7 +9,7 @@
 
 namespace stadion::assets {
 
-/// Where joints are, in the frame of the joint before them; left ones mirrored.
+/// The places of joints, in the frame of the joint before them; left ones mirrored.
 namespace joints {
 constexpr double kHipHeight = 0.93;              ///< of the pelvis above the ground, standing straight
 constexpr Point kWaist{0, 0, 0.14};              ///< from the pelvis
@@ -25,7 +25,7 @@ enum class Hair { Dark, Fair, Bearded };
 
 Parts pelvis();
 Parts chest();
-/// In cells of `step` metres: finer for who is seen from near.
+/// In cells of `step` metres: finer for figures seen from near.
 Parts head(Hair hair, double step);
 // Of the right side.
 Parts upperArm();
@@ -38,7 +38,7 @@ Parts foot();
 /// The other side of a part.
 Parts leftOf(const Parts& parts);
 
-/// A long robe in folds for those who only stand there, about the pelvis.
+/// A long robe in folds for standing figures, about the pelvis.
 Parts robe(Rgb cloth, Rgb border);
 /// A trumpet of bronze, 1.1 m, its mouthpiece at the origin, +Y to the bell.
 Parts trumpet();

@@ -95,7 +95,8 @@ void addWalk(Part& to, Point from, Point end, Dice& dice) {
   }
 }
 
-/// Those who came before went from the entrance to a game, from game to game, and after what they had thrown.
+/// Earlier visitors went from the entrance to a game, from game to game, and after the objects that they had
+/// thrown.
 void addWalks(Part& to) {
   Dice dice(51);
   for (int i = 0; i < 3; ++i)
@@ -110,7 +111,7 @@ void addWalks(Part& to) {
   for (const double x : kGames)
     for (int i = 0; i < 2; ++i)
       addWalk(to, {x + dice.between(-1, 1), 0.5, 0}, {x + dice.between(-2, 2), 9, 0}, dice);
-  for (const double x : kGames)  // who waits steps from foot to foot
+  for (const double x : kGames)  // a waiting visitor steps from foot to foot
     for (int i = 0; i < 12; ++i)
       addPrint(to, {x + dice.between(-1, 1), dice.between(-3.9, -1.8), 0}, dice.between(-0.6, 0.6),
                i % 2 ? 1 : -1);
@@ -181,7 +182,7 @@ void addTuft(Part& to, Point at, double height, Dice& dice) {
   }
 }
 
-/// Where nobody treads: along the kerb, at the feet of stands and boards, and here and there.
+/// Places without footsteps: along the kerb, at the feet of stands and boards, and here and there.
 Part tufts() {
   Dice dice(53);
   Part all;

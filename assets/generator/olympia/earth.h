@@ -1,6 +1,6 @@
 #pragma once
-/// The earth of the track. Around the start, where visitors walk, it is finer and has marks of those before
-/// them.
+/// The earth of the track. Around the start, where visitors walk, it is finer and has marks of earlier
+/// visitors.
 
 #include "assets/generator/craft/part.h"
 

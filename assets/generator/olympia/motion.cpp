@@ -20,7 +20,7 @@ Quat turn(Point t) {
   return about(Vec3::UnitZ(), t.x) * about(Vec3::UnitX(), -t.y) * about(Vec3::UnitY(), t.z);
 }
 
-/// The rotation whose Z axis is `z` and whose Y axis is as near `y` as can be.
+/// Returns the rotation with the Z axis `z` and the Y axis as near `y` as possible.
 Quat facing(const Vec3& z, const Vec3& y) {
   Mat3 m;
   m.col(2) = z.normalized();

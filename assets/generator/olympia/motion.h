@@ -1,10 +1,9 @@
 #pragma once
-/// How an athlete moves: where his pelvis, hands and feet are at which time, and the joints' turns that
-/// follow from it.
+/// An athlete's motion: the places of his pelvis, hands and feet over time, and the resulting turns of the
+/// joints.
 ///
-/// Frames   of the athlete's place: he looks +Y, right is +X, +Z is up, the earth at z = 0. Wrists are told
-/// in
-///          the chest's frame (about the waist), so that they go along with the trunk.
+/// Frames   of the athlete's place: he looks +Y, right is +X, +Z is up, the earth at z = 0. Wrists are given
+///          in the chest's frame (about the waist), so that they move with the trunk.
 /// Units    metres, seconds, degrees.
 
 #include "assets/generator/craft/geometry.h"
@@ -50,10 +49,10 @@ struct Performance {
   Track chestTurn;   ///< likewise, relative to the pelvis
   Track gaze;        ///< of the head: to the left, down; relative to the place
   Track rightWrist, leftWrist;
-  Track rightElbow, leftElbow;  ///< which way they point, in the chest's frame
+  Track rightElbow, leftElbow;  ///< their directions, in the chest's frame
   Track rightTwist;             ///< of the forearm: x to the left, seen from the elbow
   Foot rightFoot, leftFoot;
-  Track aim;  ///< what is held: elevation, to the left
+  Track aim;  ///< of the held object: elevation, to the left
 };
 
 enum class Joint {

@@ -18,7 +18,7 @@ Parts javelin();
 /// A ball of sewn leather of radius 0.11 m, about its centre.
 Parts leatherBall();
 
-/// What a discus or a ball waits on: a stone of 0.95 m, standing on the origin.
+/// A support for a discus or a ball: a stone of 0.95 m, standing on the origin.
 Parts plinth();
 /// Two forked posts 1.1 m apart along X, standing on the origin; a javelin lies in them at z = 1.01.
 Parts javelinRack();

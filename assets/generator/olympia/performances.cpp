@@ -4,7 +4,7 @@ namespace stadion::assets {
 namespace {
 
 constexpr Point kRestRight{0.275, 0.035, -0.195},
-    kRestLeft{-0.275, 0.035, -0.195};  // wrists of who just stands
+    kRestLeft{-0.275, 0.035, -0.195};  // wrists of a standing athlete
 constexpr Point kElbowRight{0.45, -0.75, -0.35}, kElbowLeft{-0.45, -0.75, -0.35};
 
 /// A footfall of a runner: under the pelvis in the middle of its time on the ground.
@@ -106,8 +106,9 @@ Performance discusThrow() {
   };
 }
 
-// A run-up of four metres with the javelin at the ear, beside the visitor, who would not see a longer one; in
-// the last strides the arm goes back and the body turns, the left foot is planted, and the arm comes over.
+// A run-up of four metres with the javelin at the ear, beside the visitor, because a longer one would be out
+// of sight. In the last strides the arm goes back and the body turns, the left foot is planted, and the arm
+// comes over.
 Performance javelinThrow() {
   const Track way{{{0, {0, -3.75, 0.915}},
                    {0.5, {0, -3.80, 0.905}},

@@ -108,7 +108,7 @@ Part figure(const Person& who, Detail detail) {
     drape(lap, 0.95 * who.cloth, 0.4), drape(chest, who.cloth, 0.6);
     add(body, lap), add(body, chest);
   }
-  // What nobody sees: the undersides.
+  // Removes the undersides, which are never seen.
   std::erase_if(body.triangles, [&](const auto& t) {
     return std::all_of(t.begin(), t.end(), [&](std::uint32_t c) { return body.vertices[c].p.z < 0.03; });
   });

@@ -9,12 +9,12 @@ enum class Detail { Far, Middle, Near };
 
 struct Person {
   bool standing = false, hat = false, beard = false;
-  int raised = 0;  ///< how many arms are raised
+  int raised = 0;  ///< number of raised arms
   Rgb cloth, skin, hair;
-  double turn = 0;  ///< 0 to 1, for whatever makes one differ from the next
+  double turn = 0;  ///< 0 to 1, varies between figures
 };
 
-/// Whoever comes along.
+/// Returns a random person.
 Person somebody(Dice& dice, bool standing);
 
 Part figure(const Person& person, Detail detail);

@@ -4,7 +4,7 @@
 namespace stadion::assets {
 namespace {
 
-// Radius and half thickness [m] from the middle to the rim, whose edge is round.
+// Radius and half thickness [m] from the middle to the rim, which has a round edge.
 constexpr Turning kLens[] = {{0, 0.0165},      {0.012, 0.0164},  {0.030, 0.0155},  {0.050, 0.0139},
                              {0.068, 0.0119},  {0.082, 0.0101},  {0.0925, 0.0086}, {0.0950, 0.0092},
                              {0.0985, 0.0094}, {0.1030, 0.0085}, {0.1070, 0.0062}, {0.1093, 0.0032},

@@ -1,5 +1,5 @@
 #pragma once
-/// Where things are in the stadium of Olympia: the outline of the track and the height of the ground.
+/// The layout of the stadium of Olympia: the outline of the track and the height of the ground.
 ///
 /// Frames   of the stadium, see olympia.h. Metres.
 
@@ -31,10 +31,10 @@ double groundHeight(Point p);
 constexpr int kAround = 216;
 std::vector<Point> around(double d);
 
-/// Bands around the track along an outline whose r is the distance outside it, from the track outwards.
+/// Bands around the track along an outline, from the track outwards; its r is the distance outside the track.
 Part ring(const std::vector<Turning>& outline);
 
-/// Limestone as it is at a place.
+/// Returns the colour of the limestone at a place.
 Rgb stoneColour(Point p);
 
 }  // namespace stadion::assets

@@ -123,7 +123,7 @@ Parts stands() {
   people.finish = {"people", "", 0.95, 0};
   add(stone, stand.stone, {kStand}), add(wood, stand.wood, {kStand}), add(people, stand.people, {kStand});
   addAltar(stone);
-  Person priestess;  // of Demeter, the only married woman who might look on
+  Person priestess;  // of Demeter, the only married woman allowed to watch
   priestess.standing = true, priestess.cloth = {0.95, 0.93, 0.88}, priestess.skin = {0.86, 0.66, 0.52},
   priestess.hair = {0.24, 0.16, 0.10};
   add(people, figure(priestess, Detail::Near),

@@ -1,8 +1,8 @@
 #include "assets/generator/olympia/olympia.h"
 #include "assets/generator/olympia/stadium_shape.h"
 
-// Crowns are lumps whose normals point away from the middle of the tree, so that the light goes around the
-// whole crown.
+// Crowns are lumps with normals that point away from the middle of the tree, so that the light goes around
+// the whole crown.
 
 namespace stadion::assets {
 namespace {

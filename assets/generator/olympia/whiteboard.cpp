@@ -91,7 +91,7 @@ Parts whiteboard() {
     add(panel, plank);
   }
   Face(panel, true).frame(0.05, 0.014, kRed);
-  // Who comes from the other side sees a meander above and below, and the winner's wreath.
+  // The back shows a meander above and below, and the winner's wreath.
   const Face back(panel, false);
   back.frame(0.05, 0.02, kBlue);
   back.meander(x - 0.14, kHigh - 0.32, 0.18, 12), back.meander(x - 0.14, kLow + 0.14, 0.18, 12);

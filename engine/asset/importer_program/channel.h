@@ -15,10 +15,10 @@ struct Request {
   std::string path;     ///< below it
 };
 
-/// The next request, or nothing when the show has gone or talks nonsense.
+/// Returns the next request, or nothing if the show has ended or sent nonsense.
 std::optional<Request> receive(int socket);
 
-/// False if the show has gone.
+/// Returns false if the show has ended.
 bool answer(int socket, ImportStatus status, const std::string& text, const std::vector<std::uint8_t>& mesh);
 
 }  // namespace stadion::importer

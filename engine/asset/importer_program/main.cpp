@@ -1,8 +1,8 @@
-/// stadion-import: reads model files for a show, in a process that may die.
+/// stadion-import: reads model files for a show, in a process that may crash.
 ///
-/// It is started by the show (see engine/asset/importer_process.h) with a socket as standard input, answers
-/// one request after another and ends when the show closes its end. Whatever a hostile file does to the
-/// loader happens here, under limits, and not in the show.
+/// The show starts it (see engine/asset/importer_process.h) with a socket as standard input. It answers one
+/// request after another, and ends when the show closes its end. A hostile file can thus only harm this
+/// process, under limits, and not the show.
 
 #include "engine/asset/importer_program/geometry.h"
 #include "engine/asset/importer_program/import_model.h"

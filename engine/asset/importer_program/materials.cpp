@@ -151,15 +151,16 @@ void readSurface(const aiMaterial& from, const FormatInfo& format, Material& to)
   to.metallic = bounded(metallic, 0, 1, 0);
 }
 
-/// Expects that the rest of `to` has been read. Where nothing says how many sides there are, what is seen
-/// through has two: from within a room of glass its walls are seen, and from outside the far ones, too.
+/// Expects that the rest of `to` has been read. If the file does not state the number of sides, transparent
+/// surfaces have two: the walls of a glass room are visible from within, and the far ones from outside.
 void readSides(const aiMaterial& from, Material& to) {
   int twoSided = 0;
   const bool known = from.Get(AI_MATKEY_TWOSIDED, twoSided) == aiReturn_SUCCESS;
   to.doubleSided = known ? twoSided != 0 : to.transparent();
 }
 
-/// A cutoff that nothing falls below cuts nothing out: the surface is opaque, and drawn as fast as any other.
+/// A cutoff below all alpha values cuts nothing out: the surface is opaque, and is drawn as fast as any
+/// other.
 void readMask(float cutoff, std::uint8_t leastOfTexture, bool alphaOfVertices, Material& to) {
   const float least = to.baseColour[3] * static_cast<float>(leastOfTexture) / 255;
   if (alphaOfVertices ? cutoff > 0 : least < cutoff)
@@ -168,8 +169,8 @@ void readMask(float cutoff, std::uint8_t leastOfTexture, bool alphaOfVertices, M
     to.baseColour[3] = 1, to.textureHasAlpha = false;
 }
 
-/// What glows by a picture glows nowhere if that cannot be had. Formats other than glTF leave the factor out
-/// where there is a picture: it is white then.
+/// A surface with a missing emissive texture does not emit. Formats other than glTF omit the factor if there
+/// is a texture: it is white then.
 void readGlow(const aiMaterial& from, const FormatInfo& format, Pictures& pictures, Material& to) {
   const auto path = texturePath(from, {aiTextureType_EMISSIVE, aiTextureType_EMISSION_COLOR});
   if (!path) return;

@@ -8,7 +8,7 @@ namespace {
 
 const std::vector<int> kSteps{1, 2, 4, 8, 16};
 
-/// One setting of one engine on one case, and what each round brought.
+/// One setting of one engine on one case, and its results by round.
 struct Job {
   const EngineProgram* program;
   std::string variant;
@@ -55,7 +55,7 @@ void playRound(Contest& c, std::size_t round, int limit) {
       j.rounds.push_back(measure(*j.program, j.variant, c.about.name, j.n, limit));
 }
 
-/// Whether more steps a frame could bring a peer that counts.
+/// Returns true if more steps a frame could make another peer count.
 bool wantsFinerPeers(const Contest& c) {
   const CaseLimits* limits = limitsFor(c.about.name);
   if (!limits || limits->cost.at == CostLimit::At::Never) return false;
@@ -64,7 +64,7 @@ bool wantsFinerPeers(const Contest& c) {
   return mine != all.end() && mine->played() && !peerFor(*limits, all, mine->metric("err"));
 }
 
-/// The first round goes on with finer steps until some peer plays the case to its end.
+/// The first round uses ever finer steps until a peer finishes the case.
 void playFirstRound(Contest& c, const std::vector<EngineProgram>& programs, int limit) {
   playRound(c, 0, limit);
   for (const int n : kSteps) {

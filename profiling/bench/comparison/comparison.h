@@ -1,6 +1,6 @@
 #pragma once
-/// The cases on all engines, interleaved: round by round, case by case, engine by engine, so that what else
-/// the machine does falls on all alike.
+/// Runs the cases on all engines, interleaved: round by round, case by case, engine by engine. Other load on
+/// the machine then affects all alike.
 
 #include "profiling/bench/comparison/engine_program.h"
 #include "profiling/bench/comparison/verdict.h"
@@ -22,10 +22,10 @@ struct CaseResult {
   Verdict verdict;                        ///< points into the measurements
 };
 
-/// Names in `options.cases` that are part of no case's name.
+/// Returns the names in `options.cases` that are part of no case's name.
 std::vector<std::string> unknownCases(const ComparisonOptions& options, const std::vector<ListedCase>& known);
 
-/// `done` hears of each case when its last round is over.
+/// Calls `done` for each case when its last round is over.
 void compareEngines(const std::vector<EngineProgram>& programs, const ComparisonOptions& options,
                     const std::function<void(const std::string& progress)>& progress,
                     const std::function<void(const CaseResult&)>& done);

@@ -1,15 +1,15 @@
 #pragma once
-/// What `stadion bench dynamics` says of a case, and results.json.
+/// Output of `stadion bench dynamics` for a case, and results.json.
 
 #include "profiling/bench/comparison/comparison.h"
 
 namespace stadion::bench {
 
-/// A table of the case's measurements and what has become of its limits.
+/// Returns a table of the case's measurements and the outcome of its limits.
 std::string tableOf(const CaseResult& result);
-/// "27 limits met, 3 missed, 2 void" and which were missed.
+/// Returns a line such as "27 limits met, 3 missed, 2 void", and the missed ones.
 std::string summaryOf(const std::vector<CaseResult>& results);
-/// All measurements and findings.
+/// Returns all measurements and findings.
 std::string resultsJson(const std::vector<CaseResult>& results);
 bool allMet(const std::vector<CaseResult>& results);
 

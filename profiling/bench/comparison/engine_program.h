@@ -1,7 +1,7 @@
 #pragma once
-/// The programs that play the cases, one for each engine, beside the program that runs.
+/// The programs that play the cases, one for each engine, separate from this program.
 ///
-/// Errors   a program that cannot be started, or says nothing, counts as crashed.
+/// Errors   a program that cannot be started, or prints nothing, counts as crashed.
 
 #include "profiling/bench/comparison/measurement.h"
 
@@ -15,14 +15,14 @@ struct EngineProgram {
 
 struct ListedCase {
   std::string name;
-  std::vector<int> steps;  ///< steps a frame that are of interest
+  std::vector<int> steps;  ///< numbers of steps a frame to be measured
 };
 
-/// Those that are built in `folder`, Stadion's first.
+/// Returns the programs that are built in `folder`, Stadion's first.
 std::vector<EngineProgram> enginePrograms(const std::string& folder);
 std::vector<ListedCase> casesOf(const EngineProgram& program);
 
-/// Plays one case; gives it up after `limit` seconds of processor time.
+/// Plays one case; stops it after `limit` seconds of processor time.
 Measurement measure(const EngineProgram& program, const std::string& variant, const std::string& caseName,
                     int n, int limit);
 

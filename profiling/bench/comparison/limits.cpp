@@ -63,8 +63,8 @@ const std::vector<CaseLimits>& table() {
        {{"err", 1}}},
       {"C08", {{"err", 1e-4}, {"stable_tilt", 1e-12}}, {}, {At::EqualError, 1, 1, "", 0}, {{"err", 10}}},
       {"C09_tunnel", kRebound, {}, atSteps(1, 1. / 4, "bullet"), kThroughNoWall},
-      // Continuous detection is nothing that Stadion could switch off: its cost is compared with that of
-      // those who switch it on.
+      // Stadion cannot switch off continuous detection, so its cost is compared with engines that switch it
+      // on.
       {"C09_tunnel_v5_noccd", kRebound, {}, {}, {}},
       {"C09_tunnel_v10_noccd", kRebound, {}, {}, {}},
       {"C09_tunnel_v20_noccd", kRebound, {}, {}, {}},
@@ -96,7 +96,7 @@ const std::vector<CaseLimits>& table() {
       {"C13_huge", {{"relerr", 1e-12}, {"relerr_ccd", 1e-12}}, {}, {}, {}},
       {"C13_hugehit", {{"tunnelled", 0}}, {}, {}, {}},
       {"C13_nan", {{"err", 0}}, {}, {}, {}},
-      // Bodies that fall from 1 m reach 4.2 m/s; one put into another may not gain.
+      // Bodies that fall from 1 m reach 4.2 m/s; bodies that overlap must not gain speed.
       {"C13_coincident", {{"nonfinite", 0}, {"max_speed", 5}}, {}, {}, {}},
       {"C13_massratio", {{"top_sink", 1e-3}}, {}, {}, {}},
       {"C14",

@@ -1,13 +1,12 @@
 #pragma once
-/// What has to hold on every case: how far off Stadion may be, and what it may cost beside the best other
-/// engine.
+/// The limits for every case: Stadion's errors, and its cost relative to the best other engine.
 
 #include <string>
 #include <vector>
 
 namespace stadion::bench {
 
-/// |metric| is at most that. A metric that is missing or not a number is too great.
+/// metric| is at most this value. A metric that is missing or not a number is too great.
 struct MetricLimit {
   std::string metric;
   double most = 0;
@@ -18,19 +17,19 @@ struct CostLimit {
   At at = At::Never;
   double ratio = 1;       ///< of Stadion's cost to the cheapest peer's
   int steps = 1;          ///< At::Steps: the peers' steps a frame
-  std::string peers;      ///< only those whose names begin so; empty: all
-  double worstFrame = 0;  ///< like `ratio`, of the dearest frame; 0: no limit
+  std::string peers;      ///< only peers with names that begin so; empty: all
+  double worstFrame = 0;  ///< like `ratio`, for the most expensive frame; 0: no limit
 };
 
 struct CaseLimits {
-  std::string name;                 ///< the case's, or how the names of several begin
-  std::vector<MetricLimit> errors;  ///< of every setting of Stadion's
-  std::vector<MetricLimit> finest;  ///< of at least one
+  std::string name;                 ///< the case's name, or the common beginning of several names
+  std::vector<MetricLimit> errors;  ///< of every Stadion setting
+  std::vector<MetricLimit> finest;  ///< of at least one Stadion setting
   CostLimit cost;
-  std::vector<MetricLimit> finished;  ///< a peer has played the case to the end only if it keeps these
+  std::vector<MetricLimit> finished;  ///< a peer counts as finished only if it keeps these
 };
 
-/// The row with the longest name that `caseName` begins with; null if there is none.
+/// Returns the row with the longest name that `caseName` begins with; null if there is none.
 const CaseLimits* limitsFor(const std::string& caseName);
 
 }  // namespace stadion::bench

@@ -13,7 +13,7 @@ double middle(std::vector<double> values) {
   return values[values.size() / 2];
 }
 
-/// Some of what is called an error is a time.
+/// Some metrics among the errors are times.
 bool isTime(const std::string& metric) {
   return metric.ends_with("_ms");
 }

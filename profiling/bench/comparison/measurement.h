@@ -1,5 +1,5 @@
 #pragma once
-/// One line of the programs stadion-dyn-ENGINE: what a case cost an engine and how far off it was.
+/// One line of a program stadion-dyn-ENGINE: the cost and the errors of an engine on a case.
 
 #include <map>
 #include <optional>
@@ -11,23 +11,23 @@ namespace stadion::bench {
 struct Measurement {
   std::string engine, caseName;
   int n = 1;      ///< steps a frame
-  double ns = 0;  ///< processor time per body and frame [ns]; no number if it has not played
+  double ns = 0;  ///< processor time per body and frame [ns]; NaN if the case was not played
   bool unsupported = false;
-  int crash = 0;                    ///< the signal that ended it, -1 for another end, 0 none
-  std::map<std::string, double> m;  ///< errors by name; NaN where there is no number
+  int crash = 0;                    ///< the signal that ended it; -1 for another end, 0 for none
+  std::map<std::string, double> m;  ///< errors by name; NaN if not a number
 
-  bool refused() const { return metric("mesh_refused") > 0; }  ///< to load what the case needs
+  bool refused() const { return metric("mesh_refused") > 0; }  ///< refused to load a mesh of the case
   bool played() const { return !unsupported && crash == 0 && !refused(); }
-  /// NaN if there is none of that name.
+  /// Returns NaN if there is no metric of that name.
   double metric(const std::string& name) const;
 };
 
-/// Nothing if the line is none.
+/// Returns nothing if the line is no measurement.
 std::optional<Measurement> parseMeasurement(const std::string& line);
 std::string toJson(const Measurement& m);
 
-/// Of several rounds of the same: the median cost. Errors are the same in each round, times among them are
-/// not.
+/// Combines several rounds into one measurement with the median cost. Errors are equal in each round; the
+/// times among them are not.
 Measurement medianOf(const std::vector<Measurement>& rounds);
 
 }  // namespace stadion::bench

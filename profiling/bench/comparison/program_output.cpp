@@ -15,7 +15,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-/// Until the other end is closed; false if that took too long.
+/// Reads until the other end is closed. Returns false if that took too long.
 bool readAll(int fd, std::chrono::seconds limit, std::string& text) {
   const Clock::time_point end = Clock::now() + limit;
   char part[4096];

@@ -1,10 +1,10 @@
 #pragma once
-/// Runs a program of a comparison and takes what it prints.
+/// Runs a program of a comparison and collects its output.
 ///
-/// The program starts with all its symbols bound: else the first frame of an engine in shared libraries pays
-/// for its linking.
+/// The program starts with all its symbols bound. Otherwise the first frame of an engine in shared libraries
+/// would pay for its linking.
 ///
-/// Errors   what cannot be started, or takes too long and is killed, has said nothing.
+/// Errors   a program that cannot be started, or takes too long and is killed, has no output.
 
 #include <chrono>
 #include <string>
@@ -14,8 +14,8 @@ namespace stadion::bench {
 
 struct ProgramCall {
   std::vector<std::string> words;          ///< the program first
-  std::vector<std::string> environment{};  ///< "NAME=value"; "NAME" alone takes it away
-  std::chrono::seconds limit{0};           ///< by the clock; 0: none
+  std::vector<std::string> environment{};  ///< "NAME=value"; "NAME" alone removes the variable
+  std::chrono::seconds limit{0};           ///< of real time; 0: none
 };
 
 std::string outputOf(const ProgramCall& call);

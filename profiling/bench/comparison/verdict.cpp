@@ -13,14 +13,14 @@ using Kind = Finding::Kind;
 using At = CostLimit::At;
 
 bool within(double value, double most) {
-  return std::fabs(value) <= most;  // false for what is not a number
+  return std::fabs(value) <= most;  // false for NaN
 }
 
 const Measurement* cheaper(const Measurement* a, const Measurement& b) {
   return !a || b.ns < a->ns ? &b : a;
 }
 
-/// Is this a peer that counts in the limit's comparison?
+/// Returns true if this peer counts in the limit's comparison.
 bool counts(const CaseLimits& limits, const Measurement& m, double ours) {
   if (isOurs(m) || !m.played() || !m.engine.starts_with(limits.cost.peers)) return false;
   if (!keeps(m, limits.finished)) return false;

@@ -1,5 +1,5 @@
 #pragma once
-/// What was measured on one case against its limits.
+/// Compares the measurements of one case with its limits.
 
 #include "profiling/bench/comparison/limits.h"
 #include "profiling/bench/comparison/measurement.h"
@@ -15,7 +15,7 @@ struct Finding {
 struct Verdict {
   std::string caseName;
   std::vector<Finding> findings;
-  const Measurement* peer = nullptr;  ///< what Stadion's cost is compared with
+  const Measurement* peer = nullptr;  ///< the measurement to which Stadion's cost is compared
 
   std::size_t count(Finding::Kind kind) const;
 };
@@ -23,10 +23,10 @@ struct Verdict {
 bool isOurs(const Measurement& m);
 bool keeps(const Measurement& m, const std::vector<MetricLimit>& limits);
 
-/// The cheapest other engine at the setting of the limit; where none plays the case to its end there, the
-/// cheapest that does so at any setting; null if none does. `ours` is how far off Stadion is.
+/// Returns the cheapest other engine at the setting of the limit. If none finishes the case there, returns
+/// the cheapest that finishes it at any setting; null if none does. `ours` is Stadion's error.
 const Measurement* peerFor(const CaseLimits& limits, const std::vector<Measurement>& of, double ours);
-/// The same at the setting itself only.
+/// The same, only for the setting itself.
 const Measurement* peerAtSetting(const CaseLimits& limits, const std::vector<Measurement>& of, double ours);
 
 /// `of`: all measurements of one case; the result points into it.

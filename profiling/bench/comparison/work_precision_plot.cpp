@@ -73,7 +73,7 @@ std::string gridOf(const Axis& cost, const Axis& error) {
   return svg;
 }
 
-/// The numbers beside dots that are so close that their labels would lie on each other.
+/// The numbers beside dots that are so close that their labels would overlap.
 struct Label {
   double x, y;  ///< of the first dot
   std::set<int> n;
@@ -93,7 +93,7 @@ std::vector<Label> labelsOf(const std::vector<Series>& all, const Axis& cost, co
   return labels;
 }
 
-/// Where a label's words are on the paper.
+/// The place of a label's text on the paper.
 struct Words {
   double x, y, width;  ///< left end of the base line [px]
   bool meets(const Words& o) const {
@@ -101,7 +101,7 @@ struct Words {
   }
 };
 
-/// The labels, each beside its dot where no other has its words already.
+/// Draws the labels, each beside its dot unless another label is there already.
 std::string drawLabels(const std::vector<Label>& labels) {
   std::vector<Words> taken;
   std::string svg;
@@ -123,7 +123,7 @@ std::string drawLabels(const std::vector<Label>& labels) {
   return svg;
 }
 
-/// Whether every dot of the series lies under one that is drawn later.
+/// Returns true if every dot of the series lies under one that is drawn later.
 bool hidden(const std::vector<Series>& all, std::size_t number, const Axis& cost, const Axis& error) {
   return std::ranges::all_of(all[number].second, [&](const Dot& d) {
     for (std::size_t later = number + 1; later < all.size(); ++later)

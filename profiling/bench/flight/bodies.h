@@ -10,10 +10,11 @@
 
 namespace stadion::bodies {
 
-/// Where the profile's axis lies.
+/// The axis of the profile.
 enum class Along { X, Z };
 
-/// `profile` goes along the axis with radii there, both in metres; ends with a radius are closed by a lid.
+/// `profile` lists places on the axis and radii there, both in metres. Ends with a radius are closed by a
+/// lid.
 inline Mesh revolved(const std::vector<std::pair<double, double>>& profile, int sides, Along along) {
   Mesh m;
   const auto put = [&](double a, double r, double angle) {

@@ -1,5 +1,5 @@
 #pragma once
-/// What has to hold, and whether it does.
+/// Conditions that must hold, and their results.
 
 #include <limits>
 #include <string>

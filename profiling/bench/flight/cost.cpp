@@ -20,7 +20,7 @@ FlightState startOf(const Throw& t) {
   return {t.start.p, t.start.v, t.start.q, momentumOf(f.body, f.axis, t.start.q, t.start.w)};
 }
 
-/// One thing to be timed; `run` makes `steps` steps of a body.
+/// An object to be timed; `run` makes `steps` steps of a body.
 struct Timed {
   std::string name;
   std::function<void()> run;
@@ -28,8 +28,8 @@ struct Timed {
   std::vector<double> ns;  ///< of a body's step, round by round
 };
 
-/// The state lives as long as what is timed; where it goes does not matter, that it stays finite does: it
-/// begins anew each round.
+/// The state lives as long as the timed object. Its path does not matter, but it must stay finite, so it
+/// restarts each round.
 template <class Step>
 Timed single(const std::string& name, const Throw& t, Step step) {
   const FlightState start = startOf(t);

@@ -6,7 +6,7 @@
 namespace stadion::bench {
 namespace {
 
-/// Turning across the axis costs this per area and length squared at one angle: the mean of both planes.
+/// Damping of a rotation across the axis, per area and length squared at one angle: the mean of both planes.
 double dampingAt(const AnyModel& model, const Vec3& u, const Vec3& k, const Vec3& side, double unit) {
   constexpr double kTurn = 0.3;
   double sum = 0;

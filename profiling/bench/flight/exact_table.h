@@ -1,5 +1,5 @@
 #pragma once
-/// The coefficients of a thing's exact model every few degrees, as a wind tunnel would give them.
+/// The coefficients of an object's exact model at steps of a few degrees, as from a wind tunnel.
 
 #include "dynamics/flight/flight_table.h"
 #include "profiling/bench/flight/objects.h"
@@ -11,11 +11,11 @@ struct ExactTable {
   double area = 1, length = 1;
   int axis = 0;
 };
-/// Of a javelin or a discus, at 30 m/s.
+/// For a javelin or a discus, at 30 m/s.
 ExactTable exactTable(Thing thing);
 
 TableFlight tableOf(const ExactTable& table);
-/// The file that `flighttable` names.
+/// Returns the text of the file that `flighttable` names.
 std::string textOf(const ExactTable& table);
 
 }  // namespace stadion::bench

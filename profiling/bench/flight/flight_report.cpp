@@ -45,7 +45,7 @@ std::string integratorText(const Integrators& all) {
   return text;
 }
 
-/// The rung's error on held-out flights, of the thing that the cost was measured on.
+/// Returns the rung's error on held-out flights of the object for which the cost was measured.
 const RungResult* errorOf(const Ladder& ladder, const std::string& rung) {
   const Thing thing = rung == "plate" || rung == "table" ? Thing::Discus
                       : rung == "ball"                   ? Thing::Ball

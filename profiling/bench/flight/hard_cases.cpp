@@ -24,8 +24,9 @@ std::vector<std::pair<const ThingFacts*, FlightModel>> allModels() {
   return all;
 }
 
-/// Bodies so light that drag takes k |v| h = 1e6 of their speed in a step: the speed through air falls and
-/// does not turn round. The greatest of speed after / speed before; infinite if it was thrown back.
+/// Bodies so light that drag takes k |v| h = 1e6 of their speed in a step. The speed through air must fall
+/// and must not reverse. The result is the greatest ratio of speed after to speed before; infinite on a
+/// reversal.
 Check lightBodies() {
   double most = 0;
   for (auto [facts, model] : allModels()) {
@@ -40,7 +41,7 @@ Check lightBodies() {
       const Vec3 v = s.v;
       const double before = v.norm() + kGravity / 60;
       stepper.step(s);
-      // It may fall as far as gravity pulls it in the step, but not be thrown back.
+      // It may fall as far as gravity pulls it in the step, but must not be thrown back.
       const bool turned = s.v.dot(v) < -kGravity / 60 * v.norm();
       most = finite(s) && !turned ? std::max(most, s.v.norm() / before) : INFINITY;
     }
@@ -48,7 +49,7 @@ Check lightBodies() {
   return {"light bodies, k |v| dt = 1e6: speed after / before, at most", most, 1, 0, ""};
 }
 
-/// A discus at 300 rad/s in steps of 1/30 s, ten seconds without air: how far its axis is from the exact one.
+/// A discus at 300 rad/s in steps of 1/30 s, ten seconds without air: the error of its axis.
 Check fastSpin() {
   const ThingFacts& f = factsOf(Thing::Discus);
   const FlightStepper stepper(BallisticFlight{}, f.body, {Vec3::Zero(), Vec3::Zero(), kDensity}, 1.0 / 30,
@@ -62,7 +63,7 @@ Check fastSpin() {
           "deg"};
 }
 
-/// The same in air: how far its axis nutates beyond where a discus of fine steps has its own, in 2 s.
+/// The same in air: the nutation of its axis relative to a discus with fine steps, in 2 s.
 Check fastSpinInAir() {
   const ThingFacts& f = factsOf(Thing::Discus);
   const Throw t = thrown(Thing::Discus, 25, 35, -10, 0, Vec3(0, 0, -300), Vec3::Zero());
@@ -78,7 +79,7 @@ Check fastSpinInAir() {
   return {"300 rad/s at 30 Hz, 2 s in air: axis", std::isfinite(off) ? off : INFINITY, 1, 0, "deg"};
 }
 
-/// Everything at rest in still air, falling from there; and no NaN in any model.
+/// Everything at rest in still air, and falling from there: no model gives NaN.
 Check fromRest() {
   double wrong = 0;
   for (auto [facts, model] : allModels()) {
@@ -95,7 +96,8 @@ Check fromRest() {
   return {"from rest: models that do not fall, or are undefined", wrong, 0, 0, ""};
 }
 
-/// A javelin that flies exactly backwards turns round by bias; by air it stays balanced or turns, finite.
+/// A javelin that flies exactly backwards turns round by bias; by air it stays balanced or turns, and stays
+/// finite.
 Check backwards() {
   Quat q(Eigen::AngleAxisd(3.14159265358979324, Vec3::UnitZ()));
   const Vec3 v(30, 0, 0);
@@ -112,7 +114,7 @@ Check backwards() {
           "deg"};
 }
 
-/// A gust of 100 m/s across the flight: nobody gets faster than it.
+/// A gust of 100 m/s across the flight: no body gets faster than the gust.
 Check gust() {
   double most = 0;
   for (auto [facts, model] : allModels())

@@ -11,10 +11,10 @@ namespace stadion::bench {
 namespace {
 
 constexpr int kRates[] = {30, 60, 120, 240, 480, 960};
-constexpr double kRounding = 1e-13, kLost = 1e-2;  ///< errors that tell of the order lie between them
-constexpr std::size_t kTimed = 15;                 ///< flights, of which the median counts
+constexpr double kRounding = 1e-13, kLost = 1e-2;  ///< errors between them show the order
+constexpr std::size_t kTimed = 15;                 ///< flights for timing; the median counts
 
-/// Explicit in everything but positions, gyroscopic torque and all: what a simple engine does.
+/// Explicit in everything but positions, including gyroscopic torque, as a simple engine does it.
 void eulerStep(RigidFlight& f, double h, const runge_kutta::Surroundings& s, const AnyModel& model) {
   const Wrench air = model(Vec3(f.q.conjugate() * (f.v - s.wind)), f.w);
   f.v += h * (s.gravity + f.q * air.force / s.mass);
@@ -70,7 +70,7 @@ IntegratorResult measure(Thing thing, const Scheme& scheme, int hz,
     const FlightErrors e = errorsOf(scheme.fly(f.release, hz), f.path, factsOf(thing).axis);
     const double n = static_cast<double>(flights.size());
     r.landing += e.landing * e.landing / n, r.attitude += e.attitude / n;
-    // A flight that is lost altogether is no number.
+    // A lost flight gives no number.
     r.worst = std::isnan(e.landing) || e.landing > r.worst ? e.landing : r.worst;
   }
   r.landing = std::sqrt(r.landing);

@@ -1,5 +1,5 @@
 #pragma once
-/// How fast integrators come near the exact flight of the exact models, and what a step costs them.
+/// Accuracy of integrators against the exact flight of the exact models, and the cost of a step.
 
 #include "profiling/bench/comparison/measurement.h"
 #include "profiling/bench/flight/checks.h"
@@ -11,17 +11,17 @@ struct IntegratorResult {
   Thing thing = Thing::Javelin;
   std::string scheme;
   int hz = 60;
-  double landing = 0;   ///< root mean square over the reference flights, in parts of the range
-  double worst = 0;     ///< the greatest of them
+  double landing = 0;   ///< root mean square over the reference flights, relative to the range
+  double worst = 0;     ///< greatest error
   double attitude = 0;  ///< mean [degrees]
-  double ns = 0;        ///< of one step, exact model and all; the median of five flights
+  double ns = 0;        ///< of one step with the exact model; the median of five flights
 };
 
 struct Integrators {
   std::vector<IntegratorResult> results;
   Checks checks;
-  /// How the error of landing falls with the rate, as an exponent: the slope through the errors that are
-  /// clear of rounding and of flights that are lost; NaN of less than two.
+  /// Returns the order of convergence: the exponent with which the error of landing falls with the rate. It
+  /// is the slope through the errors that are neither rounding nor lost flights; NaN for fewer than two.
   double order(Thing thing, const std::string& scheme) const;
   /// For `workPrecisionPlot`: steps a frame of 1/60 s, error of landing.
   std::vector<Measurement> measurements(Thing thing) const;

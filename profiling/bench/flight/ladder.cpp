@@ -27,7 +27,7 @@ Trajectory flyDefault(const Throw& t, const FlightModel& model, int hz) {
   });
 }
 
-/// No air on the centre; the nose follows by hand. The paper's own form acts once a frame.
+/// No air on the centre; the nose follows the bias. The paper's own form acts once a frame.
 Trajectory flyBiased(const Throw& t, const Bias& bias, int hz) {
   const ThingFacts& facts = factsOf(t.thing);
   const double h = 1.0 / hz;
@@ -43,7 +43,7 @@ Trajectory flyBiased(const Throw& t, const Bias& bias, int hz) {
 }
 
 void addBias(std::vector<Rung>& rungs, Thing thing) {
-  // Tuned on the reference flights; a discus only gets worse, so it shows the paper's usual strength.
+  // Tuned on the reference flights. A discus only gets worse, so it uses the paper's usual strength.
   const double share = thing == Thing::Javelin ? 0.0205 : 0.03;
   const FlightShape& shape = factsOf(thing).shape;
   const auto add = [&](const char* name, const Bias& bias) {
@@ -82,7 +82,7 @@ SetErrors errorsOn(const std::vector<Pair>& flights, const Rung& rung) {
   return summaryOf(all);
 }
 
-/// The same of a script's; not a number if it cannot be played.
+/// The same for a script's rung; NaN if it cannot be played.
 SetErrors errorsOn(const std::vector<Pair>& flights, const ShowRung& rung, const ShowFlights& show,
                    Checks& checks) {
   std::vector<Throw> throws;
@@ -98,7 +98,7 @@ SetErrors errorsOn(const std::vector<Pair>& flights, const ShowRung& rung, const
   return summaryOf(all);
 }
 
-/// The greatest difference of attitude between frame rates, on all samples of all flights [degrees].
+/// Returns the greatest attitude difference between frame rates, on all samples of all flights [degrees].
 double biasSpread(const std::vector<Pair>& flights) {
   const Bias bias = biasFor(factsOf(Thing::Javelin).shape, BiasForm::Flow, biasRate(0.0205, 60));
   double most = 0;
@@ -133,7 +133,7 @@ void addChecks(Ladder& ladder) {
   }
 }
 
-/// How far the usual throw of a javelin goes by a script.
+/// Adds the distances of a usual javelin throw by a script.
 void addJavelinThrows(const ShowFlights& show, Checks& checks) {
   const Throw usual = thrown(Thing::Javelin, 30, 34, 0, 0, Vec3::Zero(), Vec3::Zero());
   for (const ShowRung& rung : show.rungsOf(Thing::Javelin)) {

@@ -1,5 +1,5 @@
 #pragma once
-/// Every rung on every thing: how far off it is on the reference flights and on flights it was not fitted to.
+/// Every rung on every object: its errors on the reference flights and on flights to which it was not fitted.
 
 #include "profiling/bench/flight/checks.h"
 #include "profiling/bench/flight/objects.h"
@@ -7,7 +7,7 @@
 
 namespace stadion::bench {
 
-/// A way to fly.
+/// A flight model.
 struct Rung {
   Thing thing = Thing::Javelin;
   std::string name;
@@ -15,9 +15,9 @@ struct Rung {
 };
 std::vector<Rung> rungsOf(Thing thing);
 
-/// Over a set of flights: root mean squares, the worst, and the mean of the attitude's.
+/// Over a set of flights: root mean squares, the worst, and the mean attitude error.
 struct SetErrors {
-  double range = 0, landing = 0, landingMost = 0;  ///< in parts of the range
+  double range = 0, landing = 0, landingMost = 0;  ///< relative to the range
   double attitude = 0;                             ///< [degrees]
 };
 
@@ -31,7 +31,7 @@ struct Ladder {
   std::vector<RungResult> rungs;
   Checks checks;
 };
-/// `show`: what is thrown by scripts as well; null: nothing.
+/// `show`: also throws by scripts; null: does not.
 Ladder measureLadder(const std::vector<ReferenceFlight>& references, int held,
                      const ShowFlights* show = nullptr);
 

@@ -27,7 +27,7 @@ ThingFacts ballFacts() {
           footballFlight(), ballFrom(shape),           shape};
 }
 
-/// A number of a file's name: "25" of "disc_25_35_s40_a-10", "-10" after the letter a.
+/// A number in a file's name: "25" of "disc_25_35_s40_a-10", "-10" after the letter a.
 struct Named {
   std::string name;
   double after(const std::string& mark, double otherwise) const {
@@ -46,7 +46,7 @@ Throw releaseOf(const std::string& name, const Trajectory& path) {
   return t;
 }
 
-/// Reproducible on every machine, which the library's distributions are not.
+/// Reproducible on every machine, unlike the library's distributions.
 struct Random {
   std::uint64_t state;
   double between(double low, double high) {
@@ -56,7 +56,7 @@ struct Random {
   }
 };
 
-/// Where between two moments the centre comes down to the ground, both ends' velocities kept.
+/// Returns the moment at which the centre reaches the ground, with both ends' velocities kept.
 TrajectorySample landingBetween(const Trajectory& step) {
   double low = step[0].t, high = step[1].t;
   for (int i = 0; i < 60; ++i) {

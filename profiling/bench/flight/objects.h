@@ -1,7 +1,7 @@
 #pragma once
-/// The three things that fly, how they are thrown, and how far off a flight is.
+/// The three flying objects, their throws, and the errors of flights.
 ///
-/// Frames   World: x downrange, y left, z up; g = 9.81 and rho = 1.2, as the references have them.
+/// Frames   World: x downrange, y left, z up; g = 9.81 and rho = 1.2, as in the references.
 
 #include "dynamics/flight/flight_shape.h"
 #include "dynamics/flight/trajectory.h"
@@ -26,8 +26,8 @@ struct ThingFacts {
   int axis;       ///< of symmetry in A: 0 = x, 2 = z
   double height;  ///< of release [m]
   AnyModel exact;
-  FlightModel shipped;   ///< its fit
-  FlightModel fromMesh;  ///< what follows from its mesh alone
+  FlightModel shipped;   ///< its fitted model
+  FlightModel fromMesh;  ///< the model from its mesh alone
   FlightShape shape;
   Vec3 inertia() const {
     Vec3 i = Vec3::Constant(body.across);
@@ -48,8 +48,8 @@ struct Throw {
   FlightAir air() const;
 };
 
-/// At speed [m/s] upwards by `gamma`, pitched by `alpha` more, then rolled about its own x, turning with w_A;
-/// angles in degrees.
+/// Returns a throw at `speed` [m/s], upwards by `gamma`, pitched by `alpha` more, then rolled about its own
+/// x, with angular velocity w_A. Angles in degrees.
 Throw thrown(Thing thing, double speed, double gamma, double alpha, double roll, const Vec3& w_A,
              const Vec3& wind);
 
@@ -61,20 +61,20 @@ struct ReferenceFlight {
 };
 Result<std::vector<ReferenceFlight>> referenceFlights(const std::string& folder);
 
-/// `count` random throws: speed, angles, roll, wind of up to 5 m/s along x and y, pitch rate. The same every
-/// time.
+/// Returns `count` random throws: speed, angles, roll, wind of up to 5 m/s along x and y, pitch rate. They
+/// are the same in every run.
 std::vector<Throw> heldOut(Thing thing, int count);
 
-/// Goes on with `step(flight)` of 1/hz s until the centre is on the ground, 20 s at most. Samples every 0.1 s
-/// (hz is a multiple of 10), and the landing.
+/// Calls `step(flight)` of 1/hz s until the centre is on the ground, 20 s at most. Samples every 0.1 s (hz is
+/// a multiple of 10), and the landing.
 Trajectory flyBy(const Throw& release, int hz, const std::function<void(RigidFlight&)>& step);
 
 /// The exact flight of the exact model.
 Trajectory flyExactly(const Throw& release, double tolerance = 1e-11);
 
 struct FlightErrors {
-  double range = 0;     ///< of the distance downrange, in its parts
-  double landing = 0;   ///< between the points of landing, in parts of the range
+  double range = 0;     ///< error of the distance downrange, relative
+  double landing = 0;   ///< distance of the points of landing, relative to the range
   double attitude = 0;  ///< of the axis, mean over the flight [degrees]
 };
 FlightErrors errorsOf(const Trajectory& flight, const Trajectory& exact, int axis);

@@ -8,7 +8,8 @@
 namespace stadion::bench {
 namespace {
 
-/// The distance with the shipped model and the default step, fine enough that it does not matter.
+/// Returns the distance with the shipped model and the default step, fine enough that its error does not
+/// matter.
 double distanceOf(const Throw& t) {
   constexpr int kRate = 240;
   const ThingFacts& f = factsOf(t.thing);
@@ -28,7 +29,7 @@ double discusDistance(const Angles& a) {
   return distanceOf(thrown(Thing::Discus, 25, a[0], a[1] - a[0], a[2], Vec3(0, 0, -42), Vec3::Zero()));
 }
 
-/// Goes from angle to angle, in ever smaller strides, as long as it gets farther.
+/// Hill climbing: changes one angle after the other in ever smaller steps while the distance grows.
 double climb(Angles& a) {
   double best = discusDistance(a);
   for (double stride = 8; stride > 0.05; stride *= 0.5)

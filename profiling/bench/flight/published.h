@@ -1,5 +1,5 @@
 #pragma once
-/// Real throws: where the shipped models land beside what has been published and measured.
+/// Real throws: landings of the shipped models compared with published measurements.
 
 #include "profiling/bench/flight/checks.h"
 

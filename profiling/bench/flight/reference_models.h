@@ -1,11 +1,10 @@
 #pragma once
-/// The exact models that the reference flights were made with: dear, for benches and tests only.
+/// The exact models that made the reference flights: expensive, for benches and tests only.
 ///
 /// Frames   A, as in dynamics/flight/flight_model.h: javelin +x nose, discus z axis.
-/// Sources  javelin: strips in cross flow, 8 Gauss points on each of 7 segments (the quadrature is part of
-/// the
-///          definition). Discus: a circular wing with vortex lift, stall and pitch damping. Ball: drag crisis
-///          after Goff and Carre (2009), saturating Magnus lift.
+/// Sources  Javelin: strips in cross flow, 8 Gauss points on each of 7 segments (the quadrature is part of
+///          the definition). Discus: a circular wing with vortex lift, stall and pitch damping. Ball: drag
+///          crisis after Goff and Carre (2009), saturating Magnus lift.
 
 #include "dynamics/flight/flight_model.h"
 

@@ -26,14 +26,14 @@ namespace fs = std::filesystem;
 
 constexpr int kRate = 60;                // [Hz]
 constexpr double kLongest = 20;          // [s]
-constexpr double kWater = 1000;          // [kg/m3], what a medium's density is relative to
+constexpr double kWater = 1000;          // [kg/m3], the reference for a medium's density
 constexpr const char* kTable = "t.csv";  // beside the script
 
-/// A folder that goes with this object.
+/// A folder that is deleted with this object.
 class ScratchFolder {
 public:
   ScratchFolder() {
-    std::error_code none;  // without a folder writing the script fails and says so
+    std::error_code none;  // without a folder, writing the script fails with a message
     std::string form = (fs::temp_directory_path(none) / "stadion-flights-XXXXXX").string();
     if (const char* made = mkdtemp(form.data())) path_ = made;
   }
@@ -92,8 +92,7 @@ public:
     opened_ = scene_->open(script);
   }
   bool opened() const { return opened_; }
-  /// What is wrong with the script. Where a model is missing, a show goes on with a stand-in; a bench does
-  /// not.
+  /// Returns the script's error. A show continues with a stand-in for a missing model; a bench does not.
   std::optional<Diagnostic> fault() const {
     for (const Diagnostic& d : findings_.all())
       if (d.severity != Severity::Note) return d;
@@ -124,7 +123,7 @@ RigidFlight motionOf(Scene& scene, std::size_t i) {
   return f;
 }
 
-/// Of every body in every frame, until the last of them is down.
+/// Returns every body in every frame, until the last of them has landed.
 std::vector<std::vector<RigidFlight>> play(Scene& scene, std::size_t count) {
   std::vector<std::vector<RigidFlight>> motions(count);
   ChangeSet changes;

@@ -1,6 +1,6 @@
 #pragma once
-/// The same flights in a show: a script with a dynobject for each throw is loaded and played, models imported
-/// and all, as `run` does it. So what an author gets is held to the same limits as the models by themselves.
+/// The same flights in a show: a script with a dynobject for each throw is loaded and played, models
+/// imported, as `run` does it. The author's results thus have the same limits as the models themselves.
 
 #include "profiling/bench/flight/objects.h"
 
@@ -10,32 +10,32 @@
 
 namespace stadion::bench {
 
-/// What a dynobject says of itself.
+/// The attributes of a dynobject.
 struct ShowRung {
   Thing thing = Thing::Javelin;
   std::string name;
-  std::string attributes;  ///< file, mass, flight ..., but not where and how it starts
-  bool limited = true;     ///< false: only to be seen
+  std::string attributes;  ///< file, mass, flight ..., without its start
+  bool limited = true;     ///< false: reported only, without limits
 };
 
 class ShowFlights {
 public:
-  /// Takes javelin and discus as the show "Ancient Olympia" declares them.
+  /// Takes javelin and discus from the show "Ancient Olympia".
   static Result<ShowFlights> ofOlympia(const std::filesystem::path& repository);
 
-  /// As that show has it; with the model that follows from the mesh; by a table; and, of a javelin, with
-  /// nothing said of its mass but how much it is.
+  /// The rungs: as in that show; with the model from the mesh; by a table; and for a javelin, with only its
+  /// mass given.
   std::vector<ShowRung> rungsOf(Thing thing) const;
 
-  /// All of them in one show, at 60 Hz, each with a wind of its own. The origin of the model starts where the
-  /// throw does.
+  /// Plays all throws in one show, at 60 Hz, each with its own wind. The origin of the model starts at the
+  /// throw's start.
   Result<std::vector<Trajectory>> fly(const ShowRung& rung, const std::vector<Throw>& throws) const;
 
 private:
-  /// A body of that show, without what depends on the rung.
+  /// A body of that show, without the parts that depend on the rung.
   struct Body {
     std::string model;   ///< file, mass, nose
-    std::string matter;  ///< centre and inertia, as far as they are stated
+    std::string matter;  ///< centre and inertia, if stated
     std::string flight;  ///< flight, coefficients
   };
   std::filesystem::path assets_;

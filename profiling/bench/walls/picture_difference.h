@@ -1,5 +1,5 @@
 #pragma once
-/// How far two programs' pictures of the same frame are apart.
+/// Differences between two programs' pictures of the same frame.
 ///
 /// Threads  plain functions.
 
@@ -18,24 +18,24 @@ struct RgbPicture {
 
 /// A binary PPM file with 8 bits a channel.
 Result<RgbPicture> readPpm(const std::string& file);
-/// Whether it could be written.
+/// Returns false if it could not be written.
 bool writePpm(const std::string& file, const RgbPicture& picture);
 
 struct PictureDifference {
-  double beyond = 0;  ///< share of pixels of which a channel differs by more than `most`
+  double beyond = 0;  ///< share of pixels with a channel that differs by more than `most`
   int worst = 0;      ///< of all channels, of 255
 };
 /// Expects pictures of one size.
 PictureDifference difference(const RgbPicture& a, const RgbPicture& b, int most = 2);
 
-/// Of the views of one frame.
+/// Differences of the views of one frame.
 struct ViewsDifference {
   double frame = 0;      ///< share of the pixels of all views
   double worstView = 0;  ///< the greatest share of the pixels of one view
-  std::string view;      ///< which that is, "front_R"; empty: no view has any
+  std::string view;      ///< that view, "front_R"; empty: none has any
   int worst = 0;         ///< of all channels, of 255
 };
-/// Of the pictures PREFIX_WALL_EYE.ppm of the first walls, both eyes.
+/// Compares the pictures PREFIX_WALL_EYE.ppm of the first walls, both eyes.
 Result<ViewsDifference> differenceOfViews(const std::string& prefix, const std::string& other,
                                           std::size_t walls);
 

@@ -13,8 +13,8 @@ namespace {
 /// Scripts are no larger than 64 MiB.
 constexpr std::size_t kNodesInAFile = 100'000;
 
-/// Positions in whole nanometres, so that where the surface closes it does so exactly: what is open would be
-/// drawn from both sides.
+/// Positions in whole nanometres, so that closed surfaces close exactly: open ones would be drawn from both
+/// sides.
 std::string objText(const WallMesh& mesh) {
   std::string text = "mtllib paint.mtl\n";
   for (const WallVertex& v : mesh.vertices)
@@ -33,7 +33,7 @@ double degrees(double radians) {
   return radians * 180 / std::numbers::pi;
 }
 
-/// Of an angle that may have gone round any number of times: less than one turn.
+/// Returns an angle of any number of turns as less than one turn.
 double phaseOf(double radians) {
   return degrees(std::remainder(radians, 2 * std::numbers::pi));
 }
@@ -65,7 +65,7 @@ std::string roomText(const WallScene& scene, std::size_t walls) {
   return text;
 }
 
-/// What movedNode says, of every node from `first` to `end` that moves.
+/// Returns the script of every moving node from `first` to `end`, with the motion of movedNode().
 std::string movingNodes(const WallScene& scene, std::size_t first, std::size_t end) {
   std::string targets;
   std::vector<double> numbers;
@@ -85,7 +85,7 @@ std::string movingNodes(const WallScene& scene, std::size_t first, std::size_t e
                      degrees(0.8), targets);
 }
 
-/// All but the nodes.
+/// Returns the script without the nodes.
 std::string showText(std::size_t frames) {
   const Vec3 light = raised(0.3, 1, 0.5);
   std::string text = fmt::format("light( direction=\"{}\", colour=\"0.75, 0.75, 0.75\", shadows=off )\n"
@@ -99,7 +99,7 @@ std::string showText(std::size_t frames) {
   return text;
 }
 
-/// The nodes from `first` on, so many as a file holds.
+/// Returns the nodes from `first` on, as many as a file holds.
 std::string nodesText(const WallScene& scene, const std::vector<WallNode>& nodes, std::size_t first,
                       bool grouped) {
   const std::size_t cells = scene.tiny() ? 32 : 20;

@@ -7,9 +7,9 @@
 
 namespace stadion::bench {
 
-/// Writes show.evs, show.input, room.walls and the models to the folder. `grouped`: nodes stand in square
-/// cells, each with a group of its own. The visitor's way is known for `frames` frames. Returns why it could
-/// not.
+/// Writes show.evs, show.input, room.walls and the models to the folder. `grouped`: nodes are in square
+/// cells, each with a group of its own. The visitor's path covers `frames` frames. Returns the error if it
+/// fails.
 std::string writeWallScene(const std::string& folder, const WallScene& scene, std::size_t walls, bool grouped,
                            std::size_t frames);
 

@@ -1,7 +1,7 @@
 #pragma once
-/// The room of `stadion bench walls`, the platform that carries it about, and the visitor in it.
+/// The room of `stadion bench walls`, its moving platform, and the visitor in it.
 ///
-/// Frames   World and room +Z up; an eye looks along -Z, as OpenGL has it.
+/// Frames   World and room +Z up; an eye looks along -Z, as in OpenGL.
 /// Units    metres, seconds, radians.
 /// Threads  plain functions.
 
@@ -24,7 +24,7 @@ double platformHeadingAt(double t);  ///< about +Z
 Vec3 headAt(double t);               ///< in the room
 double headHeadingAt(double t);
 
-/// What one eye sees on one wall.
+/// One eye's view on one wall.
 struct WallView {
   Mat4 projection;  ///< eye to clip coordinates
   Mat4 view;        ///< World to eye

@@ -1,12 +1,12 @@
 #pragma once
-/// The scenes of `stadion bench walls`: what stands where, and its meshes.
+/// The scenes of `stadion bench walls`: their nodes and meshes.
 ///
-/// They are those of the OpenSceneGraph program beside (osg/osg_walls.cpp), which is +Y up: its (x, y, z) is
-/// (x, -z, y) here. Everything follows from the scene's letter, so that all programs draw the same pixels.
+/// They match the OpenSceneGraph program (osg/osg_walls.cpp), which is +Y up: its (x, y, z) is (x, -z, y)
+/// here. Everything follows from the scene's letter, so that all programs draw the same pixels.
 ///
-/// a   10 000 lumpy spheres of 100 triangles, standing still; seen as far as 75 m
+/// a   10 000 lumpy spheres of 100 triangles, standing still; viewing distance 75 m
 /// b   the same, every fifth moving
-/// c   100 000 tetrahedra, standing still; seen as far as 25 m
+/// c   100 000 tetrahedra, standing still; viewing distance 25 m
 ///
 /// Units    metres, seconds, radians; World is +Z up.
 /// Threads  plain functions.
@@ -23,7 +23,7 @@ namespace stadion::bench {
 
 struct WallScene {
   char letter = 'a';
-  // For curves over the number of nodes; 0: as the letter says.
+  // For curves over the number of nodes; 0: given by the letter.
   std::size_t count = 0, moving = 0;
   double reach = 0;  ///< [m]
 
@@ -36,7 +36,7 @@ struct WallScene {
   }
 };
 
-/// Where a node is, and which of the meshes it is.
+/// A node's place and mesh.
 struct WallNode {
   Vec3 position;
   double heading = 0;  ///< about +Z
@@ -46,16 +46,16 @@ struct WallNode {
 constexpr std::uint32_t kWallMeshes = 16;
 constexpr double kWallSceneRate = 60;  ///< frames a second of show time
 
-/// Of the scene at rest, in order.
+/// Returns the nodes of the scene at rest, in order.
 std::vector<WallNode> wallNodes(const WallScene& scene);
-/// Where a moving one is at time t.
+/// Returns the place of a moving node at time t.
 WallNode movedNode(const WallNode& rest, std::size_t number, double t);
 /// From +Y up to +Z up.
 inline Vec3 raised(double x, double y, double z) {
   return {x, -z, y};
 }
 
-/// Corners as the meshes have them, +Y up as model files are.
+/// Vertices as in the meshes, +Y up as in model files.
 struct WallVertex {
   std::array<double, 3> position, normal;
   std::array<std::uint8_t, 3> colour;  ///< sRGB

@@ -84,7 +84,7 @@ std::vector<WallsCase> tableCases(const WallsChoice& choice) {
   const auto add = [&](WallsCase c) {
     if (c.engine == "osg" && !choice.osg) return;
     if (c.engine == "floor" && !choice.floor) return;
-    // One thread is to do everything where stages are compared, and where the floor is.
+    // One thread does all work if stages or the floor are compared.
     if (c.engine == "stadion") c.workers = c.mode == "sequential" ? "thread" : choice.workers;
     all.push_back(std::move(c));
   };
@@ -98,7 +98,7 @@ std::vector<WallsCase> tableCases(const WallsChoice& choice) {
       if (s != "a") add(ourCase(s, flat, "STRICT", "sequential"));
       add(osgCase(s, flat, "SUBMIT", "DPC")), add(ourCase(s, flat, "SUBMIT"));
       add(osgCase(s, flat, "SUBMIT", "CTPC")), add(small(ourCase(s, flat, "STRICT")));
-      if (tiny && flat) continue;  // to the floor it is all the same
+      if (tiny && flat) continue;  // the floor does not depend on it
       add(floorCase(s, "STRICT")), add(floorCase(s, "SUBMIT"));
       add(oneWall(ourCase(s, flat, "STRICT"))), add(oneWall(floorCase(s, "STRICT")));
     }
@@ -117,7 +117,7 @@ std::vector<std::size_t> scalingNodes() {
 WallsCase scalingCase(std::size_t nodes, const std::string& engine) {
   WallsCase c = engine == "floor" ? floorCase("c", "STRICT") : ourCase("c", true, "STRICT", "sequential");
   c.nodes = nodes, c.moving = std::min<std::size_t>(100, nodes / 10);
-  c.far = 12;  // about one in a hundred is seen
+  c.far = 12;  // about one in a hundred is visible
   c.frames = 20;
   return c;
 }

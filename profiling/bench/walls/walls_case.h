@@ -3,7 +3,7 @@
 ///
 /// Class    STRICT  a draw for each visible node, nothing merged or left out
 ///          OPEN    anything, if 99.9 % of all pixels are within 2 of 255
-///          SUBMIT  as OPEN at 32 x 24 pixels: what is left where rasterising is not the limit
+///          SUBMIT  as OPEN at 32 x 24 pixels: the cost where rasterising is not the limit
 /// Units    metres; pixels.
 /// Threads  plain values and functions.
 
@@ -18,7 +18,8 @@ struct WallsCase {
   std::string kind = "STRICT";
   std::string scene = "a";
   bool flat = false;          ///< else nodes stand in cells with a group each
-  std::string mode;           ///< stadion: pipelined, sequential; osg: DPC, CTPC, ST; floor: its way
+  std::string mode;           ///< stadion: pipelined, sequential; osg: DPC, CTPC, ST; floor: its drawing
+                              ///< method
   std::string lp{};           ///< LP_NUM_THREADS; empty: the program chooses
   std::string pace = "free";  ///< stadion's
   std::string workers{};      ///< stadion's --wall-workers; empty: it chooses
@@ -34,21 +35,21 @@ WallsCase ourCase(const std::string& scene, bool flat, const std::string& kind,
                   const std::string& mode = "pipelined");
 WallsCase osgCase(const std::string& scene, bool flat, const std::string& kind, const std::string& mode);
 WallsCase floorCase(const std::string& scene, const std::string& kind, const std::string& way = "uniform");
-/// At the size of SUBMIT.
+/// Returns the case at the size of SUBMIT.
 WallsCase small(WallsCase of);
-/// Both eyes on the front wall, by one thread: what drawing a view costs in processor time.
+/// Both eyes on the front wall, by one thread: the processor time of drawing a view.
 WallsCase oneWall(WallsCase of);
 /// Frames begin on ticks.
 WallsCase lockedCase();
 WallsCase controlCase();
 
-/// Cases with the same name may be put together. "stadion c flat STRICT pipelined"
+/// Rows of cases with the same name may be combined. "stadion c flat STRICT pipelined"
 std::string nameOf(const WallsCase& c);
 
-/// What a round of the table plays, in order; those that are compared stand beside each other.
+/// The cases of a table's round, in order; compared cases are adjacent.
 struct WallsChoice {
   std::vector<std::string> scenes{"a", "b", "c"};
-  bool osg = true, floor = true;  ///< whether they are there
+  bool osg = true, floor = true;  ///< whether they are installed
   std::string workers{};          ///< for all of Stadion's
 };
 std::vector<WallsCase> tableCases(const WallsChoice& choice);

@@ -8,7 +8,7 @@ namespace {
 
 using Kind = WallsFinding::Kind;
 constexpr double kOtherPixels = 0.001;  ///< share that may be off by more than 2 of 255
-constexpr double kCalm = 1.1;           ///< p99 of a loop that only waits, of its median
+constexpr double kCalm = 1.1;           ///< p99 of a loop that only waits, relative to its median
 
 WallsFinding found(std::string what, std::optional<double> value, double limit, bool atLeast,
                    const std::string& why) {
@@ -45,7 +45,7 @@ std::string osgMode(const std::string& name) {
 
 void judgeSpeed(const Comparison& compare, const std::string& scene, bool flat, const std::string& kind,
                 double limit) {
-  // OPEN draws the same picture as STRICT does: OpenSceneGraph has one row for both.
+  // OPEN draws the same picture as STRICT: OpenSceneGraph has one row for both.
   const std::string best = bestOsg(compare.results, scene, flat, kind == "SUBMIT" ? "SUBMIT" : "STRICT");
   const std::string title = scene + (scene == "c" ? (flat ? " flat " : " grid ") : " ") + kind;
   compare.add(title + ": frames a second, of OpenSceneGraph's " + osgMode(best), ourCase(scene, flat, kind),
@@ -88,8 +88,8 @@ void judgePace(const WallsResults& results, std::vector<WallsFinding>& findings)
   findings.push_back(found("c flat STRICT on ticks: p99 of a frame, of its median", ours, 1.5, false, why));
 }
 
-/// The pixels of each view by themselves, where a thousandth of them is one at least; else those of all views
-/// of the frame together.
+/// Judges each view by itself if a thousandth of its pixels is at least one; otherwise all views of the frame
+/// together.
 void judgePictures(const WallsResults& results, const std::string& scene,
                    std::vector<WallsFinding>& findings) {
   constexpr double kRounding = 1e-9;

@@ -1,5 +1,5 @@
 #pragma once
-/// What has to hold between the rows of `stadion bench walls`, and whether it does.
+/// The conditions between the rows of `stadion bench walls`, and their results.
 ///
 /// Threads  plain functions.
 
@@ -12,20 +12,19 @@ struct WallsFinding {
   enum class Kind { Met, Missed, Void };  ///< Void: nothing to compare with
   Kind kind = Kind::Void;
   std::string what;  ///< "a STRICT: frames a second, of OpenSceneGraph's (DPC)"
-  double value = 0;  ///< of what was measured
+  double value = 0;  ///< the measured value
   double limit = 0;
   bool atLeast = true;  ///< else at most
-  std::string why{};    ///< why it is void
+  std::string why{};    ///< reason if it is void
 };
 
-/// OpenSceneGraph's fastest configuration of the pipelined ones, by frames a second; empty if none was
-/// measured.
+/// Returns OpenSceneGraph's fastest pipelined configuration, by frames a second; empty if none was measured.
 std::string bestOsg(const WallsResults& results, const std::string& scene, bool flat,
                     const std::string& kind);
 
-/// The lines of the table, for the scenes that were chosen.
+/// Judges the table, for the chosen scenes.
 std::vector<WallsFinding> judgeTable(const WallsResults& results, const std::vector<std::string>& scenes);
-/// Those of the curves: a million nodes.
+/// Judges the curves: a million nodes.
 std::vector<WallsFinding> judgeScaling(const WallsResults& results);
 
 std::string textOf(const std::vector<WallsFinding>& findings);

@@ -23,7 +23,7 @@ struct Group {
   bool flat;
   const char* kind;
   double leastFps;       ///< of OpenSceneGraph's
-  double mostProcessor;  ///< of OpenSceneGraph's; 0: nothing is asked
+  double mostProcessor;  ///< of OpenSceneGraph's; 0: no limit
 };
 
 constexpr Group kGroups[] = {
@@ -36,7 +36,7 @@ struct Bar {
   std::optional<double> value;
 };
 
-/// Stadion's, that of OpenSceneGraph's best, and bare OpenGL's.
+/// Stadion's bar, that of OpenSceneGraph's best, and bare OpenGL's.
 std::array<Bar, 3> barsOf(const WallsResults& results, const Group& g, const char* field) {
   const std::string kind = std::string(g.kind) == "SUBMIT" ? "SUBMIT" : "STRICT";
   const auto of = [&](const std::string& name) { return results.median(name, field); };
@@ -56,7 +56,7 @@ public:
   void add(const Group& g, double top, double limit) {
     const auto all = barsOf(results_, g, field_);
     const std::optional<double> theirs = all[1].value;
-    // Without OpenSceneGraph there is still something to be seen: the longest bar is then the measure.
+    // Without OpenSceneGraph the longest bar is the unit.
     const double one = theirs.value_or(std::max(all[0].value.value_or(0), all[2].value.value_or(0)));
     if (one <= 0) return;
     for (std::size_t i = 0; i < all.size(); ++i)
@@ -95,7 +95,7 @@ std::string legend(double x, double y, const char* colour, const char* what) {
   return svgBox(x, y - 10, 14, 11, colour) + svgText(x + 20, y, "start", what);
 }
 
-/// A curve with a dot at each place that was measured.
+/// A curve with a dot at each measured place.
 struct Curve {
   const char* name;
   const char* colour;

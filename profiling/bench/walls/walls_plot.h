@@ -1,5 +1,5 @@
 #pragma once
-/// The rows of `stadion bench walls` as pictures in SVG that need nothing beside them.
+/// The rows of `stadion bench walls` as self-contained SVG pictures.
 ///
 /// Threads  plain functions.
 
@@ -7,10 +7,9 @@
 
 namespace stadion::bench {
 
-/// Frames a second and processor time beside OpenSceneGraph's best, scene by scene, with what has to be
-/// reached.
+/// Frames a second and processor time beside OpenSceneGraph's best, scene by scene, with the limits.
 std::string wallsPlot(const WallsResults& results);
-/// What stages take over the number of nodes, and frames a second over the number of walls.
+/// Durations of stages over the number of nodes, and frames a second over the number of walls.
 std::string scalingPlot(const WallsResults& results);
 
 }  // namespace stadion::bench

@@ -87,7 +87,7 @@ nlohmann::json completed(const WallsCase& c, nlohmann::json row) {
     row["wall_workers"] = "thread";
     const double fps = row.value("fps", 0.0);
     if (fps > 0) row["cpu_ms_per_frame"] = 1e3 * row.value("cpu_cores", 0.0) / fps;
-    // Of up to 100 frames the longest is what 99 of 100 do not exceed.
+    // For up to 100 frames, p99 is the longest frame.
     if (c.frames <= 100 && row.contains("frame_ms_max")) row["frame_ms_p99"] = row["frame_ms_max"];
   }
   row["engine"] = c.engine;

@@ -28,7 +28,7 @@ std::optional<RecordHead> headIn(const nlohmann::json& line) {
   return head;
 }
 
-/// Why rows of `then` are not to be mixed with those of `now`; empty: they may.
+/// Returns why rows of `then` must not be mixed with those of `now`; empty: they may.
 std::string apart(const RecordHead& then, const RecordHead& now) {
   if (then.build != now.build) return "was measured with another build";
   if (then.machine != now.machine)

@@ -17,14 +17,14 @@ public:
   /// Expects a row with a "case".
   void add(nlohmann::json row);
 
-  /// How many rows a case has.
+  /// Returns the number of a case's rows.
   std::size_t count(const std::string& name) const;
   /// Over the rounds; nothing if no row has this number.
   std::optional<double> median(const std::string& name, const std::string& field) const;
-  /// What a number is to another of the same row, over the rounds.
+  /// Returns the ratio of two numbers of the same row, as the median over the rounds.
   std::optional<double> medianRatio(const std::string& name, const std::string& field,
                                     const std::string& to) const;
-  /// In the order in which they came first.
+  /// In the order of their first rows.
   const std::vector<std::string>& names() const { return names_; }
   const std::vector<nlohmann::json>& rowsOf(const std::string& name) const;
 

@@ -11,7 +11,7 @@ std::string cell(std::optional<double> value, int decimals) {
   return value ? fmt::format("{:.{}f}", *value, decimals) : "-";
 }
 
-/// What a case is compared with: OpenSceneGraph's best of the same scene at the same size.
+/// Returns the row to compare a case with: OpenSceneGraph's best of the same scene at the same size.
 std::string barFor(const nlohmann::json& row, const WallsResults& results) {
   const std::string engine = row.value("engine", "");
   if ((engine != "stadion" && engine != "osg") || row.value("walls", 0) != 4 || row.contains("nodes"))

@@ -7,9 +7,9 @@
 
 namespace stadion::bench {
 
-/// A line for each case: medians over the rounds, and what they are to OpenSceneGraph's best.
+/// A line for each case: medians over the rounds, and ratios to OpenSceneGraph's best.
 std::string tableOf(const WallsResults& results);
-/// How far the pictures are apart, a line for each comparison.
+/// The differences of the pictures, a line for each comparison.
 std::string picturesOf(const WallsResults& results);
 
 }  // namespace stadion::bench

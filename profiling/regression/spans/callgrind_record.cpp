@@ -13,8 +13,8 @@ std::string_view withoutBlanks(std::string_view text) {
   return text;
 }
 
-/// Reads the file line by line. Names may be shortened to a number, "ob=(3) /path/to/file" the first time and
-/// "ob=(3)" then.
+/// Reads the file line by line. Names may be shortened to a number: "ob=(3) /path/to/file" at first, then
+/// "ob=(3)".
 class Reader {
 public:
   explicit Reader(std::string_view object) : object_(object) {}
@@ -28,9 +28,9 @@ public:
     } else if (text.starts_with("ob=")) {
       ours_ = isOurs(text.substr(3));
     } else if (text.starts_with("cob=")) {
-      isOurs(text.substr(4));  // it may name a number for the first time
+      isOurs(text.substr(4));  // the line may define a number
     } else if (text.starts_with("calls=")) {
-      skip_ = true;  // the next line is what the called function cost
+      skip_ = true;  // the next line is the cost of the called function
     } else if (!text.empty() && (text[0] == '+' || text[0] == '-' || text[0] == '*' || isDigit(text[0]))) {
       if (!skip_ && ours_ && !label_.empty()) counts_[label_] += cost(text);
       skip_ = false;

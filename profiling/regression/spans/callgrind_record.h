@@ -1,12 +1,12 @@
 #pragma once
-/// What callgrind has counted, by the labels under which the program had it written down.
+/// Counts of callgrind, by the labels with which the program had them written.
 ///
-/// Only instructions of our own program count: those of the rasteriser, of code it makes at run time, and of
+/// Only instructions of our own program count. Those of the rasteriser, of code generated at run time, and of
 /// the system's libraries depend on the processor and on chance.
 ///
 /// Source   Valgrind's manual, "Callgrind format specification".
 /// Threads  free functions, any thread.
-/// Errors   a file that is none gives nothing.
+/// Errors   a file of another format gives nothing.
 
 #include <cstdint>
 #include <map>
@@ -15,11 +15,11 @@
 
 namespace stadion::regression {
 
-/// The command line of the program that was watched, its words with blanks between them; empty if none is
-/// said.
+/// Returns the command line of the measured program, its words separated by blanks; empty if the file has
+/// none.
 std::string_view commandOf(std::string_view callgrindFile);
 
-/// Instructions by label, of the functions in the object file with this real path.
+/// Returns instructions by label, for functions in the object file with this real path.
 std::map<std::string, double> instructionsByLabel(std::string_view callgrindFile, std::string_view object);
 
 }  // namespace stadion::regression

@@ -1,7 +1,7 @@
 #pragma once
-/// What a program can ask of valgrind's tool callgrind while it runs under it: to write down the instructions
-/// counted since the last time, under a label, and to begin counting. Anywhere else it does nothing and costs
-/// some ten instructions.
+/// Requests to valgrind's tool callgrind from a program that runs under it: write the instructions counted
+/// since the last request under a label, and begin counting. Elsewhere it does nothing and costs some ten
+/// instructions.
 ///
 /// Source   Valgrind's manual, "The client request mechanism": valgrind recognises four rotations of a
 ///          register that leave it as it was. Requests of callgrind.h: 'C', 'T', then DUMP_STATS_AT = 3,

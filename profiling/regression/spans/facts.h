@@ -1,8 +1,8 @@
 #pragma once
-/// What a run told that is the same on every run of the same program: to be compared exactly.
+/// Facts of a run that are equal in every run of the same program: they are compared exactly.
 ///
 /// Threads  plain values, any thread.
-/// Errors   a summary that is none gives nothing.
+/// Errors   an invalid summary gives nothing.
 
 #include <map>
 #include <optional>
@@ -17,11 +17,11 @@ struct RunFacts {
   NamedFacts state;      ///< "state hash" of the last frame, "history hash" of all
   NamedFacts images;     ///< "image WALL EYE": of the last frame's pictures
   NamedFacts counts;     ///< "frames", "nodes visited per frame", "triangles WALL EYE" ...
-  std::string renderer;  ///< who drew: images are the same only from the same one
-  double rate = 0;       ///< [1/s] that was asked for; 0: not told
+  std::string renderer;  ///< the renderer: images are equal only with the same one
+  double rate = 0;       ///< [1/s] requested; 0: unknown
 };
 
-/// From the object that `stadion run --json` prints.
+/// Reads the object that `stadion run --json` prints.
 std::optional<RunFacts> factsOf(const std::string& summaryJson);
 
 }  // namespace stadion::regression

@@ -28,7 +28,7 @@ std::optional<InstructionCounter> InstructionCounter::open(std::string& why) {
   counted.type = PERF_TYPE_HARDWARE, counted.size = sizeof counted;
   counted.config = PERF_COUNT_HW_INSTRUCTIONS;
   counted.exclude_kernel = 1, counted.exclude_hv = 1;
-  // Not shared with others in turns: then it would count a part and guess the rest.
+  // A counter shared in turns would count a part and guess the rest.
   counted.pinned = 1;
   const long file = syscall(SYS_perf_event_open, &counted, 0, -1, -1, PERF_FLAG_FD_CLOEXEC);
   if (file < 0) return why = whyNotByHardware(errno), std::nullopt;

@@ -1,10 +1,11 @@
 #pragma once
-/// Counts the instructions that a thread executes in user space, by the processor's own counter, where there
-/// is one and the system lets it be read.
+/// Counts a thread's instructions in user space with the processor's counter, if it exists and the system
+/// permits reading it.
 ///
 /// Source   perf_event_open(2): PERF_COUNT_HW_INSTRUCTIONS, without the kernel's and a hypervisor's.
-/// Threads  opened, and read, by the thread that is counted.
-/// Errors   open() says why nothing can be counted: virtual machines and containers often hide the counters.
+/// Threads  opened and read by the measured thread.
+/// Errors   open() says why counting is not possible: virtual machines and containers often hide the
+///          counters.
 
 #include "engine/base/file_descriptor.h"
 
@@ -16,10 +17,11 @@ namespace stadion::regression {
 
 class InstructionCounter {
 public:
-  /// Counts the calling thread from now on. Nothing, with the reason in `why`, if it cannot.
+  /// Counts the calling thread from now on. Returns nothing, with the reason in `why`, if this is not
+  /// possible.
   static std::optional<InstructionCounter> open(std::string& why);
 
-  /// Executed so far.
+  /// Returns the instructions so far.
   std::uint64_t now() const;
 
 private:
@@ -27,9 +29,9 @@ private:
   FileDescriptor counter_;
 };
 
-/// Why this machine's instructions cannot be counted by hardware; empty if they can.
+/// Returns why this machine cannot count instructions by hardware; empty if it can.
 std::string whyNotByHardware();
-/// The same of an error number that perf_event_open() gave.
+/// Returns the same for an error number of perf_event_open().
 std::string whyNotByHardware(int error);
 
 }  // namespace stadion::regression

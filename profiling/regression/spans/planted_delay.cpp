@@ -66,7 +66,7 @@ std::optional<PlantedDelay> PlantedDelay::parse(const std::string& text) {
 bool PlantedDelay::isIn(std::uint64_t frame) const {
   if (!atRandom) return frame >= first && (frame - first) % every == 0;
   std::uint64_t x = frame ^ (static_cast<std::uint64_t>(getpid()) << 32);
-  x = (x ^ (x >> 31)) * 0x9E3779B97F4A7C15ULL;  // mixed, so that every run has other frames
+  x = (x ^ (x >> 31)) * 0x9E3779B97F4A7C15ULL;  // mixed, so that every run chooses other frames
   x = (x ^ (x >> 29)) * 0xBF58476D1CE4E5B9ULL;
   return (x >> 32) % every == 0;
 }
@@ -78,7 +78,7 @@ void PlantedDelay::spend() const {
   while (threadNanoseconds() < end) burn(1000);
 }
 
-// A chain of multiplications: each needs the one before, so that no processor does several at a time.
+// A chain of multiplications: each needs the previous result, so no processor runs several at a time.
 void burn(std::uint64_t iterations) {
   std::uint64_t x = 1;
   for (std::uint64_t i = 0; i < iterations; ++i) x = x * 6364136223846793005ULL + 1442695040888963407ULL;

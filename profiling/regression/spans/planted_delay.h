@@ -1,6 +1,6 @@
 #pragma once
-/// Work without use, put somewhere on purpose, to see whether it is found. Only a probe that is told to does
-/// it: nothing of this is in a run that nobody measures.
+/// Useless work that is planted on purpose, to test whether it is found. It runs only if a probe requests it,
+/// so runs without a probe never contain it.
 ///
 /// Threads  a plain value; burn() on any thread.
 
@@ -16,14 +16,14 @@ struct PlantedDelay {
   enum class Where { Simulate, Cull, Draw, Frame };  ///< Frame: between the stages
   Where where = Where::Cull;
   std::string name;                ///< of the node, or the wall
-  NodeRef node{};                  ///< Simulate: which one that is
-  std::uint32_t wall = 0;          ///< Cull, Draw: likewise
-  std::uint64_t iterations = 0;    ///< of burn(), in each frame that has it
-  std::uint32_t milliseconds = 0;  ///< instead of iterations: this much time
-  bool asleep = false;             ///< the time is slept, not worked
-  std::uint32_t every = 1;         ///< frames: it is in one of so many
-  std::uint32_t first = 0;         ///< the first frame that has it
-  bool atRandom = false;           ///< each frame has it with probability 1/every, other frames in each run
+  NodeRef node{};                  ///< Simulate: the node with this name
+  std::uint32_t wall = 0;          ///< Cull, Draw: the wall
+  std::uint64_t iterations = 0;    ///< of burn(), in each chosen frame
+  std::uint32_t milliseconds = 0;  ///< instead of iterations: a duration
+  bool asleep = false;             ///< sleeps instead of working
+  std::uint32_t every = 1;         ///< one frame of so many is chosen
+  std::uint32_t first = 0;         ///< the first chosen frame
+  bool atRandom = false;           ///< chooses each frame with probability 1/every, other frames in each run
 
   /// "simulate:NODE=AMOUNT", "cull:WALL=AMOUNT", "draw:WALL=AMOUNT" or "frame:=AMOUNT". The amount is
   /// "ITERATIONS", "20ms" or "sleep20ms". Behind it "/EVERY" or "/EVERY+FIRST" choose frames, "~EVERY"
@@ -34,7 +34,7 @@ struct PlantedDelay {
   void spend() const;
 };
 
-/// The same instructions for the same count, whatever the machine.
+/// Executes the same instructions for the same count, on every machine.
 void burn(std::uint64_t iterations);
 
 /// Processor time of the thread [ns].

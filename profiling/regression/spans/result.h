@@ -1,5 +1,5 @@
 #pragma once
-/// What a suite has found: one check for each thing that was compared.
+/// The results of a suite: one check for each comparison.
 ///
 /// Threads  plain values, any thread.
 
@@ -18,45 +18,45 @@ enum class Outcome {
 struct Check {
   std::string metric;  ///< "state", "counts", "times of draw front" ...
   Outcome outcome = Outcome::Passed;
-  std::string said;                    ///< what was found, in a sentence
-  std::string culprit{};               ///< the node and stage that moved, if a figure did
-  std::vector<std::string> figures{};  ///< if it failed: which ("app [ms]", "triangles front left")
-  bool amongModes = false;             ///< modes of this run with each other, not with what was before
+  std::string said;                    ///< the result, in a sentence
+  std::string culprit{};               ///< the node and stage that changed, if a figure did
+  std::vector<std::string> figures{};  ///< the failed figures ("app [ms]", "triangles front left")
+  bool amongModes = false;             ///< compares modes of this run, not with earlier results
 };
 
 struct CaseResult {
   std::string name;  ///< CASE/MODE
   std::vector<Check> checks;
   std::string fault{};   ///< why it could not be played; then there are no checks
-  bool refused = false;  ///< the fault is the user's: a show with mistakes
+  bool refused = false;  ///< the error is the user's: a show with errors
   std::map<std::string, std::vector<double>> milliseconds{};  ///< processor time by stage, round by round
   std::map<std::string, double> instructions{};               ///< by stage, a frame
   std::map<std::string, std::string> facts{};                 ///< hashes and counts
-  double seconds = 0;                                         ///< that it took
-  double processorSeconds = 0;                                ///< of the programs that were played
-  std::map<std::string, std::vector<double>> elapsedMs{};     ///< as `milliseconds`, by the clock on the wall
+  double seconds = 0;                                         ///< duration
+  double processorSeconds = 0;                                ///< of the played programs
+  std::map<std::string, std::vector<double>> elapsedMs{};     ///< as `milliseconds`, by real time
   /// Of the typical round: "p99 of draw of wall front, wall-clock time [ms]", "late frames of frame, ...".
   std::map<std::string, double> frameFigures{};
-  std::vector<std::string> warnings{};  ///< of the show, as it said them: "FILE:LINE:COLUMN: warning: ..."
+  std::vector<std::string> warnings{};  ///< the show's warnings: "FILE:LINE:COLUMN: warning: ..."
 
   bool failed() const;
 };
 
 struct SuiteResult {
   std::string suite;    ///< file
-  std::string program;  ///< that was played
-  std::string against;  ///< what it was compared with: another program, a baseline; may be empty
+  std::string program;  ///< the played program
+  std::string against;  ///< compared with: another program, a baseline; may be empty
   std::string when;     ///< UTC, ISO 8601
   std::vector<CaseResult> cases;
 
-  /// One more case; what earlier ones have warned of in the same words is not said again.
+  /// Adds a case, without warnings that earlier cases had in the same words.
   void add(CaseResult result);
   std::size_t count(Outcome outcome) const;
-  /// Whether anything was compared with what was before.
+  /// Returns true if anything was compared with earlier results.
   bool compared() const;
   std::size_t warnings() const;
   std::size_t faults() const;  ///< cases that could not be played
-  bool refused() const;        ///< all of these for mistakes of the user's
+  bool refused() const;        ///< all of these are the user's errors
 };
 
 }  // namespace stadion::regression

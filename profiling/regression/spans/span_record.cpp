@@ -116,7 +116,7 @@ void giveInstructions(std::vector<SpanRow>& rows, const std::map<std::string, do
   std::size_t frames = 1;
   for (const SpanRow& r : rows)
     if (r.isStage() && r.stage == "app")
-      frames = std::max<std::size_t>(3, r.count) - 2;  // the first two go by
+      frames = std::max<std::size_t>(3, r.count) - 2;  // the first two are left out
   for (std::size_t i = 0; i < rows.size(); ++i)
     if (const auto at = byLabel.find("row " + std::to_string(i)); at != byLabel.end())
       rows[i].instructions = at->second / static_cast<double>(frames);

@@ -96,8 +96,8 @@ void SpanTimes::ended(Span what) {
   }
 }
 
-// A node's cycle may simulate in two parts: once is enough. The clock on the wall costs next to nothing to
-// read, so that what is planted is what burn() takes.
+// A node's cycle may simulate in two parts: the delay is planted once. Reading the real-time clock is nearly
+// free, so the planted time is that of burn().
 void SpanTimes::plantIn(std::uint64_t frame) {
   if (!options_.planted->isIn(frame)) return;
   {
@@ -112,7 +112,7 @@ void SpanTimes::plantIn(std::uint64_t frame) {
   planted_.push_back(static_cast<std::uint64_t>(std::chrono::nanoseconds(took).count()));
 }
 
-/// Whether what is planted lengthens this stage.
+/// Returns true if the planted delay lengthens this stage.
 bool SpanTimes::isPlanted(const Key& key) const {
   if (key.node.valid() || planted_.empty()) return false;
   return isPlantedIn(options_.planted, key.stage, key.wall) ||
@@ -129,7 +129,7 @@ void SpanTimes::stageEnded(const Open& open) {
   if (open.stage.stage == Span::App) closeFrame(open.frame);
 }
 
-/// Of the whole frame; where two runs take turns, without the wait for the other one.
+/// The whole frame; if two runs alternate, without the wait for the other run.
 void SpanTimes::frameEnded(std::uint64_t frame) {
   const std::lock_guard lock(mutex_);
   const Clock::time_point now = Clock::now();
@@ -169,13 +169,13 @@ void SpanTimes::closeFrame(std::uint64_t frame) {
   touched_.clear();
 }
 
-// Whatever was executed since the boundary before belongs to this row, or to nobody.
+// Instructions since the previous boundary belong to this row, or to none.
 void SpanTimes::boundary(const Cost* cost) {
   if (!counting_) return;
   if (options_.instructions) {
     const std::uint64_t now = options_.instructions();
     if (cost && now > counted_) executed_[cost->row] += static_cast<double>(now - counted_);
-    counted_ = options_.instructions();  // what was done here is nobody's
+    counted_ = options_.instructions();  // instructions of this function belong to no row
     return;
   }
   char label[32];

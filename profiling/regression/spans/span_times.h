@@ -53,7 +53,7 @@ private:
     NodeRef node;
     auto operator<=>(const Key&) const = default;
   };
-  /// Of one frame: processor time [ns], and the duration by the clock on the wall.
+  /// One frame: processor time [ns], and real time.
   struct OfFrame {
     std::uint64_t frame = 0, processor = 0;
     Clock::duration elapsed{};
@@ -83,17 +83,17 @@ private:
   void boundary(const Cost* cost);
 
   SpanTimesOptions options_;
-  std::mutex mutex_;  ///< of what follows
+  std::mutex mutex_;  ///< guards the members below
   std::map<std::thread::id, Open> open_;
   std::map<Key, Cost> costs_;
-  std::vector<Cost*> touched_;  ///< nodes, in this frame
-  Cost* stage_ = nullptr;       ///< that is under way, where one thread does all
+  std::vector<Cost*> touched_;  ///< nodes visited in this frame
+  Cost* stage_ = nullptr;       ///< under way, if one thread does all work
   bool counting_ = false;
   std::uint64_t counted_ = 0;                 ///< at the last boundary
   std::map<std::size_t, double> executed_{};  ///< by row
   std::uint64_t appFrame_ = kNoFrame, plantedFrame_ = kNoFrame;
   std::vector<std::uint64_t> planted_;
-  Clock::time_point frameEndedAt_{};  ///< the frame before; moved on by what was waited since
+  Clock::time_point frameEndedAt_{};  ///< end of the previous frame; moved by later waiting
   std::vector<std::pair<std::uint64_t, Clock::duration>> wholeFrames_;
 };
 

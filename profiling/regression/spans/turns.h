@@ -1,10 +1,10 @@
 #pragma once
-/// Two runs that take turns, frame by frame: what else the machine does in a millisecond falls on both alike.
-/// The two hold the ends of a socket; whoever has read a byte from it may go on.
+/// Lets two runs alternate frame by frame, so that other load of the machine in a millisecond affects both
+/// alike. Each has one end of a socket; a run that has read a byte from it may continue.
 ///
 /// Ownership  borrows the descriptor.
 /// Threads    one at a time.
-/// Errors     when the other one has ended, or was never there, nobody is waited for.
+/// Errors     if the other run has ended, or never started, it does not wait.
 
 namespace stadion::regression {
 
@@ -13,7 +13,7 @@ public:
   explicit Turns(int socket) : socket_(socket) {}
   /// Waits until it is our turn.
   void take();
-  /// It is the other one's turn.
+  /// Gives the turn to the other run.
   void give();
 
 private:

@@ -3,7 +3,7 @@
 namespace stadion::regression {
 namespace {
 
-/// A summary has these without being asked.
+/// Every summary has these anyway.
 bool isInEverySummary(Count what) {
   return what == Count::Visits || what == Count::Messages || what == Count::Calls ||
          what == Count::Instances || what == Count::Triangles;

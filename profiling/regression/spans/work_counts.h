@@ -1,8 +1,9 @@
 #pragma once
-/// What a run's frames counted beside what every summary has: spheres tested and seen, casters of shadows,
-/// pixels, impacts, contacts, substeps, records published. Work, not time: the same on every machine.
+/// Counts of a run's frames that are not in every summary: spheres tested and seen, casters of shadows,
+/// pixels, impacts, contacts, substeps, records published. They count work, not time, and are equal on every
+/// machine.
 ///
-/// Threads  told on the threads that do the work; read when the run is over.
+/// Threads  called on the threads that do the work; read when the run is over.
 /// Errors   none.
 
 #include "engine/core/frame_probe.h"
@@ -23,17 +24,17 @@ public:
   void ended(Span) override {}
   void counted(Count what, std::uint64_t amount, NodeRef node) override;
 
-  /// Of all frames, by name: "tested front", "pixels front left", "contacts".
+  /// Returns the sums over all frames, by name: "tested front", "pixels front left", "contacts".
   std::map<std::string, double> totals(const std::vector<std::string>& walls) const;
 
 private:
-  /// Where a thread is.
+  /// A thread's position.
   struct Place {
     std::uint32_t wall = kNoWall;
     int eye = -1;  ///< 0 left or the only one, 1 right; -1: in none
   };
 
-  mutable std::mutex mutex_;  ///< of what follows
+  mutable std::mutex mutex_;  ///< guards the members below
   std::map<std::thread::id, Place> places_;
   std::map<std::tuple<Count, std::uint32_t, int>, std::uint64_t> totals_;
 };

@@ -47,7 +47,7 @@ std::vector<Trial> trialsOf(std::size_t planted, std::size_t same) {
   return trials;
 }
 
-// Every one of the nodes has its turn before one has a second.
+// Every node gets one turn before any gets a second.
 std::optional<PlantedDelay> plantedIn(const Trial& trial, const std::vector<SpanRow>& rows,
                                       const StagePrices& prices, double share) {
   PlantedDelay planted;
@@ -106,7 +106,7 @@ std::vector<TrialResult> readTrials(const std::string& text) {
                      j.at("right"), j.at("seconds"), j.at("by"), j.at("share"), j.at("lengthened"),
                      j.value("program", "")});
     } catch (const Json::exception&) {
-      // Half a line, of an experiment that was interrupted.
+      // An incomplete line, from an interrupted experiment.
     }
     at = end + 1;
   }

@@ -11,7 +11,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// Counts alone: hashes are no figures.
+/// Adds only counts: hashes are no figures.
 void addCounts(const CaseResult& c, HistoryEntry::Case& kept) {
   for (const auto& [name, value] : c.facts) {
     char* end = nullptr;
@@ -63,7 +63,7 @@ std::vector<HistoryEntry> readHistory(const std::string& text) {
     try {
       all.push_back(entryOf(Json::parse(text.substr(at, end - at))));
     } catch (const Json::exception&) {
-      // Half a line, of a run that was killed.
+      // An incomplete line, from a run that was killed.
     }
     at = end + 1;
   }

@@ -1,8 +1,8 @@
 #pragma once
-/// What a suite found, run after run: one JSON object a line, appended to.
+/// The results of a suite, run after run: one JSON object a line, appended.
 ///
 /// Threads  plain values, any thread.
-/// Errors   lines that are none are passed over: a line may be half written.
+/// Errors   invalid lines are skipped: a line may be incomplete.
 
 #include "profiling/regression/spans/result.h"
 
@@ -17,7 +17,7 @@ namespace stadion::regression {
 struct HistoryEntry {
   struct Case {
     bool failed = false;
-    std::set<std::string> failedFigures{};  ///< those that were not as they should be
+    std::set<std::string> failedFigures{};  ///< figures that failed
     std::map<std::string, double> figures;  ///< "app [ms]", "triangles front left" ...
   };
   std::string when, program;

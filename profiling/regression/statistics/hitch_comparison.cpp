@@ -16,10 +16,10 @@ namespace stadion::regression {
 namespace {
 
 constexpr std::array<double, 3> kLevels{1000, 4000,
-                                        16000};  ///< by so much a long frame exceeds its usual time [us]
-constexpr double kLeastShare = 0.1;              ///< and by this share of it
-constexpr double kDeviations = 6;                ///< and by so many usual deviations
-constexpr double kLeastTail = 100;               ///< [us]: percentiles that differ by less are the same
+                                        16000};  ///< excess of a long frame over its usual time [us]
+constexpr double kLeastShare = 0.1;              ///< and as a share of it
+constexpr double kDeviations = 6;                ///< and in usual deviations
+constexpr double kLeastTail = 100;               ///< [us]: smaller differences of percentiles do not count
 
 /// The runs in which a frame was long.
 struct Mark {
@@ -45,7 +45,7 @@ double shareOf(const RunSet& runs, std::size_t all) {
   return static_cast<double>(runs.count()) / static_cast<double>(std::max<std::size_t>(1, all));
 }
 
-/// In how much more of the runs called "now" than of the others.
+/// Returns how much more often it occurs in the runs called "now" than in the others.
 double moreOften(const RunSet& runs, const RunSet& now, const RunDesign& design) {
   return shareOf(runs & now, design.now) - shareOf(runs & ~now, design.before);
 }
@@ -61,7 +61,7 @@ struct Prepared {
   std::vector<Mark> marks;
 };
 
-/// The first question, of all stages of a family.
+/// Answers the first question for all stages of a family.
 void findSameFrames(const std::vector<Prepared>& family, std::vector<StageFrames*>& found,
                     const RunDesign& design, const std::vector<RunSet>& labellings, double alarm) {
   std::set<RunSet, LessRunSet> patterns;
@@ -116,7 +116,7 @@ public:
       if (sizes[r] == 0) ranks_[r] = 0;
   }
 
-  /// The larger, the more "now" exceeds the rest; nothing if the typical run does not by `least`.
+  /// Larger if "now" exceeds the rest by more; nothing if the typical run exceeds it by less than `least`.
   double score(const RunSet& now) const {
     if (design_.paired) {
       std::vector<double> differences;
@@ -156,7 +156,7 @@ private:
   RunDesign design_;
 };
 
-/// How many long frames each run has.
+/// Returns the number of long frames of each run.
 std::vector<double> longCounts(const Prepared& p, std::size_t level) {
   std::vector<double> counts(p.series.runs.size(), 0);
   for (const Mark& m : p.marks)
@@ -173,7 +173,7 @@ bool isCount(const std::string& figure) {
   return figure == kLateFrames || isLongCount(figure);
 }
 
-/// A figure in all runs, if all have it.
+/// Returns a figure of all runs, if all have it.
 std::optional<std::vector<double>> inAllRuns(const StageSeries& s, const std::string& figure) {
   std::vector<double> values;
   for (const RunFigures& run : s.figures) {
@@ -210,8 +210,8 @@ std::vector<AskedFigure> figuresToAsk(const std::vector<Prepared>& family, doubl
   return asked;
 }
 
-/// The second question, of all stages of a family: each figure has its own distribution over the labellings;
-/// the least probability among them answers for all.
+/// Answers the second question for all stages of a family. Each figure has its own distribution over the
+/// labellings; the least probability among them answers for all.
 void compareFigures(const std::vector<Prepared>& family, std::vector<StageFrames*>& found,
                     const RunDesign& design, const std::vector<RunSet>& labellings, const HitchOptions& o) {
   const std::vector<AskedFigure> asked = figuresToAsk(family, o.tolerance);
@@ -230,7 +230,7 @@ void compareFigures(const std::vector<Prepared>& family, std::vector<StageFrames
     for (std::size_t i = 0; i < scores.size(); ++i) least[i] = std::min(least[i], probability(scores[i]));
     own.push_back(probability(scores.front()));
   }
-  for (double& p : least) p = -p;  // the smaller, the more there is to see
+  for (double& p : least) p = -p;  // smaller means stronger evidence
   const RunSet now = design.trueNow();
   for (std::size_t i = 0; i < asked.size(); ++i) {
     std::vector<double> before, after;
@@ -252,7 +252,7 @@ const std::map<std::uint64_t, double>& timesOf(const SpanRow& row, TimeKind kind
   return kind == TimeKind::Processor ? row.frames : row.elapsed;
 }
 
-/// Of the rows that each list of `runs` has, by one clock.
+/// Adds the rows that each list of `runs` has, by one clock.
 void addSeries(std::vector<StageSeries>& all, const std::vector<const std::vector<SpanRow>*>& runs,
                double frameBudgetUs) {
   for (const SpanRow& row : *runs.front())
@@ -270,7 +270,7 @@ void addSeries(std::vector<StageSeries>& all, const std::vector<const std::vecto
     }
 }
 
-/// The frames of a run to look into: those that are long in all runs, or its own longest.
+/// Returns the frames of a run to explain: those that are long in all runs, or its own longest.
 std::vector<std::size_t> framesToExplain(const StageFrames& found, const std::vector<double>& us) {
   if (found.hitches) return found.same.frames;
   std::vector<double> sorted;
@@ -285,7 +285,7 @@ std::vector<std::size_t> framesToExplain(const StageFrames& found, const std::ve
   return frames;
 }
 
-/// By how much a row exceeds its typical frame in these frames, in the middle of them [us].
+/// Returns the median excess of a row over its typical frame in these frames [us].
 double excessIn(const std::vector<double>& us, const std::vector<std::size_t>& frames, std::size_t all) {
   std::vector<double> typical, there;
   for (const double v : us)
@@ -308,7 +308,7 @@ std::string valueOf(const std::string& figure, double value) {
   return isCount(figure) ? fmt::format("{:g}", value) : fmt::format("{:.4g} ms", value / 1000);
 }
 
-/// Of the numbers of long frames that are larger, the one of the longest ones.
+/// Of several larger numbers of long frames, keeps the one with the longest frames.
 std::vector<FigureShift> worseFiguresOf(const StageFrames& f) {
   std::vector<FigureShift> worse;
   for (const FigureShift& s : f.figures) {
@@ -319,7 +319,7 @@ std::vector<FigureShift> worseFiguresOf(const StageFrames& f) {
   return worse;
 }
 
-/// What fails; else the figures in short.
+/// Returns the failures; else the figures in short.
 std::string saidOf(const StageFrames& f) {
   std::vector<std::string> parts;
   if (f.hitches)
@@ -442,7 +442,7 @@ std::vector<Check> checksOf(const std::vector<StageFrames>& found, const std::ve
     if (check == checks.end())
       check = checks.insert(check,
                             {metric, Outcome::Passed, fmt::format("against {} in {} rounds", with, rounds)});
-    // What failed comes first, and alone.
+    // Failures come first, and alone.
     if (f.worse() && check->outcome == Outcome::Passed)
       check->outcome = Outcome::Failed, check->culprit = culprits[i], check->said = saidOf(f);
     else if (f.worse() || check->outcome == Outcome::Passed)

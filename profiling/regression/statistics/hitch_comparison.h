@@ -1,15 +1,15 @@
 #pragma once
-/// Are some frames longer than before, although the typical frame is not? Two questions:
+/// Finds frames that became longer although the typical frame did not. It asks two questions:
 ///
 /// 1. The same frames: is frame n long in more runs of "now" than of "before"? A frame is long if it exceeds
-///    what the same frame usually takes, in all runs of both sides, by 1, 4 or 16 ms (and by a tenth, and by
+///    the usual time of the same frame, in all runs of both sides, by 1, 4 or 16 ms (and by a tenth, and by
 ///    six times the usual deviation). The machine's own interruptions fall on other frames in each run.
 /// 2. Any frames: are mean, 95th and 99th percentile, longest frame, the number of late frames, or the number
 ///    of long frames of a run larger than before, by more than the tolerance?
 ///
-/// Each question is asked of processor time and of the clock on the wall: four families. Each family answers
-/// for all its stages, frames and figures together by a permutation test (labellings.h), so that it raises a
-/// false alarm with probability `kHitchAlarm` at most.
+/// Each question is asked for processor time and for real time: four families. Each family answers for all
+/// its stages, frames and figures together by a permutation test (labellings.h). It raises a false alarm with
+/// probability `kHitchAlarm` at most.
 ///
 /// Threads  free functions, any thread.
 
@@ -29,20 +29,20 @@ constexpr double kHitchAlarm = 0.0025;  ///< of each family: 1 % together
 /// The same frames are longer.
 struct LongFrames {
   std::vector<std::size_t> frames;
-  double excessUs = 0;         ///< how much longer, in the middle of them [us]
+  double excessUs = 0;         ///< median excess [us]
   double before = 0, now = 0;  ///< share of the runs in which they are long [1]
-  double probability = 1;      ///< of as much by chance, in any stage and frame
+  double probability = 1;      ///< of the same result by chance, in any stage and frame
 };
 
 /// A figure of the runs is larger.
 struct FigureShift {
   std::string figure;
   double before = 0, now = 0;  ///< of the typical run: [us], or frames
-  double probability = 1;      ///< of as much by chance, in any stage and figure
+  double probability = 1;      ///< of the same result by chance, in any stage and figure
   bool worse = false;
 };
 
-/// What was found of one stage by one clock.
+/// The result for one stage by one clock.
 struct StageFrames {
   std::string stage;  ///< its key
   std::string name;
@@ -63,19 +63,19 @@ struct HitchOptions {
 std::vector<StageFrames> compareFrames(const std::vector<StageSeries>& series, const RunDesign& design,
                                        const HitchOptions& options);
 
-/// The series of rounds of two builds, of stages of which all rounds tell. `frameBudgetUs`: what is longer is
+/// Returns the series of rounds of two builds, for stages in all rounds. `frameBudgetUs`: a longer frame is
 /// late.
 std::vector<StageSeries> seriesOf(const std::vector<Round>& rounds, double frameBudgetUs);
-/// The same of the rounds of one build: its `now`.
+/// The same for the rounds of one build: its `now`.
 std::vector<StageSeries> seriesOfNow(const std::vector<Round>& rounds, double frameBudgetUs);
 
-/// The figures of the typical run, by "p99 of STAGE, CLOCK [ms]" or "late frames of STAGE, CLOCK".
+/// Returns the figures of the typical run, by "p99 of STAGE, CLOCK [ms]" or "late frames of STAGE, CLOCK".
 std::map<std::string, double> typicalFigures(const std::vector<StageSeries>& series);
 
-/// Who takes the time in the long frames: a node of App; of the whole frame the stage.
+/// Returns the cause of the long frames: a node of App; for the whole frame, a stage.
 std::string culpritOf(const StageFrames& found, const std::vector<Round>& rounds);
 
-/// One check for each stage. `culprits`: by index of `found`.
+/// Returns one check for each stage. `culprits`: by index of `found`.
 std::vector<Check> checksOf(const std::vector<StageFrames>& found, const std::vector<std::string>& culprits,
                             const std::string& with, std::size_t rounds);
 

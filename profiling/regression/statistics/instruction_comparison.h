@@ -1,6 +1,6 @@
 #pragma once
-/// Instructions of two builds, or of one and its baseline: the same on every run but for a little, so that
-/// one run of each is enough and the machine may be as busy as it likes.
+/// Compares instructions of two builds, or of one and its baseline. They are almost equal in every run, so
+/// one run of each is enough, even on a busy machine.
 ///
 /// Threads  free functions, any thread.
 
@@ -15,22 +15,22 @@
 
 namespace stadion::regression {
 
-constexpr double kFewest = 20'000;  ///< instructions a frame: a stage that has fewer is not judged
+constexpr double kFewest = 20'000;  ///< instructions a frame: a stage with fewer is not judged
 
 struct InstructionShift {
   std::string name;            ///< of the stage
   double before = 0, now = 0;  ///< a frame
   bool more = false, fewer = false;
-  std::string culprit{};  ///< if more: the node in the stage that moved, or that none did
+  std::string culprit{};  ///< if there are more: the node in the stage that changed, or that none did
 
-  /// Infinite where there were none.
+  /// Infinite if there were none before.
   double shift() const { return now == before ? 0 : before > 0 ? now / before - 1 : HUGE_VAL; }
 };
 
 /// The stages' instructions a frame, by name.
 std::map<std::string, double> stageInstructions(const std::vector<SpanRow>& rows);
 
-/// What there was before: of stages by name, and of their nodes, as far as they are known.
+/// The earlier counts: of stages by name, and of their nodes if known.
 struct InstructionCounts {
   std::map<std::string, double> stages;
   CostsByNode nodes;

@@ -1,7 +1,7 @@
 #pragma once
-/// The frames of rounds as a baseline keeps them: what each frame usually takes, and in each round its level,
-/// its long frames and its figures. That is enough to compare frames with later (hitch_comparison.h), and
-/// much less than all frames of all rounds.
+/// The frames of rounds in a baseline: the usual time of each frame, and for each round its level, its long
+/// frames and its figures. That is enough for later comparisons of frames (hitch_comparison.h), and much less
+/// than all frames of all rounds.
 ///
 /// Units    multiples of the calibration kernel's time; late frames are a number of frames.
 /// Threads  free functions, any thread.
@@ -15,12 +15,12 @@
 
 namespace stadion::regression {
 
-/// Of a stage by one clock.
+/// A stage by one clock.
 struct KeptStage {
   std::vector<double> usual;                          ///< by frame: the lower quartile of the rounds
-  double deviation = 0;                               ///< from it, in the middle
-  std::vector<double> levels;                         ///< by round, in the typical frame [1]
-  std::vector<std::map<std::size_t, double>> longer;  ///< by round: frames that take so much longer
+  double deviation = 0;                               ///< median deviation from it
+  std::vector<double> levels;                         ///< by round, relative to the typical frame [1]
+  std::vector<std::map<std::size_t, double>> longer;  ///< by round: frames with their excess
   std::vector<RunFigures> figures;                    ///< by round
 };
 
@@ -30,11 +30,11 @@ using KeptStages = std::map<std::string, std::map<std::string, KeptStage>>;
 /// `calibrationMs`: of each run.
 KeptStages keep(const std::vector<StageSeries>& series, const std::vector<double>& calibrationMs);
 
-/// The kept rounds and those of now side by side, kept ones first, in the units of now; stages of which only
-/// one side tells are left out.
+/// Returns the kept rounds and the present ones, kept ones first, in present units. Stages that only one side
+/// has are left out.
 std::vector<StageSeries> joined(const KeptStages& kept, const std::vector<StageSeries>& now,
                                 const std::vector<double>& calibrationMs);
-/// How many rounds are kept of every stage; 0 if they do not agree.
+/// Returns the number of rounds kept of every stage; 0 if they differ.
 std::size_t roundsIn(const KeptStages& kept);
 
 }  // namespace stadion::regression

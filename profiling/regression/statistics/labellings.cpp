@@ -11,7 +11,7 @@ constexpr std::size_t kMostLabellings = 4096;
 constexpr std::size_t kMostPairsInFull = 12;
 constexpr double kRounding = 1e-9;
 
-/// Of pairs; the bits of `swapped` are the rounds whose two runs change their names.
+/// Labelling of pairs. The bits of `swapped` are the rounds in which the two runs exchange names.
 template <class Swapped>
 RunSet pairsWith(std::size_t rounds, const Swapped& swapped) {
   RunSet now;

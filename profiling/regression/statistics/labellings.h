@@ -1,10 +1,10 @@
 #pragma once
-/// Permutation tests over runs: which of the runs are called "now", and how else they might have been called.
+/// Permutation tests over runs: which runs are called "now", and how else they might have been called.
 ///
-/// If two builds do not differ, the names "before" and "now" say nothing, and every way of giving them is as
-/// likely as the true one. The probability of a difference by chance is the share of the ways that show at
-/// least as large a difference. No distribution of the noise is assumed. The largest difference of many
-/// quantities under each way answers for all of them at once (Westfall and Young, 1993).
+/// If two builds do not differ, the names "before" and "now" carry no information, and every way of giving
+/// them is equally likely. The probability of a difference by chance is the share of the ways with at least
+/// as large a difference. No distribution of the noise is assumed. The largest difference of many quantities
+/// under each way answers for all of them at once (Westfall and Young, 1993).
 ///
 /// Threads  free functions, any thread.
 
@@ -17,18 +17,18 @@ namespace stadion::regression {
 constexpr std::size_t kMostRuns = 160;  ///< of both sides
 using RunSet = std::bitset<kMostRuns>;
 
-/// How runs belong together.
+/// The pairing of runs.
 struct RunDesign {
   std::size_t before = 0, now = 0;  ///< runs of each side
   bool paired = false;              ///< run 2r is "before" and run 2r + 1 is "now" in round r
 
   std::size_t runs() const { return before + now; }
-  /// The true one. Unpaired runs of "before" come first.
+  /// Returns the true labelling. Unpaired runs of "before" come first.
   RunSet trueNow() const;
 };
 
-/// The runs that are called "now": the true way first, then the others. All of them where there are few, else
-/// some drawn at random, the same ones each time.
+/// Returns the sets of runs called "now": the true one first, then the others. If there are too many, some
+/// are drawn at random, the same ones each time.
 std::vector<RunSet> labellingsOf(const RunDesign& design);
 
 /// The share of the values that are at least `observed`.

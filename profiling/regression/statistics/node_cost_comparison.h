@@ -1,6 +1,5 @@
 #pragma once
-/// What the nodes of each stage cost, as a baseline keeps it: enough to name the node that moved when a stage
-/// did.
+/// The costs of each stage's nodes in a baseline: enough to name the node that changed when a stage did.
 ///
 /// Units    instructions a frame, or the typical frame's time in multiples of the calibration kernel's.
 /// Threads  free functions, any thread.
@@ -16,17 +15,17 @@ namespace stadion::regression {
 /// By the stage's name ("app"), then by SpanRow::node().
 using CostsByNode = std::map<std::string, std::map<std::string, double>>;
 
-/// Of its stage: what costs less is not kept, and counts as so much when it is asked for.
+/// Part of its stage below which a node is not kept; a missing node counts as this much.
 constexpr double kLeastKept = 0.001;
 
-/// The instructions of the rows that are of nodes.
+/// Returns the instructions of the rows of nodes.
 CostsByNode nodeInstructions(const std::vector<SpanRow>& rows);
 
-/// Those of nodes that make some of their stage.
+/// Returns the nodes with a noticeable part of their stage.
 CostsByNode dearOf(const CostsByNode& costs, const std::map<std::string, double>& stages);
 
-/// Where a stage was dearer by `growth` than its `before`: the node in it that grew most, as the rows name
-/// it, if that explains half; else says so. The stage's name if nothing is known of its nodes.
+/// For a stage that grew by `growth` from `before`: returns the node that grew most, as the rows name it, if
+/// it explains half of the growth; else says so. Returns the stage's name if its nodes are unknown.
 std::string culpritSince(const std::string& stage, double before, double growth,
                          const CostsByNode& nodesBefore, const CostsByNode& nodesNow,
                          const std::vector<SpanRow>& rows);

@@ -18,7 +18,7 @@ std::uint64_t next(std::uint64_t& x) {
   return x >> 20;
 }
 
-/// Cells that lead from one to the other in one great circle.
+/// Returns cells that point to each other in one large circle.
 std::vector<std::uint64_t> circle() {
   std::vector<std::uint64_t> order(kCells), cells(kCells);
   std::iota(order.begin(), order.end(), std::uint64_t{0});

@@ -1,13 +1,13 @@
 #pragma once
-/// A piece of work that is always the same, run in the same minute as what is timed: times in multiples of it
-/// can be compared with those of another day, or of a machine of another speed.
+/// A fixed piece of work, run in the same minute as a measurement. Times in multiples of it can be compared
+/// between days, and between machines of different speed.
 ///
 /// Threads  free functions, any thread.
 
 namespace stadion::regression {
 
-/// Processor time of the kernel [ms], the least of a few: arithmetic, sorting, and a walk through memory that
-/// no cache foresees, about a third each, some 10 ms in all.
+/// Returns the processor time of the kernel [ms], the least of a few runs. It does arithmetic, sorting, and
+/// random access to memory, about a third each, some 10 ms in all.
 double calibrationMs();
 
 }  // namespace stadion::regression

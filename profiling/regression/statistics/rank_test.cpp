@@ -32,7 +32,7 @@ std::vector<std::uint32_t> doubledRanks(const std::vector<double>& values) {
   return ranks;
 }
 
-/// Both tails of a distribution by the whole-numbered value `at`; weights[i] is the weight of value i.
+/// Returns both tails of a distribution at the integer value `at`; weights[i] is the weight of value i.
 double bothTails(const std::vector<double>& weights, std::size_t at) {
   double below = 0, above = 0, all = 0;
   for (std::size_t i = 0; i < weights.size(); ++i) {
@@ -88,7 +88,7 @@ double signedRankTest(const std::vector<double>& differences) {
   return bothTails(weights, positive);
 }
 
-// The weights of all sums that as many of the ranks as a has figures can have.
+// The weights of the sums of all subsets of the ranks with the size of a.
 double rankSumTest(const std::vector<double>& a, const std::vector<double>& b) {
   std::vector<double> all = finite(a);
   const std::size_t count = all.size();

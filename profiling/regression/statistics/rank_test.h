@@ -1,7 +1,6 @@
 #pragma once
-/// Whether figures differ by more than chance, asked of their ranks alone: one figure that a busy machine
-/// has spoilt counts no more than its place in the order. Probabilities are exact, with ties, for as many
-/// figures as a suite takes.
+/// Tests for differences beyond chance by ranks alone: a figure that a busy machine has spoilt counts only by
+/// its place in the order. Probabilities are exact, with ties, for the sizes of suites.
 ///
 /// Sources  F. Wilcoxon, Individual comparisons by ranking methods (1945); H. B. Mann and D. R. Whitney
 ///          (1947); J. L. Hodges and E. L. Lehmann (1963); S. Holm (1979).
@@ -19,23 +18,22 @@ namespace stadion::regression {
 /// lopsided (Wilcoxon, both sides). Differences of 0 say nothing. 1 of none.
 double signedRankTest(const std::vector<double>& differences);
 
-/// The probability, if a and b came from the same source, that their ranks were at least as far apart (Mann
-/// and Whitney, both sides). Exact up to 80 figures in all, beyond by the normal distribution. 1 where one is
-/// empty.
+/// Returns the probability of ranks at least as far apart, if a and b have the same source (Mann and Whitney,
+/// both sides). Exact up to 80 figures in all, beyond by the normal distribution. 1 if one is empty.
 double rankSumTest(const std::vector<double>& a, const std::vector<double>& b);
 
-/// The least that these tests can ever say of so many figures, however far apart.
+/// Returns the least probability that these tests can give for so many figures.
 double leastSignedRank(std::size_t differences);
 double leastRankSum(std::size_t a, std::size_t b);
 
-/// By how much paired figures differ: the median of the means of all pairs of differences (Hodges and
+/// Returns the difference of paired figures: the median of the means of all pairs of differences (Hodges and
 /// Lehmann).
 double typicalShift(const std::vector<double>& differences);
-/// By how much b exceeds a: the median of all differences b - a.
+/// Returns the excess of b over a: the median of all differences b - a.
 double typicalShift(const std::vector<double>& a, const std::vector<double>& b);
 
-/// The same probabilities, raised so that asking several questions at once gives false alarms no more often
-/// than asking one (Holm). In the given order, at most 1.
+/// Raises the probabilities so that several questions together give false alarms no more often than one
+/// (Holm). In the given order, at most 1.
 std::vector<double> correctedForMany(const std::vector<double>& probabilities);
 
 }  // namespace stadion::regression

@@ -15,7 +15,7 @@ const SpanRow* find(const std::vector<SpanRow>& rows, const std::string& key) {
   return at == rows.end() ? nullptr : &*at;
 }
 
-/// A row of a build that tells no frames counts by its mean.
+/// A row of a build without frames counts by its mean.
 bool judged(const SpanRow& r) {
   const bool enough = r.frames.empty() ? r.msMean > 0 : r.frames.size() > 2 * kFirstFrames;
   return r.isStage() && r.stage != "swap" && enough;
@@ -38,7 +38,7 @@ double ratio(const SpanRow& before, const SpanRow& now) {
   return median(overFrames(before, now, [](double a, double b) { return std::log(b / a); }));
 }
 
-/// What the row costs more, in the typical frame, times the share of frames in which it costs anything [us].
+/// Returns a row's growth in the typical frame, times the share of frames in which it has costs [us].
 double growth(const SpanRow& before, const SpanRow& now, std::size_t frames) {
   const std::vector<double> more = overFrames(before, now, [](double a, double b) { return b - a; });
   return median(more) * static_cast<double>(more.size()) /

@@ -9,7 +9,7 @@
 namespace stadion::regression {
 namespace {
 
-/// The lower quartile: of twice as many runs as one side has, half at most are longer on purpose.
+/// The lower quartile: of twice the runs of one side, at most half have a planted delay.
 double lowerQuartile(std::vector<double>& values) {
   const auto at = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 4);
   std::ranges::nth_element(values, at);

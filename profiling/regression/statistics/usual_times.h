@@ -1,5 +1,5 @@
 #pragma once
-/// What each frame of a stage usually takes, out of several runs.
+/// The usual time of each frame of a stage, from several runs.
 ///
 /// Threads  free functions, any thread.
 
@@ -9,19 +9,19 @@
 
 namespace stadion::regression {
 
-/// What a frame usually takes, and how far the runs are from it once each is freed of its own level.
+/// The usual time of a frame, and the deviation of the runs from it after each run's level is removed.
 struct UsualTimes {
   std::vector<double> us;      ///< by frame: the lower quartile of the runs
-  std::vector<double> levels;  ///< by run: how it compares in the typical frame [1]
-  double deviation = 0;        ///< in the middle [us]
+  std::vector<double> levels;  ///< by run: ratio in the typical frame [1]
+  double deviation = 0;        ///< median [us]
 
-  /// By how much a run exceeds that in a frame; not a number if it does not tell.
+  /// Returns a run's excess over that in a frame; NaN if the run has no value.
   double excess(const StageSeries& s, std::size_t run, std::size_t frame) const;
 };
 
 UsualTimes usualTimes(const StageSeries& s);
 
-/// The value of a frame; not a number past the end.
+/// Returns the value of a frame; NaN past the end.
 double at(const std::vector<double>& run, std::size_t frame);
 
 }  // namespace stadion::regression

@@ -21,7 +21,7 @@ in vec3 c;
 out vec4 colour;
 void main() { colour = vec4(c, 1); })";
 
-/// Where the matrix to the eye comes from is what the ways differ in.
+/// The drawing methods differ in the source of the matrix to the eye.
 std::string vertexShader(const char* matrix, const char* value) {
   return std::string("#version 330 core\n"
                      "layout(location = 0) in vec3 position;\nlayout(location = 1) in vec3 normal;\n"
@@ -97,7 +97,7 @@ Mat4 nodeMatrix(const WallNode& node) {
   return place * up;
 }
 
-/// Whether the sphere about the eye's point p reaches into all six planes.
+/// Returns true if the sphere about the eye's point p reaches into all six planes.
 bool seen(const Mat4& projection, const Vec3& p, double radius) {
   for (int axis = 0; axis < 3; ++axis)
     for (const double side : {1.0, -1.0}) {
@@ -124,7 +124,7 @@ FloorDrawing::FloorDrawing(const WallScene& scene, FloorWay way)
     radii_.push_back(meshes_.back().radius());
     for (const WallVertex& v : meshes_.back().vertices) corners.push_back(cornerOf(v));
   }
-  // All meshes have the same triangles; where their corners lie differs.
+  // All meshes have the same triangles; only the places of their corners differ.
   const std::vector<std::uint16_t> indices(meshes_[0].indices.begin(), meshes_[0].indices.end());
   glGenVertexArrays(1, &layout_);
   glBindVertexArray(layout_);
@@ -238,7 +238,7 @@ void FloorDrawing::drawMerged(const FloorView& view) const {
 
 void FloorDrawing::free(FloorView& view) const {
   const GLuint names[] = {view.prepared, view.indices};
-  glDeleteBuffers(2, names);  // those that are 0 do not count
+  glDeleteBuffers(2, names);  // OpenGL ignores names that are 0
   view.prepared = view.indices = 0;
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-/// The least that drawing a view costs: what is visible is known, and only OpenGL is called.
+/// The least cost of drawing a view: visibility is known beforehand, and only OpenGL is called.
 ///
 /// Frames   World +Z up; an eye looks along -Z.
 /// Threads  the thread that has the OpenGL context.
@@ -39,7 +39,7 @@ class FloorDrawing {
 public:
   FloorDrawing(const WallScene& scene, FloorWay way);
 
-  /// What an eye sees of the scene at time t. Nodes are culled one by one by their bounding spheres.
+  /// Returns the eye's view of the scene at time t. Nodes are culled one by one by their bounding spheres.
   FloorView view(std::size_t wall, int eye, double t);
   void draw(const FloorView& view) const;
   void free(FloorView& view) const;

@@ -1,5 +1,5 @@
 #pragma once
-/// OpenGL, linked in as this program alone does. (Stadion itself looks up what it calls.)
+/// OpenGL, linked in as only this program does. (Stadion itself looks functions up at run time.)
 
 #include <GL/gl.h>
 #include <GL/glext.h>

@@ -1,7 +1,7 @@
 #pragma once
-/// An OpenGL context without a window: EGL on Mesa's surfaceless platform, as the other programs have.
+/// An OpenGL context without a window: EGL on Mesa's surfaceless platform, as in the other programs.
 ///
-/// Ownership  for as long as the program runs; the context is current in the thread that made it.
+/// Ownership  lives as long as the program runs; the context is current in the thread that made it.
 /// Errors     the program ends with a message.
 
 #include <cstdint>

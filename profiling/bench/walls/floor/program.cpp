@@ -1,6 +1,6 @@
-/// stadion-walls-floor: what bare OpenGL needs for the views of a room, in processor time. Prints the fields
-/// that osg_walls prints, as one JSON object. To be run with LP_NUM_THREADS=0, so that Mesa rasterises in the
-/// thread that draws.
+/// stadion-walls-floor: the processor time that bare OpenGL needs for the views of a room. Prints the same
+/// fields as osg_walls, as one JSON object. Run it with LP_NUM_THREADS=0, so that Mesa rasterises in the
+/// drawing thread.
 
 #include "profiling/bench/walls/floor/floor_drawing.h"
 #include "profiling/bench/walls/floor/gl.h"
@@ -32,7 +32,7 @@ double processorMs() {
 }
 
 struct Measured {
-  std::vector<double> frame;  ///< by the clock [ms]
+  std::vector<double> frame;  ///< of real time [ms]
   double processor = 0;       ///< of all measured frames [ms]
   std::vector<double> draws;  ///< by view, of all measured frames
   double triangles = 0;
@@ -52,7 +52,7 @@ void writePicture(const Setting& s, std::size_t view) {
   if (!writePpm(file, p)) std::fprintf(stderr, "stadion-walls-floor: cannot write %s\n", file.c_str());
 }
 
-/// One frame; what is visible is found before the clocks are read.
+/// Draws one frame; visible nodes are found before the clocks are read.
 void playFrame(const Setting& s, FloorDrawing& drawing, std::uint64_t frame, Measured& m) {
   const bool counts = frame >= s.warm && frame < s.warm + s.frames;
   std::vector<FloorView> views;
