@@ -322,7 +322,7 @@ TEST(ExactTimes, AnUnloadedWallIsFeltUntilItGoes) {
       show.playTo(1);
       // 2 m/s after 0.01 s and 0.02 m: 0.8 m at 0.4 s. Half of the speed comes back from the wall.
       EXPECT_NEAR(ball->state().v.y(), gone < 0.4 ? 2 : -1, 1e-6) << rate << " Hz, gone at " << gone;
-      EXPECT_EQ(show.scene.loadCount(), 1u);
+      EXPECT_EQ(show.scene.tree().loads().size(), 1u);
     }
 }
 
