@@ -26,15 +26,14 @@ StageFacts factsOf(const SpanRecord& r, StageFacts stage) {
 }  // namespace
 
 FrameJudge::Open& FrameJudge::frame(std::uint64_t number) {
-  const auto [at, isNew] = open_.try_emplace(number, walls_);
-  if (isNew) {
-    FrameFacts& facts = at->second.facts;
-    facts.frame = facts.appFrame = number;
-    facts.budget = budget_;
-    facts.sequential = sequential_;
-    if (open_.size() > kMostOpen) open_.erase(open_.begin());
-  }
-  return open_.at(number);
+  if (const auto known = open_.find(number); known != open_.end()) return known->second;
+  // Room is made first: the new frame may be older than all others.
+  if (open_.size() == kMostOpen) open_.erase(open_.begin());
+  Open& open = open_.try_emplace(number, walls_).first->second;
+  open.facts.frame = open.facts.appFrame = number;
+  open.facts.budget = budget_;
+  open.facts.sequential = sequential_;
+  return open;
 }
 
 void FrameJudge::take(std::size_t track, const SpanRecord& r) {

@@ -250,6 +250,17 @@ TEST(FrameVerdict, OfASampledFrameAndTheNextDrawingIsNotTheCause) {
   EXPECT_EQ(j.shown[3].cause, Cause::Draw);
 }
 
+/// Its thread's events may be read last, when many frames that came after it have begun.
+TEST(FrameVerdict, AFrameThatIsOlderThanAllOthersIsJudged) {
+  Judged j;
+  SpanRecord r;
+  r.what = Span::App, r.took = 1;
+  for (r.frame = 1; r.frame <= 200; ++r.frame) j.judge.take(0, r);
+  j.frame(0, 10);
+  ASSERT_EQ(j.shown.size(), 1u);
+  EXPECT_EQ(j.shown[0].frame, 0u);
+}
+
 TEST(FrameVerdict, WhatHeldUpAppInAFrameThatWasPassedOverHeldUpTheNextOneShown) {
   Judged j;
   j.frame(0, 10);
