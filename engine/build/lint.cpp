@@ -37,6 +37,10 @@ void LintScope::note(const Declaration& node) {
   if (node.has("parent"))
     if (NodeUse* use = noted(*node.reference("parent")))
       use->isParent = true, use->levels += node.is(Trait::Level);
+  for (const AttributeSpec& attribute : node.type().attributes())
+    if (attribute.kind == ValueKind::Reference && attribute.acts)
+      for (const NodeReference& other : node.references(attribute.attr))
+        if (NodeUse* use = noted(other)) use->isFollowed = true;
   for (const EventMessage& message : node.eventMessages()) {
     if (NodeUse* field = noted(message.field); field && message.verb == Verb::Hook) field->hooked = true;
     if (NodeUse* use = noted(message.target))
@@ -79,8 +83,13 @@ void lintSender(const Declaration& node, LintScope& scope) {
   scope.warn(node, "name", fmt::format("{} has no eventmessage and so no effect", LintScope::called(node)));
 }
 
+/// Another file may name it where this one is only a part of a show.
+static bool isUnused(const NodeUse& use, const LintScope& scope) {
+  return scope.alone() && !use.isParent && !use.isFollowed;
+}
+
 void lintTargets(const Declaration& node, LintScope& scope) {
-  if (!node.has("target") && (node.name().empty() || (scope.alone() && !scope.useOf(node).isParent)))
+  if (!node.has("target") && (node.name().empty() || isUnused(scope.useOf(node), scope)))
     scope.warn(node, "name",
                fmt::format("{} moves nothing: it has no target, and no node has it as parent",
                            LintScope::called(node)));

@@ -17,7 +17,8 @@ struct NodeUse {
   bool simulated = false;   ///< collidee of a dynamics node
   bool switchedOn = false;  ///< target of enable or toggle
   bool isParent = false;
-  std::size_t levels = 0;  ///< children that an lod node chooses from
+  bool isFollowed = false;  ///< another node moves or touches it, or is moved by it
+  std::size_t levels = 0;   ///< children that an lod node chooses from
 };
 
 /// One file, for NodeType::lint.

@@ -39,7 +39,7 @@ TEST(ProgramPlan, SaysWhatIsWrong) {
   const TemporaryFolder folder;
   const ProgramResult none = stadionProgram({"plan"});
   EXPECT_EQ(none.status, 2);
-  const ProgramResult many = stadionProgram({"plan", kKick, "--walls", "99"});
+  const ProgramResult many = stadionProgram({"plan", kKick, "--walls", "257"});
   EXPECT_EQ(many.status, 2);
   EXPECT_NE(many.err.find("from 1 to 256"), std::string::npos) << many.err;
   const ProgramResult wrong = stadionProgram({"plan", "--from", folder.write("costs.json", "{}")});
