@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <set>
 
 namespace stadion {
@@ -102,9 +103,10 @@ TEST(ScriptReference, EditorFilesAreJsonAndComplete) {
   EXPECT_EQ(grammar["scopeName"], "source.evs");
   const auto completion = nlohmann::json::parse(editorCompletion(testTypes()));
   ASSERT_EQ(completion["nodes"].size(), testTypes().size());
-  const std::size_t dynobject = 3;  // in the order of the names
-  EXPECT_EQ(completion["nodes"][dynobject]["name"], "dynobject");
-  EXPECT_EQ(completion["nodes"][dynobject]["snippet"], "dynobject( name=${1:name}, file=\"${2:file}\" )$0");
+  const auto dynobject =
+      std::ranges::find_if(completion["nodes"], [](const auto& node) { return node["name"] == "dynobject"; });
+  ASSERT_NE(dynobject, completion["nodes"].end());
+  EXPECT_EQ((*dynobject)["snippet"], "dynobject( name=${1:name}, file=\"${2:file}\" )$0");
   EXPECT_EQ(completion["commands"].size(), testTypes().commands().size());
 }
 

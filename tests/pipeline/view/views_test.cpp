@@ -86,13 +86,14 @@ TEST(Views, AreSeenFromTheirEyeAndSwappedOnDemand) {
   wall.views.push_back({wall.views[0].screen, ViewPoint::Middle});
   const PlacedViews placed = place({}, wall, {}), swapped = place({}, wall, {.swapped = true});
   ASSERT_EQ(placed.count, 3U);
-  EXPECT_EQ(placed.views[0].eye, Vec3(-0.05, 0, 0));
-  EXPECT_EQ(placed.views[1].eye, Vec3(0.05, 0, 0));
-  EXPECT_EQ(placed.views[2].eye, Vec3(0, 0, 0));
+  const double height = ViewerRecord{}.headPosition[2];
+  EXPECT_EQ(placed.views[0].eye, Vec3(-0.05, 0, height));
+  EXPECT_EQ(placed.views[1].eye, Vec3(0.05, 0, height));
+  EXPECT_EQ(placed.views[2].eye, Vec3(0, 0, height));
   EXPECT_EQ(swapped.views[0].eye, placed.views[1].eye);
   EXPECT_EQ(swapped.views[1].eye, placed.views[0].eye);
   EXPECT_EQ(swapped.views[2].eye, placed.views[2].eye);
-  EXPECT_EQ(place({}, wall, {.separation = 0.2}).views[1].eye, Vec3(0.1, 0, 0));
+  EXPECT_EQ(place({}, wall, {.separation = 0.2}).views[1].eye, Vec3(0.1, 0, height));
   EXPECT_EQ(placed.endOfScreen(0), 3U);
 }
 
