@@ -52,7 +52,8 @@ ProgramResult played(const std::string& how, const std::string& walls, const std
 std::map<std::string, std::string> hashesOf(const ProgramResult& run) {
   std::map<std::string, std::string> hashes;
   if (run.status != 0) return hashes;
-  for (const json& picture : json::parse(run.out)["image_hashes"])
+  const json summary = json::parse(run.out);
+  for (const json& picture : summary.at("image_hashes"))
     hashes[picture["wall"].get<std::string>() + " " + picture["eye"].get<std::string>()] = picture["hash"];
   return hashes;
 }
