@@ -46,7 +46,7 @@ void RunOptions::refuseInSupervision(Diagnostics& findings) const {
     if (asked) findings.error({}, std::string(option) + " and --supervise: " + why);
   };
   refuse(!r.out.empty(), "--out",
-         "pictures of a run that can be repeated need nobody who goes on; leave one out");
+         "a run with pictures can be repeated and needs no supervision; leave one out");
   refuse(!r.input.empty(), "--record-input",
          "a record that begins in the middle of a show cannot be played; leave one out");
   refuse(!r.spans.file.empty() || r.countWork || r.profile || !trace.file.empty(),

@@ -47,7 +47,7 @@ inline constexpr AttributeSpec kCommonRows[] = {
      .choices = kConcessionWords},
     {.name = "priority",
      .kind = ValueKind::Number,
-     .help = "when the whole frame takes too long, who has the lowest gives up first",
+     .help = "when the whole frame takes too long, the node with the lowest is degraded first",
      .standard = "1",
      .range = {0, 1000}},
 };

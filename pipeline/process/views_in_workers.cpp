@@ -18,7 +18,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr double kWorthAPlace = 0.004;  // [s]; who is faster is done before others are in its way
+constexpr double kWorthAPlace = 0.004;  // [s]; a faster wall is done before others disturb it
 
 void takeSeen(const std::vector<DrawItem>& from, std::uint32_t view, std::vector<DrawItem>& to) {
   to.clear();

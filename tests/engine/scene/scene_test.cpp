@@ -193,7 +193,7 @@ TEST(Scene, MessagesToAnUnloadedNodeAreCountedAndHarmless) {
   ShowFixture show;
   show.loader.files["show"] = [](Load& load) {
     addNode<SpeakingNode>(load, "speaker", std::vector<Nanoseconds>{1})
-        .addNotification(notify(Event("timesup"), "nobody/there", Verb::Enable));
+        .addNotification(notify(Event("timesup"), "missing/node", Verb::Enable));
   };
   show.scene.open("show");
   show.frame();

@@ -66,7 +66,7 @@ TEST(ThreadsFrameLoop, AShowThatGoesOnWherePausedStandsStill) {
   }
 }
 
-/// Whoever played it before may have died before that frame was shown.
+/// The player before may have died before that frame was shown.
 TEST(ThreadsFrameLoop, AShowThatGoesOnAfterItsLastFrameShowsThisOnceMore) {
   for (const Mode mode : {Mode::Sequential, Mode::Pipelined})
     for (const bool byFrames : {true, false}) {
