@@ -20,7 +20,7 @@ enum : std::uint32_t { White, Black, Seam };
 
 using Weights = std::array<double, 3>;  // barycentric, in grid steps: they sum to kGrid
 
-Point normalized(Point p) {
+Point onUnitSphere(Point p) {
   return (1 / std::sqrt(p.x * p.x + p.y * p.y + p.z * p.z)) * p;
 }
 
@@ -64,7 +64,7 @@ private:
   std::uint32_t vertex(const std::array<int, 3>& side, const Weights& w) {
     Point p{0, 0, 0};
     for (int k = 0; k < 3; ++k) p = p + w[k] * corners_[side[k]];
-    p = kRadius * normalized(p);
+    p = kRadius * onUnitSphere(p);
     // Neighbouring sides add up in another order: a rounded key finds the common points.
     const auto key = std::make_tuple(std::lround(p.x * 1e7), std::lround(p.y * 1e7), std::lround(p.z * 1e7));
     const auto [at, fresh] = known_.emplace(key, static_cast<std::uint32_t>(model_.points.size()));

@@ -1,3 +1,4 @@
+#include "assets/generator/craft/geometry.h"
 #include "assets/generator/craft/models.h"
 #include "assets/generator/craft/picture.h"
 
@@ -11,20 +12,9 @@ namespace {
 constexpr int kGrassSide = 256;  // pixels
 constexpr int kShades = 16;
 
-class Dice {  // a small linear congruential generator
-public:
-  unsigned roll(unsigned sides) {
-    state_ = state_ * 6364136223846793005ull + 1442695040888963407ull;
-    return static_cast<unsigned>((state_ >> 33) % sides);
-  }
-
-private:
-  std::uint64_t state_ = 20260101;
-};
-
 std::vector<int> draw() {
   std::vector<int> shade(kGrassSide * kGrassSide, 7);
-  Dice dice;
+  Dice dice(0);
   const auto at = [&](int x, int y) -> int& {
     return shade[static_cast<std::size_t>((y & 255) * kGrassSide + (x & 255))];
   };

@@ -1,5 +1,7 @@
 #include "assets/generator/craft/sounds.h"
 
+#include "assets/generator/craft/geometry.h"
+
 #include "engine/maths/functions.h"
 
 #include <algorithm>
@@ -8,8 +10,6 @@
 
 namespace stadion::assets {
 namespace {
-
-constexpr double kPi = 3.14159265358979323846;
 
 std::size_t count(double seconds) {
   return static_cast<std::size_t>(seconds * kSoundRate);

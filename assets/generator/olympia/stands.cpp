@@ -14,7 +14,7 @@ void addStone(Part& to, Point low, Point high, double yaw = 0, Point at = {0, 0,
   add(to, stone, {at, yaw, {1, 1, 1}});
 }
 
-void addColoured(Part& to, Part from, Rgb colour) {
+void addWood(Part& to, Part from, Rgb colour) {
   paint(from, [&](const Vertex& v) { return mix(0.9, 1.05, noise(2 * v.p)) * colour; });
   add(to, from);
 }
@@ -46,13 +46,13 @@ Stand judgesStand() {
   }
   // An awning against the sun.
   for (double s : {-1.0, 0.0, 1.0}) {
-    addColoured(made.wood,
-                limb({-0.6, s * (y - 0.6), kFloor}, {-0.6, s * (y - 0.6), kFloor + 2.7}, 0.06, 0.05, 6),
-                {0.50, 0.36, 0.24});
-    addColoured(made.wood,
-                limb({-kDepth + 0.7, s * (y - 0.6), kFloor}, {-kDepth + 0.7, s * (y - 0.6), kFloor + 3.3},
-                     0.06, 0.05, 6),
-                {0.50, 0.36, 0.24});
+    addWood(made.wood,
+            limb({-0.6, s * (y - 0.6), kFloor}, {-0.6, s * (y - 0.6), kFloor + 2.7}, 0.06, 0.05, 6),
+            {0.50, 0.36, 0.24});
+    addWood(made.wood,
+            limb({-kDepth + 0.7, s * (y - 0.6), kFloor}, {-kDepth + 0.7, s * (y - 0.6), kFloor + 3.3}, 0.06,
+                 0.05, 6),
+            {0.50, 0.36, 0.24});
   }
   constexpr int kStripes = 16;
   for (int i = 0; i < kStripes; ++i) {

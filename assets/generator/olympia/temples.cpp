@@ -10,10 +10,10 @@ struct Plan {
   int front, side;               ///< columns; side 0: none but at the front
 };
 
-constexpr Rgb kMarble{0.93, 0.89, 0.80}, kTile{0.74, 0.46, 0.32}, kBlue{0.25, 0.36, 0.56},
-    kRed{0.62, 0.24, 0.18};
+constexpr Rgb kMarble{0.93, 0.89, 0.80}, kTile{0.74, 0.46, 0.32}, kFrieze{0.25, 0.36, 0.56},
+    kBrick{0.62, 0.24, 0.18};
 
-void addColoured(Part& to, const Part& from, Rgb colour) {
+void addPaintedStone(Part& to, const Part& from, Rgb colour) {
   Part part = from;
   paint(part, [&](const Vertex& v) { return mix(0.92, 1.04, noise(0.6 * v.p)) * colour; });
   add(to, part);
@@ -38,7 +38,7 @@ void addRoof(Part& part, double x, double y, double z, double rise) {
     if (s < 0) std::swap(slope[1], slope[3]);
     addQuad(part, slope);
     const double end = s * (y - 0.3);
-    const Rgb field = mix(kBlue, kMarble, 0.55);
+    const Rgb field = mix(kFrieze, kMarble, 0.55);
     const std::array<Vertex, 3> gable{Vertex{{-x, end, z}, field}, Vertex{{x, end, z}, field},
                                       Vertex{{0, end, z + rise - 0.3}, field}};
     const auto first = static_cast<std::uint32_t>(part.vertices.size());
@@ -55,8 +55,8 @@ Part temple(const Plan& plan) {
   const double x = plan.width / 2, y = plan.length / 2, step = 0.045 * plan.column, h = plan.column;
   for (int i = 0; i < 3; ++i) {
     const double out = 0.06 * h * (2 - i);
-    addColoured(part, box({-x - out, -y - out, i == 0 ? -3 : i * step}, {x + out, y + out, (i + 1) * step}),
-                kMarble);
+    addPaintedStone(
+        part, box({-x - out, -y - out, i == 0 ? -3 : i * step}, {x + out, y + out, (i + 1) * step}), kMarble);
   }
   const double floor = 3 * step, inset = 0.13 * h;
   const auto stand = [&](double cx, double cy) {
@@ -74,18 +74,18 @@ Part temple(const Plan& plan) {
     stand(-x + inset, cy), stand(x - inset, cy);
   }
   const double wall = plan.side > 0 ? 0.34 * h : 0.05 * h;
-  addColoured(part, box({-x + wall, -y + 0.6 * h, floor}, {x - wall, y - wall, floor + h}),
-              {0.80, 0.74, 0.64});
-  addColoured(part, box({-0.12 * h, -y + 0.59 * h, floor}, {0.12 * h, -y + 0.61 * h, floor + 0.7 * h}),
-              {0.20, 0.16, 0.13});
+  addPaintedStone(part, box({-x + wall, -y + 0.6 * h, floor}, {x - wall, y - wall, floor + h}),
+                  {0.80, 0.74, 0.64});
+  addPaintedStone(part, box({-0.12 * h, -y + 0.59 * h, floor}, {0.12 * h, -y + 0.61 * h, floor + 0.7 * h}),
+                  {0.20, 0.16, 0.13});
   const double top = floor + h, beam = 0.17 * h;
-  addColoured(part, box({-x + 0.03 * h, -y + 0.03 * h, top}, {x - 0.03 * h, y - 0.03 * h, top + beam}),
-              kMarble);
-  addColoured(
+  addPaintedStone(part, box({-x + 0.03 * h, -y + 0.03 * h, top}, {x - 0.03 * h, y - 0.03 * h, top + beam}),
+                  kMarble);
+  addPaintedStone(
       part, box({-x + 0.02 * h, -y + 0.02 * h, top + beam}, {x - 0.02 * h, y - 0.02 * h, top + 1.25 * beam}),
-      kRed);
-  addColoured(part, box({-x, -y, top + 1.25 * beam}, {x, y, top + 2 * beam}), kBlue);
-  addColoured(
+      kBrick);
+  addPaintedStone(part, box({-x, -y, top + 1.25 * beam}, {x, y, top + 2 * beam}), kFrieze);
+  addPaintedStone(
       part,
       box({-x - 0.04 * h, -y - 0.04 * h, top + 2 * beam}, {x + 0.04 * h, y + 0.04 * h, top + 2.25 * beam}),
       kMarble);
