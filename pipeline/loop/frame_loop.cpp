@@ -59,11 +59,35 @@ std::uint32_t numberOf(std::size_t wall) {
 
 }  // namespace
 
-/// The work of each kind of thread in a pipelined run.
-struct FrameLoop::StageThreads {
-  std::function<void()> app;
-  std::function<void(std::size_t wall)> cull, draw;
-  std::function<void()> stopAll;  ///< ends all waiting
+/// A pipelined run: what its threads share, and the work of each kind of thread.
+class FrameLoop::Pipeline {
+public:
+  explicit Pipeline(FrameLoop& loop);
+  /// Starts all threads and waits for their end.
+  void run();
+
+private:
+  void app();                   ///< fills slots
+  void cull(std::size_t wall);  ///< turns slots into lists
+  void draw(std::size_t wall);  ///< draws lists, and shows each frame together with the other walls
+  void drawThenClose(std::size_t wall);
+  bool openTogether(std::size_t wall);
+  bool warmUpTogether(std::size_t wall, DrawList& list);
+  bool awaitWarmWalls();
+  bool swapTogether(std::size_t wall, const FrameTicket& ticket);
+  /// Ends all waiting if the run is broken: a failure in one thread must not leave the others waiting for it.
+  void stopIfBroken();
+
+  FrameLoop& loop_;
+  const std::size_t walls_;
+  FrameSlots slots_;
+  std::deque<ListQueue> queues_;  ///< by wall
+  SwapBarrier swap_;
+  // All walls and App wait here. No wall draws before all are ready, since they may share a rasteriser.
+  // Meanwhile show time stands still.
+  SwapBarrier opened_, warm_;
+  std::once_flag warming_;
+  Clock::time_point warmUpBegan_{}, warmUpEnded_{};  ///< set before `warm_` opens
 };
 
 FrameLoop::FrameLoop(Stages& stages, const FrameLoopOptions& options, const std::atomic<bool>& stopRequested,
@@ -103,10 +127,10 @@ void FrameLoop::runSequential() {
   for (std::size_t wall = 0; well && wall < options_.walls; ++wall) well = openStage(wall);
 
   while (well) {
-    std::optional<Turn> turn;
-    well = guard("App", kAllWalls, nextIndex_, [&]() -> Failure { return turn = nextTurn(), Failure(); });
-    if (!turn) break;
-    auto ticket = appStage(*turn, 0);
+    std::optional<FrameOrder> order;
+    well = guard("App", kAllWalls, nextIndex_, [&]() -> Failure { return order = nextOrder(), Failure(); });
+    if (!order) break;
+    auto ticket = appStage(*order, 0);
     well = ticket.has_value();
     for (std::size_t wall = 0; well && wall < options_.walls; ++wall)
       well = cullStage(wall, 0, *ticket, lists[wall]);
@@ -128,121 +152,134 @@ void FrameLoop::runSequential() {
 // Overlaps the same stages: App fills slots, Cull turns slots into lists, Draw draws lists, all walls swap
 // together.
 void FrameLoop::runPipelined() {
-  // No host may skip frames that all hosts show together.
-  FrameSlots slots(options_.walls, options_.orders ? Delivery::Every : options_.delivery);
-  std::deque<ListQueue> queues;
-  while (queues.size() < options_.walls) queues.emplace_back(options_.drawBeginsEarly);
-  SwapBarrier barrier(options_.walls);
-  // All walls and App wait here. No wall draws before all are ready, since they may share a rasteriser.
-  // Meanwhile show time stands still.
-  SwapBarrier opened(options_.walls + 1), warm(options_.walls + 1);
-  std::once_flag warming;
-  Clock::time_point warmUpBegan{}, warmUpEnded{};  // set before `warm` opens
-
-  StageThreads threads;
-  threads.app = [&] {
-    bool isWarm = options_.walls == 0;
-    if (!isWarm && !opened.arrive([] {})) return;
-    while (const auto turn = nextTurn()) {
-      slots.limitUnderWay(framesUnderWay(), lastWalls());
-      const auto slot = waited(Span::ForSlot, kNoFrame, kAllWalls, [&] { return slots.beginWrite(); });
-      if (!slot) return;
-      const auto ticket = appStage(*turn, *slot);
-      if (!ticket) break;
-      slots.endWrite(*slot, *ticket);
-      if (!ticket->drawn || std::exchange(isWarm, true)) continue;
-      const Clock::time_point began = Clock::now();
-      const auto end = [&] { warmUpEnded = Clock::now(); };
-      if (!waited(Span::ForSlot, kNoFrame, kAllWalls, [&] { return warm.arrive(end); })) break;
-      warmedUp(Clock::now() - began);
-    }
-    slots.finish();
-  };
-  threads.cull = [&](std::size_t wall) {
-    while (const auto lease = waited(Span::ForFrame, kNoFrame, wall, [&] { return slots.lease(wall); })) {
-      const std::uint64_t frame = lease->ticket.signature.frame;
-      DrawList* list = waited(Span::ForList, frame, wall, [&] { return queues[wall].takeEmpty(); });
-      if (!list || !cullStage(wall, lease->slot, lease->ticket, *list)) return;
-      list->filling->finish(!slots.release(*lease));
-    }
-    queues[wall].finish();
-  };
-  threads.draw = [&](std::size_t wall) {
-    if (!openStage(wall)) {
-      broken_ = true;  // stops the run even without a failure: App and the other walls would wait for this
-                       // one
-      return;
-    }
-    if (!opened.arrive([] {})) return;
-    const auto next = [&] { return queues[wall].takeHanded(); };
-    bool isWarm = false;
-    while (DrawList* list = waited(Span::ForDraw, kNoFrame, wall, next)) {
-      if (list->ticket.drawn && !std::exchange(isWarm, true)) {
-        std::call_once(warming, [&] { warmUpBegan = Clock::now(); });
-        if (list->filling->isWhole() && !warmUpStage(wall, *list)) return;
-        const auto end = [&] { warmUpEnded = Clock::now(); };
-        if (!waited(Span::ForWalls, kNoFrame, wall, [&] { return warm.arrive(end); })) return;
-        list->ticket.delay(warmUpEnded - warmUpBegan);  // equal on all walls, since it is one frame
-      }
-      if (!list->filling->isVoid() && !drawStage(wall, *list)) return;
-      if (list->filling->isCutShort()) return;
-      slots.drawn();
-      const FrameTicket ticket = list->ticket;
-      bool shown = true;
-      const auto show = [&] {
-        shown = swapStage(ticket);
-        slots.shown();
-      };
-      const auto arrive = [&] { return barrier.arrive(show); };
-      if (!waited(Span::ForWalls, ticket.signature.frame, wall, arrive) || !shown) return;
-      queues[wall].giveEmpty(list);
-    }
-  };
-  threads.stopAll = [&] {
-    slots.stop();
-    for (ListQueue& q : queues) q.stop();
-    barrier.stop(), opened.stop(), warm.stop();
-  };
-  runThreads(threads);
+  Pipeline(*this).run();
 }
 
-// A failure in one thread must not leave the others waiting for it.
-void FrameLoop::runThreads(const StageThreads& work) {
+// No host may skip frames that all hosts show together.
+FrameLoop::Pipeline::Pipeline(FrameLoop& loop)
+    : loop_(loop), walls_(loop.options_.walls),
+      slots_(walls_, loop.options_.orders ? Delivery::Every : loop.options_.delivery), swap_(walls_),
+      opened_(walls_ + 1), warm_(walls_ + 1) {
+  while (queues_.size() < walls_) queues_.emplace_back(loop.options_.drawBeginsEarly);
+}
+
+void FrameLoop::Pipeline::app() {
+  bool isWarm = walls_ == 0;
+  if (!isWarm && !opened_.arrive([] {})) return;
+  while (const auto order = loop_.nextOrder()) {
+    slots_.limitUnderWay(loop_.framesUnderWay(), loop_.lastWalls());
+    const auto slot = loop_.waited(Span::ForSlot, kNoFrame, kAllWalls, [&] { return slots_.beginWrite(); });
+    if (!slot) return;
+    const auto ticket = loop_.appStage(*order, *slot);
+    if (!ticket) break;
+    slots_.endWrite(*slot, *ticket);
+    if (ticket->drawn && !std::exchange(isWarm, true) && !awaitWarmWalls()) break;
+  }
+  slots_.finish();
+}
+
+void FrameLoop::Pipeline::cull(std::size_t wall) {
+  const auto nextLease = [&] { return slots_.lease(wall); };
+  while (const auto lease = loop_.waited(Span::ForFrame, kNoFrame, wall, nextLease)) {
+    const std::uint64_t frame = lease->ticket.signature.frame;
+    DrawList* list = loop_.waited(Span::ForList, frame, wall, [&] { return queues_[wall].takeEmpty(); });
+    if (!list || !loop_.cullStage(wall, lease->slot, lease->ticket, *list)) return;
+    list->filling->finish(!slots_.release(*lease));
+  }
+  queues_[wall].finish();
+}
+
+void FrameLoop::Pipeline::draw(std::size_t wall) {
+  if (!openTogether(wall)) return;
+  const auto next = [&] { return queues_[wall].takeHanded(); };
+  bool isWarm = false;
+  while (DrawList* list = loop_.waited(Span::ForDraw, kNoFrame, wall, next)) {
+    if (list->ticket.drawn && !std::exchange(isWarm, true) && !warmUpTogether(wall, *list)) return;
+    if (!list->filling->isVoid() && !loop_.drawStage(wall, *list)) return;
+    if (list->filling->isCutShort()) return;
+    slots_.drawn();
+    if (!swapTogether(wall, list->ticket)) return;
+    queues_[wall].giveEmpty(list);
+  }
+}
+
+bool FrameLoop::Pipeline::openTogether(std::size_t wall) {
+  if (loop_.openStage(wall)) return opened_.arrive([] {});
+  loop_.broken_ = true;  // stops the run even without a failure: App and the other walls would wait
+  return false;
+}
+
+bool FrameLoop::Pipeline::warmUpTogether(std::size_t wall, DrawList& list) {
+  std::call_once(warming_, [&] { warmUpBegan_ = Clock::now(); });
+  if (list.filling->isWhole() && !loop_.warmUpStage(wall, list)) return false;
+  const auto end = [&] { warmUpEnded_ = Clock::now(); };
+  if (!loop_.waited(Span::ForWalls, kNoFrame, wall, [&] { return warm_.arrive(end); })) return false;
+  list.ticket.delay(warmUpEnded_ - warmUpBegan_);  // equal on all walls, since it is one frame
+  return true;
+}
+
+// App's side of warmUpTogether().
+bool FrameLoop::Pipeline::awaitWarmWalls() {
+  const Clock::time_point began = Clock::now();
+  const auto end = [&] { warmUpEnded_ = Clock::now(); };
+  if (!loop_.waited(Span::ForSlot, kNoFrame, kAllWalls, [&] { return warm_.arrive(end); })) return false;
+  loop_.warmedUp(Clock::now() - began);
+  return true;
+}
+
+bool FrameLoop::Pipeline::swapTogether(std::size_t wall, const FrameTicket& ticket) {
+  bool shown = true;
+  const auto show = [&] {
+    shown = loop_.swapStage(ticket);
+    slots_.shown();
+  };
+  const auto arrive = [&] { return swap_.arrive(show); };
+  return loop_.waited(Span::ForWalls, ticket.signature.frame, wall, arrive) && shown;
+}
+
+void FrameLoop::Pipeline::run() {
   std::vector<std::thread> threads;
-  const auto start = [&](const char* what, std::size_t wall, std::function<void()> stage) {
-    threads.emplace_back([this, &work, what, wall, stage = std::move(stage)] {
-      guard(what, wall, kNoFrame, [&]() -> Failure { return stage(), Failure(); });
-      if (broken_) work.stopAll();
+  const auto start = [&](const char* what, std::size_t wall, std::function<void()> work) {
+    threads.emplace_back([this, what, wall, work = std::move(work)] {
+      loop_.guard(what, wall, kNoFrame, [&]() -> Failure { return work(), Failure(); });
+      stopIfBroken();
     });
   };
-  threads.reserve(1 + 2 * options_.walls);
-  guard("starting the threads", kAllWalls, kNoFrame, [&]() -> Failure {
-    for (std::size_t wall = 0; wall < options_.walls; ++wall) {
-      start("Cull", wall, [&work, wall] { work.cull(wall); });
-      start("Draw", wall, [this, &work, wall] { drawAndClose(work, wall); });
+  threads.reserve(1 + 2 * walls_);
+  loop_.guard("starting the threads", kAllWalls, kNoFrame, [&]() -> Failure {
+    for (std::size_t wall = 0; wall < walls_; ++wall) {
+      start("Cull", wall, [this, wall] { cull(wall); });
+      start("Draw", wall, [this, wall] { drawThenClose(wall); });
     }
-    start("App", kAllWalls, work.app);
+    start("App", kAllWalls, [this] { app(); });
     return Failure();
   });
-  if (broken_) work.stopAll();
+  stopIfBroken();
   for (std::thread& t : threads) t.join();
 }
 
-void FrameLoop::drawAndClose(const StageThreads& work, std::size_t wall) {
-  guard("Draw", wall, kNoFrame, [&]() -> Failure { return work.draw(wall), Failure(); });
-  if (broken_) work.stopAll();
-  closeStage(wall);
+void FrameLoop::Pipeline::drawThenClose(std::size_t wall) {
+  loop_.guard("Draw", wall, kNoFrame, [&]() -> Failure { return draw(wall), Failure(); });
+  stopIfBroken();
+  loop_.closeStage(wall);
 }
 
-std::optional<FrameLoop::Turn> FrameLoop::nextTurn() {
+void FrameLoop::Pipeline::stopIfBroken() {
+  if (!loop_.broken_) return;
+  slots_.stop();
+  for (ListQueue& q : queues_) q.stop();
+  swap_.stop(), opened_.stop(), warm_.stop();
+}
+
+std::optional<FrameOrder> FrameLoop::nextOrder() {
   if (nextIndex_ == 0 && stopRequested_) stopped_ = ended_ = true;
   if (ended_ || broken_) return std::nullopt;
-  if (options_.orders && !options_.orders->leads()) return orderedTurn();
+  if (options_.orders && !options_.orders->leads()) return leadersOrder();
   const std::uint64_t ticks = waited(Span::ForTick, nextIndex_, kAllWalls, [&] { return pacer_.wait(); });
   if (!takeCommands()) return std::nullopt;
   const double speed = options_.playback && begun_ ? options_.playback->takeFrame(lastSignature_.time) : 1;
   // A continued show that is past its last frame ends once this frame has been shown.
-  if (speed == 0 || isPastEnd()) return told({lastSignature_, {}, standstill()});
+  if (speed == 0 || isPastEnd()) return issued({lastSignature_, {}, standstill()});
   // A single step is one tick, however long the last frame took.
   const bool single = options_.playback && options_.playback->paused();
   TimeSignature now = signatureAfter(single ? 1 : ticks, speed);
@@ -251,7 +288,7 @@ std::optional<FrameLoop::Turn> FrameLoop::nextTurn() {
   ++nextIndex_;
   begun_ = true;
   lastSignature_ = now;
-  return told({now});
+  return issued({now});
 }
 
 Standstill FrameLoop::standstill() const {
@@ -260,26 +297,26 @@ Standstill FrameLoop::standstill() const {
 }
 
 // Returns the frame to be shown, and whether it is the last. On the leader, also sends it to all hosts.
-FrameLoop::Turn FrameLoop::told(Turn turn) {
-  if (options_.desk) turn.shown = options_.desk->state().shown;
+FrameOrder FrameLoop::issued(FrameOrder order) {
+  if (options_.desk) order.shown = options_.desk->state().shown;
   // A waiting show plays its first frame, and a paused one each single step. Then time stands still again.
-  const bool stands = turn.still != Standstill::None || (options_.desk && options_.desk->state().still());
-  if (stands) turn.standsAfter = standstill();
-  if (!options_.orders) return turn;
-  turn.last = noneFollows();
-  options_.orders->issue(turn);
-  return turn;
+  const bool stands = order.still != Standstill::None || (options_.desk && options_.desk->state().still());
+  if (stands) order.standsAfter = standstill();
+  if (!options_.orders) return order;
+  order.last = noneFollows();
+  options_.orders->issue(order);
+  return order;
 }
 
 // Returns the leader's order.
-std::optional<FrameLoop::Turn> FrameLoop::orderedTurn() {
-  auto turn = waited(Span::ForTick, nextIndex_, kAllWalls, [&] { return options_.orders->next(); });
-  if (!turn) {
+std::optional<FrameOrder> FrameLoop::leadersOrder() {
+  auto order = waited(Span::ForTick, nextIndex_, kAllWalls, [&] { return options_.orders->next(); });
+  if (!order) {
     if (stopRequested_) stopped_ = true;
     return std::nullopt;
   }
-  nextIndex_ = turn->signature.frame + 1;
-  return turn;
+  nextIndex_ = order->signature.frame + 1;
+  return order;
 }
 
 // Returns the decision of the log, or in a live run of the decider, which measures time.
@@ -369,15 +406,15 @@ bool FrameLoop::passesOver(const FrameTicket& ticket) {
   return passedOver_ > 0;
 }
 
-std::optional<FrameTicket> FrameLoop::appStage(const Turn& turn, std::size_t slot) {
-  const TimeSignature& now = turn.signature;
+std::optional<FrameTicket> FrameLoop::appStage(const FrameOrder& order, std::size_t slot) {
+  const TimeSignature& now = order.signature;
   FrameTicket ticket{now, Clock::now()};
-  ticket.shown = turn.shown;
-  if (turn.still != Standstill::None) {
+  ticket.shown = order.shown;
+  if (order.still != Standstill::None) {
     if (!guard("App", kAllWalls, now.frame, [&]() -> Failure { return stages_.still(now, slot), Failure(); }))
       return std::nullopt;
-    ticket.last = ended_ = options_.orders ? turn.last : noneFollows();
-    ticket.drawn = turn.drawn;
+    ticket.last = ended_ = options_.orders ? order.last : noneFollows();
+    ticket.drawn = order.drawn;
     ticket.posed = stages_.headMeasured().value_or(ticket.began);
     return ticket;
   }
@@ -388,8 +425,8 @@ std::optional<FrameTicket> FrameLoop::appStage(const Turn& turn, std::size_t slo
   }
   ++outcome_.framesSimulated;
   ticket.posed = stages_.headMeasured().value_or(ticket.began);
-  ticket.last = ended_ = options_.orders ? turn.last : noneFollows();
-  ticket.drawn = turn.drawn && stages_.wantsDrawn(ticket) && !passesOver(ticket);
+  ticket.last = ended_ = options_.orders ? order.last : noneFollows();
+  ticket.drawn = order.drawn && stages_.wantsDrawn(ticket) && !passesOver(ticket);
   return ticket;
 }
 

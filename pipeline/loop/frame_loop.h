@@ -85,18 +85,14 @@ public:
   bool catchesUp() const { return pacer_.catchesUp(); }
 
 private:
-  struct StageThreads;
+  class Pipeline;
 
   void runSequential();
   void runPipelined();
-  void runThreads(const StageThreads& work);
-  void drawAndClose(const StageThreads& work, std::size_t wall);
-  /// App's next step.
-  using Turn = FrameOrder;
-  std::optional<Turn> nextTurn();
-  std::optional<Turn> orderedTurn();
+  std::optional<FrameOrder> nextOrder();
+  std::optional<FrameOrder> leadersOrder();
   Standstill standstill() const;  ///< the reason for which show time stands still
-  Turn told(Turn turn);
+  FrameOrder issued(FrameOrder order);
   template <class Wait>
   auto waited(Span what, std::uint64_t frame, std::size_t wall, const Wait& wait);
   bool takeCommands();
@@ -108,7 +104,7 @@ private:
   bool isPastEnd() const;
 
   bool passesOver(const FrameTicket& ticket);
-  std::optional<FrameTicket> appStage(const Turn& turn, std::size_t slot);
+  std::optional<FrameTicket> appStage(const FrameOrder& order, std::size_t slot);
   bool cullStage(std::size_t wall, std::size_t slot, const FrameTicket& ticket, DrawList& list);
   bool openStage(std::size_t wall);
   bool warmUpStage(std::size_t wall, const DrawList& list);
