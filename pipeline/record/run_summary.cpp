@@ -114,7 +114,7 @@ namespace {
 
 std::string clusterText(const ClusterSummary& c) {
   std::string text =
-      fmt::format("  cluster: {}, {} of {} nodes", c.node, c.leads ? "who leads" : "one", c.nodes);
+      fmt::format("  cluster: {} {} {} hosts", c.node, c.leads ? "leads" : "is one of", c.nodes);
   if (c.leads)
     text +=
         fmt::format("; {:.0f} bytes a frame, {} at most; {} have come, {} were left out; {} scenes compared, "
@@ -216,8 +216,11 @@ std::string happeningsText(const RunSummary& s) {
   return text;
 }
 
-std::string toJson(const RunSummary& s) {
-  Json j;
+namespace {
+
+// The sections of summary.json, in the order of the file.
+
+void addShow(Json& j, const RunSummary& s) {
   j["show"] = s.show;
   j["walls"] = s.walls;
   j["mode"] = s.mode;
@@ -236,6 +239,9 @@ std::string toJson(const RunSummary& s) {
                           {"rasteriser_threads", s.howDrawn.rasteriserThreads},
                           {"pinned", s.howDrawn.pinned},
                           {"why", s.howDrawn.why}};
+}
+
+void addTimes(Json& j, const RunSummary& s) {
   j["warm_up_ms"] = s.warmUpMs;
   j["late_frames"] = s.lateFrames;
   j["frame_ms"] = json(s.frameMs);
@@ -247,6 +253,10 @@ std::string toJson(const RunSummary& s) {
   }
   j["motion_to_image_ms"] = Json::object();
   for (const WallLatency& l : s.latency) j["motion_to_image_ms"][l.wall] = json(l.ms);
+}
+
+/// Frames that were shown late, and the measures that keep the head's pose young.
+void addLateness(Json& j, const RunSummary& s) {
   j["most_passed_over"] = s.mostPassedOver;
   j["late_walls"] = Json::object();
   for (const WallLate& w : s.lateWalls)
@@ -257,24 +267,32 @@ std::string toJson(const RunSummary& s) {
                            {"farthest_m", s.latched->farthest},
                            {"widest_rad", s.latched->widest}};
   if (s.aimedAt) j["predicted_ms"] = *s.aimedAt;
+}
+
+void addHashes(Json& j, const RunSummary& s) {
   j["last_frame"] = s.lastFrame;
   j["state_hash"] = s.stateHash ? Json(hex(*s.stateHash)) : Json();
   j["history_hash"] = s.historyHash ? Json(hex(*s.historyHash)) : Json();
-  if (const auto& c = s.cluster)
-    j["cluster"] = Json{{"node", c->node},
-                        {"nodes", c->nodes},
-                        {"leads", c->leads},
-                        {"orders", c->orders},
-                        {"order_bytes", c->orderBytes},
-                        {"most_order_bytes", c->mostOrderBytes},
-                        {"barriers", c->barrier.count},
-                        {"barrier_p50_ms", c->barrier.p50},
-                        {"barrier_p99_ms", c->barrier.p99},
-                        {"joined", c->joined},
-                        {"left_out", c->leftOut},
-                        {"compared", c->compared},
-                        {"differed", c->differed},
-                        {"stopped_for_difference", c->stopped}};
+}
+
+Json json(const ClusterSummary& c) {
+  return Json{{"node", c.node},
+              {"nodes", c.nodes},
+              {"leads", c.leads},
+              {"orders", c.orders},
+              {"order_bytes", c.orderBytes},
+              {"most_order_bytes", c.mostOrderBytes},
+              {"barriers", c.barrier.count},
+              {"barrier_p50_ms", c.barrier.p50},
+              {"barrier_p99_ms", c.barrier.p99},
+              {"joined", c.joined},
+              {"left_out", c.leftOut},
+              {"compared", c.compared},
+              {"differed", c.differed},
+              {"stopped_for_difference", c.stopped}};
+}
+
+void addDegradation(Json& j, const RunSummary& s) {
   if (s.stress)
     j["stress"] =
         Json{{"highest", s.stress->highest}, {"at_end", s.stress->atEnd}, {"changes", s.stress->changes}};
@@ -282,6 +300,9 @@ std::string toJson(const RunSummary& s) {
   for (const Obeyed& o : s.obeyed)
     j["obeyed"].push_back(
         Json{{"node", o.node}, {"changes", o.changes}, {"highest_level", o.highest}, {"level", o.now}});
+}
+
+void addPictures(Json& j, const RunSummary& s) {
   j["drawn"] = Json::array();
   for (const DrawnCounts& d : s.drawn)
     j["drawn"].push_back(Json{{"wall", d.wall},
@@ -293,12 +314,18 @@ std::string toJson(const RunSummary& s) {
   j["image_hashes"] = Json::array();
   for (const ImageHash& h : s.imageHashes)
     j["image_hashes"].push_back(Json{{"wall", h.wall}, {"eye", h.eye}, {"hash", hex(h.hash)}});
+}
+
+void addNotes(Json& j, const RunSummary& s) {
   j["counters"] = Json::object();
   for (const auto& [name, value] : s.counters) j["counters"][name] = value;
   j["files"] = s.files;
   j["remarks"] = s.remarks;
   j["stopped"] = s.stopped.empty() ? Json() : Json(s.stopped);
   j["failure"] = s.failure.empty() ? Json() : Json(s.failure);
+}
+
+void addHappenings(Json& j, const RunSummary& s) {
   j["happened_count"] = s.happenedCount;
   j["happened"] = Json::array();
   for (const Happening& h : s.happened) {
@@ -309,6 +336,21 @@ std::string toJson(const RunSummary& s) {
   j["measured"] = Json::array();
   for (const MeasuredDistance& m : s.measured)
     j["measured"].push_back(Json{{"seconds", m.seconds}, {"node", m.node}, {"metres", m.metres}});
+}
+
+}  // namespace
+
+std::string toJson(const RunSummary& s) {
+  Json j;
+  addShow(j, s);
+  addTimes(j, s);
+  addLateness(j, s);
+  addHashes(j, s);
+  if (s.cluster) j["cluster"] = json(*s.cluster);
+  addDegradation(j, s);
+  addPictures(j, s);
+  addNotes(j, s);
+  addHappenings(j, s);
   // File names may be any bytes; JSON may not.
   return j.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
