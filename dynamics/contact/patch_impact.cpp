@@ -20,86 +20,129 @@ bool strikesWithAPoint(const Side& s, const Mobile& m, const Vec3& n) {
   return isConvex(*s.shape) && coreOf(*s.shape, turned, core) && pointed(core, n, kTogether);
 }
 
+double closing(const Mobile& a, const Mobile& b, const Gap& g) {
+  return g.normal.dot(b.velocityAt(g.point) - a.velocityAt(g.point));
+}
+
+/// The points at which two solids strike together, and what they push.
+class FlatLanding {
+public:
+  /// What the points of one side push.
+  struct Push {
+    Vec3 impulse = Vec3::Zero(), arm = Vec3::Zero();
+    double pushed = 0;  ///< along the normals [N s]
+  };
+
+  FlatLanding(const Side& a, double tau, const Gap& first, const Mobile& ma, const Mobile& mb)
+      : a_(a), tau_(tau), first_(first), ma_(ma), mb_(mb) {}
+
+  /// Adds the points that strike `side`, whose part is null for the first side.
+  void gather(const Side& side, PatchSide* part, double bounce, double grip);
+  std::size_t size() const { return contacts_.size(); }
+  /// Adds the friction over the areas between the points of `side`.
+  void flatten(const Side& side, PatchSide* part, double grip);
+  bool solve();
+  /// Sums up one side after solve(). Every side is asked for once.
+  Push pushOf(const PatchSide* part);
+  /// Whether all sides together push, and add no energy.
+  bool isSound() const { return !(work_ > 0 || !(pushed_ > 0)); }
+  const std::vector<Mobile>& after() const { return after_; }
+  /// The place about which the push acts.
+  Vec3 middleOf(const Push& push) const {
+    return push.pushed > 0 ? Vec3(ma_.p + push.arm / push.pushed) : first_.point;
+  }
+
+private:
+  const Side& a_;
+  double tau_;
+  const Gap& first_;
+  const Mobile &ma_, &mb_;              ///< before the impact
+  std::vector<Mobile> before_, after_;  ///< of solve()
+  std::vector<ManifoldPoint> points_;   ///< gather()'s own
+  std::vector<SolverContact> contacts_;
+  std::vector<PatchSide*> whose_;   ///< by contact; null: the first side's
+  std::vector<Gap> gaps_;           ///< by point
+  std::vector<FlatContact> flats_;  ///< own the areas
+  double work_ = 0, pushed_ = 0;
+};
+
+void FlatLanding::gather(const Side& side, PatchSide* part, double bounce, double grip) {
+  manifold(a_, side, tau_, std::max(first_.distance, 0.0) + kTogether, points_);
+  for (const ManifoldPoint& p : points_) {
+    const double comes = closing(ma_, mb_, p.gap);
+    if (p.gap.normal.dot(first_.normal) < kSameSide || !(p.gap.distance < kSoon * comes)) continue;
+    SolverContact c;
+    c.b = 1;
+    c.placeAt(p.gap.point, p.gap.normal, ma_.p, mb_.p);
+    c.friction = grip, c.floor = bounce * comes;
+    contacts_.push_back(c), whose_.push_back(part), gaps_.push_back(p.gap);
+    if (part) part->closing = std::max(part->closing, comes);
+  }
+}
+
+void FlatLanding::flatten(const Side& side, PatchSide* part, double grip) {
+  const auto begin = static_cast<std::size_t>(std::ranges::find(whose_, part) - whose_.begin());
+  const auto count = static_cast<std::size_t>(std::ranges::count(whose_, part));
+  if (!(grip > 0) || count < 3) return;
+  for (FlatContact& flat : flatContacts(a_, {&side, 1}, tau_, std::span(gaps_).subspan(begin, count))) {
+    SolverContact c;
+    c.b = 1, c.friction = grip, c.area = flat.area.get();
+    c.placeAt(flat.plane.origin, flat.plane.n, ma_.p, mb_.p);
+    for (const std::uint32_t k : flat.points)
+      contacts_[begin + k].patch = static_cast<std::int32_t>(contacts_.size());
+    contacts_.push_back(c), whose_.push_back(part), flats_.push_back(std::move(flat));
+  }
+}
+
+bool FlatLanding::solve() {
+  after_ = {ma_, mb_};
+  if (!solveContacts(after_, contacts_)) return false;
+  before_ = {ma_, mb_};
+  return true;
+}
+
+FlatLanding::Push FlatLanding::pushOf(const PatchSide* part) {
+  Push sum;
+  for (std::size_t i = 0; i < contacts_.size(); ++i) {
+    if (whose_[i] != part) continue;
+    const SolverContact& c = contacts_[i];
+    work_ += 0.5 * c.impulse.dot(c.velocity(before_) + c.velocity(after_));
+    if (c.area) {
+      sum.impulse += c.push.rightCols<2>() * c.impulse.tail<2>();
+      continue;
+    }
+    sum.impulse += c.push * c.impulse;
+    sum.arm += c.impulse[0] * c.pushA, sum.pushed += c.impulse[0];
+  }
+  pushed_ += sum.pushed;
+  return sum;
+}
+
 }  // namespace
 
 std::optional<PatchImpact> collidePatch(const Side& a, const Side& b, double tau, const Gap& first,
                                         Mobile& ma, Mobile& mb, double restitution, double friction,
                                         std::vector<PatchSide>& beside) {
-  const auto closing = [&](const Gap& g) {
-    return g.normal.dot(mb.velocityAt(g.point) - ma.velocityAt(g.point));
-  };
-  const double speed = closing(first);
-  if (!(speed > 0) || strikesWithAPoint(a, ma, first.normal) || strikesWithAPoint(b, mb, first.normal))
+  if (!(closing(ma, mb, first) > 0) || strikesWithAPoint(a, ma, first.normal) ||
+      strikesWithAPoint(b, mb, first.normal))
     return {};
-  std::vector<ManifoldPoint> points;
-  std::vector<SolverContact> contacts;
-  std::vector<PatchSide*> whose;  // null: b's
-  std::vector<Gap> gaps;
-  const auto gather = [&](const Side& side, PatchSide* part, double bounce, double grip) {
-    manifold(a, side, tau, std::max(first.distance, 0.0) + kTogether, points);
-    for (const ManifoldPoint& p : points) {
-      const double comes = closing(p.gap);
-      if (p.gap.normal.dot(first.normal) < kSameSide || !(p.gap.distance < kSoon * comes)) continue;
-      SolverContact c;
-      c.b = 1;
-      c.placeAt(p.gap.point, p.gap.normal, ma.p, mb.p);
-      c.friction = grip, c.floor = bounce * comes;
-      contacts.push_back(c), whose.push_back(part), gaps.push_back(p.gap);
-      if (part) part->closing = std::max(part->closing, comes);
-    }
-  };
-  gather(b, nullptr, restitution, friction);
-  for (PatchSide& part : beside) part.closing = 0, gather(part.side, &part, part.restitution, part.friction);
-  if (contacts.size() < 2) return {};
-  std::vector<FlatContact> flats;  // own the areas
-  const auto flatten = [&](const Side& side, PatchSide* part, double grip) {
-    const auto begin = static_cast<std::size_t>(std::ranges::find(whose, part) - whose.begin());
-    const auto count = static_cast<std::size_t>(std::ranges::count(whose, part));
-    if (!(grip > 0) || count < 3) return;
-    for (FlatContact& flat : flatContacts(a, {&side, 1}, tau, std::span(gaps).subspan(begin, count))) {
-      SolverContact c;
-      c.b = 1, c.friction = grip, c.area = flat.area.get();
-      c.placeAt(flat.plane.origin, flat.plane.n, ma.p, mb.p);
-      for (const std::uint32_t k : flat.points)
-        contacts[begin + k].patch = static_cast<std::int32_t>(contacts.size());
-      contacts.push_back(c), whose.push_back(part), flats.push_back(std::move(flat));
-    }
-  };
-  flatten(b, nullptr, friction);
-  for (PatchSide& part : beside) flatten(part.side, &part, part.friction);
-  std::vector<Mobile> mobiles{ma, mb};
-  if (!solveContacts(mobiles, contacts)) return {};
-  struct Sum {
-    Vec3 impulse = Vec3::Zero(), arm = Vec3::Zero();
-    double pushed = 0;
-  };
-  double work = 0, pushed = 0;
-  const std::vector<Mobile> before{ma, mb};
-  const auto sumOf = [&](const PatchSide* part) {
-    Sum sum;
-    for (std::size_t i = 0; i < contacts.size(); ++i) {
-      if (whose[i] != part) continue;
-      const SolverContact& c = contacts[i];
-      work += 0.5 * c.impulse.dot(c.velocity(before) + c.velocity(mobiles));
-      if (c.area) {
-        sum.impulse += c.push.rightCols<2>() * c.impulse.tail<2>();
-        continue;
-      }
-      sum.impulse += c.push * c.impulse;
-      sum.arm += c.impulse[0] * c.pushA, sum.pushed += c.impulse[0];
-    }
-    pushed += sum.pushed;
-    return sum;
-  };
-  const Sum own = sumOf(nullptr);
+  FlatLanding landing(a, tau, first, ma, mb);
+  landing.gather(b, nullptr, restitution, friction);
+  for (PatchSide& part : beside)
+    part.closing = 0, landing.gather(part.side, &part, part.restitution, part.friction);
+  if (landing.size() < 2) return {};
+  landing.flatten(b, nullptr, friction);
+  for (PatchSide& part : beside) landing.flatten(part.side, &part, part.friction);
+  if (!landing.solve()) return {};
+  const FlatLanding::Push own = landing.pushOf(nullptr);
   for (PatchSide& part : beside) {
-    const Sum sum = sumOf(&part);
-    part.impulse = sum.impulse;
-    part.middle = sum.pushed > 0 ? Vec3(ma.p + sum.arm / sum.pushed) : first.point;
+    const FlatLanding::Push push = landing.pushOf(&part);
+    part.impulse = push.impulse;
+    part.middle = landing.middleOf(push);
   }
-  if (work > 0 || !(pushed > 0)) return {};
-  const PatchImpact result{own.impulse, own.pushed > 0 ? Vec3(ma.p + own.arm / own.pushed) : first.point};
-  ma = mobiles[0], mb = mobiles[1];
+  if (!landing.isSound()) return {};
+  const PatchImpact result{own.impulse, landing.middleOf(own)};
+  ma = landing.after()[0], mb = landing.after()[1];
   return result;
 }
 
