@@ -137,14 +137,20 @@ Affine Placements::carriedBy(PlacementId id, const Affine& X_WP) const {
 }
 
 const Affine& Placements::world(PlacementId id) const {
-  if (standsInWorld(entries_[id])) return settle(id), X_PN_[id];
+  // The matrix that is already one of World, so that X_WN_ needs no copy of it; else null.
+  const auto given = [this](PlacementId at) -> const Affine* {
+    const Entry& e = entries_[at];
+    if (e.held == Held::All) return &X_WH_[at];
+    return standsInWorld(e) ? &X_PN_[at] : nullptr;
+  };
+  if (const Affine* X_WN = given(id)) return settle(id), *X_WN;
   if (!entries_[id].stale) return X_WN_[id];
   chain_.clear();
-  for (PlacementId at = id; entries_[at].stale && !standsInWorld(entries_[at]); at = entries_[at].parent)
-    chain_.push_back(at);
+  for (PlacementId at = id; entries_[at].stale && !given(at); at = entries_[at].parent) chain_.push_back(at);
   for (auto at = chain_.rbegin(); at != chain_.rend(); ++at) {
     Entry& e = entries_[*at];
-    X_WN_[*at] = carriedBy(*at, standsInWorld(entries_[e.parent]) ? X_PN_[e.parent] : X_WN_[e.parent]);
+    const Affine* X_WP = given(e.parent);
+    X_WN_[*at] = carriedBy(*at, X_WP ? *X_WP : X_WN_[e.parent]);
     e.stale = false;
   }
   return X_WN_[id];
