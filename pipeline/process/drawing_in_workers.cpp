@@ -35,8 +35,8 @@ constexpr milliseconds kForEver{24 * 3600 * 1000};
 
 struct DrawingInWorkers::Wall {
   Wall(std::string name_, double rate, worker::WorkerSetting setting, const MeshStore& meshes,
-       worker::MeshParcels& parcels)
-      : name(std::move(name_)), process(std::move(setting), meshes, parcels), patience(rate) {}
+       worker::SharedMeshes& shared)
+      : name(std::move(name_)), process(std::move(setting), meshes, shared), patience(rate) {}
 
   std::string name;
   worker::WallWorker process;
@@ -60,7 +60,7 @@ struct DrawingInWorkers::Wall {
 };
 
 DrawingInWorkers::DrawingInWorkers(DrawingInWorkersParts parts)
-    : parts_(std::move(parts)), parcels_(parts_.meshes) {
+    : parts_(std::move(parts)), sharedMeshes_(parts_.meshes) {
   for (std::size_t i = 0; i < parts_.walls.size(); ++i) {
     const worker::WorkerSetting setting{parts_.program,
                                         parts_.egl,
@@ -69,7 +69,8 @@ DrawingInWorkers::DrawingInWorkers(DrawingInWorkersParts parts)
                                         parts_.quality,
                                         parts_.rasteriserThreads,
                                         i < parts_.processors.size() ? parts_.processors[i] : ProcessorSet{}};
-    walls_.push_back(std::make_unique<Wall>(parts_.names[i], parts_.rate, setting, parts_.meshes, parcels_));
+    walls_.push_back(
+        std::make_unique<Wall>(parts_.names[i], parts_.rate, setting, parts_.meshes, sharedMeshes_));
   }
 }
 

@@ -1,16 +1,15 @@
 #pragma once
 /// Draws each wall in a process of its own (the program `stadion-wall`).
 ///
-/// A software rasteriser serialises all contexts of a process; of several processes it does not. And a driver
-/// that crashes or hangs takes its own wall with it only: the process is replaced, and the wall keeps its
-/// last picture until the new one has drawn.
+/// A software rasteriser serialises all contexts of one process, but not those of several processes. A driver
+/// that crashes or hangs ends only the process of its wall. A new process replaces it, and the wall keeps its
+/// last picture until the new process has drawn.
 ///
-/// Where every frame counts, a frame is drawn again by the new process until its pictures are there, and
-/// nothing is lost; when four in a row have died of it, whoever killed them, or before they were ready, the
-/// run ends. Where the newest counts, the other walls wait
-/// for one that is late only so long (patience.h), and for what a new process draws first not at all; from
-/// then on it shows what it has until it answers, and processes that die one after the other are started
-/// after growing pauses (restarts.h).
+/// Every   if every frame counts, a new process draws the frame again until its pictures are there. If four
+///         processes in a row die on one frame, or before they are ready, the run ends.
+/// Latest  if the newest frame counts, the other walls wait for a late wall for a limited time (patience.h).
+///         They do not wait for the first picture of a new process. The late wall shows its last picture until
+///         its process answers. After repeated crashes, a process starts after a growing pause (restarts.h).
 
 #include "engine/asset/mesh_store.h"
 #include "pipeline/process/wall_worker.h"
@@ -51,7 +50,7 @@ public:
   ViewTotals totals(std::size_t wall) const override;
   std::string glDescription(std::size_t wall) const override;
 
-  /// The process that draws the wall; 0 while there is none (for tests that kill it).
+  /// The process that draws the wall; 0 if there is none (for tests that kill it).
   int pid(std::size_t wall) const;
 
 private:
@@ -75,7 +74,7 @@ private:
   void tell(const Wall& wall, const std::string& what) const;
 
   DrawingInWorkersParts parts_;
-  worker::MeshParcels parcels_;
+  worker::SharedMeshes sharedMeshes_;
   std::vector<std::unique_ptr<Wall>> walls_;
 };
 

@@ -1,8 +1,8 @@
 #pragma once
 /// A draw list as bytes, for the process that draws it.
 ///
-/// What casts shadows and stands still travels only when it has changed. Everything else travels each time:
-/// some hundred bytes for each thing that is seen.
+/// Shadow casters that stand still travel only after a change. Everything else travels in every frame: some
+/// hundred bytes for each visible object.
 ///
 /// Threads  plain functions; one Draw thread a list.
 
@@ -17,26 +17,26 @@
 
 namespace stadion::worker {
 
-/// A mesh that the list is the first to show: where it lies in the meshes' segment (mesh_parcels.h).
+/// Where a mesh lies in the segment of meshes (shared_meshes.h). The list is the first one that shows it.
 struct MeshPlace {
   MeshId id = kNoMesh;
   std::uint64_t offset = 0, bytes = 0;
 };
 
-/// What goes with a list.
+/// What the process must learn about meshes before it draws the list.
 struct ListNews {
   std::vector<MeshPlace> meshes;
-  std::vector<MeshId> gone;  ///< they are not shown any more, and their ids may be given to others
+  std::vector<MeshId> gone;  ///< freed by the show, which may use their ids again
 };
 
-/// The still casters that the other side has, by ring: none yet, or those of this key.
+/// The still casters that the process has, by ring: none yet, or those of this key.
 using StillKeys = std::array<std::optional<std::uint64_t>, kShadowRings>;
 
-/// Returns how many bytes that took. Brings `known` up to date.
+/// Returns the number of bytes written. Brings `known` up to date.
 std::size_t write(const DrawList& list, const ListNews& news, StillKeys& known, SharedSegment& to);
 
-/// Fills `list` and `news`, reusing their memory; rings without new still casters keep those that the list
-/// had. False if the bytes are not a list.
+/// Fills `list` and `news`, reusing their memory. Rings without new still casters keep those that the list
+/// had. Returns false if the bytes are damaged.
 bool read(std::span<const std::byte> bytes, DrawList& list, ListNews& news);
 
 }  // namespace stadion::worker

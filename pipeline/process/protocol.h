@@ -1,11 +1,11 @@
 #pragma once
-/// What a show and the process that draws one of its walls say to each other.
+/// The messages between a show and the process that draws one of its walls.
 ///
-/// Over a pair of sockets that keep messages apart (SOCK_SEQPACKET): each is a head, and after an answer's
-/// head a text. The first message carries the descriptors of three segments: the draw list, the meshes, the
-/// pictures. Both sides are the same build, so structs travel as they are. When the show is gone, the socket
-/// ends, and the worker with it; when the worker is gone, the show sees that too. Nobody holds a lock that
-/// the other waits for.
+/// The show sends an OrderHead, and the process answers with an AnswerHead and a text. The messages travel
+/// over a pair of sockets that keep them apart (SOCK_SEQPACKET). The first message carries the descriptors of
+/// three memory segments: the draw list, the meshes (shared_meshes.h) and the pictures. Both programs are of
+/// one build, so structs travel as they are. If one program exits, the other one's socket ends. The two share
+/// no lock.
 
 #include "pipeline/draw/renderer.h"
 #include "pipeline/platform/processor_set.h"
@@ -27,8 +27,8 @@ constexpr std::size_t kListReserve = std::size_t{1} << 32, kMeshReserve = std::s
 
 enum class Order : std::uint32_t {
   Open,  ///< with the segments' descriptors: list, meshes, pictures
-  Draw,  ///< what lies in the list's segment; with `read`, the pictures into theirs as well
-  Read,  ///< the pictures drawn last, into the pictures' segment: view by view
+  Draw,  ///< draws the list in the list's segment; with `read`, then does as Read
+  Read,  ///< writes the pictures drawn last into the pictures' segment, view by view
 };
 
 struct OrderHead {
@@ -41,7 +41,7 @@ struct OrderHead {
   RenderQuality quality{};
   ProcessorSet processors{};  ///< that it may use; empty: all
   // Of Draw.
-  std::uint32_t read = 0;    ///< 1: one answer when the pictures are there, so that no death falls in between
+  std::uint32_t read = 0;    ///< 1: one answer for drawing and reading, so no crash can fall between them
   std::uint32_t warmUp = 0;  ///< 1: what it draws is not counted
   std::uint64_t listBytes = 0;
 };

@@ -1,5 +1,5 @@
-#include "engine/base/installed_files.h"
 #include "pipeline/process/wall_worker.h"
+#include "engine/base/installed_files.h"
 
 #include <algorithm>
 #include <cerrno>
@@ -65,9 +65,9 @@ std::filesystem::path wallProgram() {
   return helperProgram("stadion-wall");
 }
 
-WallWorker::WallWorker(WorkerSetting setting, const MeshStore& meshes, MeshParcels& parcels)
-    : setting_(std::move(setting)), meshes_(meshes), parcels_(parcels), list_("stadion-list", kListReserve),
-      pictures_("stadion-pictures", kPictureReserve) {
+WallWorker::WallWorker(WorkerSetting setting, const MeshStore& meshes, SharedMeshes& shared)
+    : setting_(std::move(setting)), meshes_(meshes), sharedMeshes_(shared),
+      list_("stadion-list", kListReserve), pictures_("stadion-pictures", kPictureReserve) {
   pictures_.growTo(pictureBytes(setting_));
 }
 
@@ -89,7 +89,7 @@ std::optional<std::string> WallWorker::start() {
   head.width = setting_.width, head.height = setting_.height, head.egl = setting_.egl;
   head.rasteriserThreads = setting_.rasteriserThreads, head.quality = setting_.quality;
   head.processors = setting_.processors;
-  const std::array<int, 3> segments{list_.descriptor(), parcels_.descriptor(), pictures_.descriptor()};
+  const std::array<int, 3> segments{list_.descriptor(), sharedMeshes_.descriptor(), pictures_.descriptor()};
   order(head, segments);
   return {};
 }
@@ -101,7 +101,7 @@ void WallWorker::stop() {
     process_->kill();
     dying_.push_back(std::exchange(process_, std::make_unique<ChildProcess>()));
   }
-  for (const auto& [id, sent] : sent_) parcels_.giveBack(sent.place);
+  for (const auto& [id, sent] : sent_) sharedMeshes_.giveBack(sent.place);
   sent_.clear();
   known_ = {};
   state_ = State::Down;
@@ -177,7 +177,7 @@ void WallWorker::add(MeshId id, ListNews& news) {
   if (sent_.contains(id)) return;
   const Mesh* mesh = meshes_.find(id);
   if (!mesh) return;
-  if (const auto place = parcels_.take(id, mesh->hash)) {
+  if (const auto place = sharedMeshes_.take(id, mesh->hash)) {
     sent_[id] = {*place, mesh->hash};
     news.meshes.push_back(*place);
   }
@@ -193,7 +193,7 @@ void WallWorker::forgetFreed(ListNews& news) {
       continue;
     }
     news.gone.push_back(at->first);
-    parcels_.giveBack(at->second.place);
+    sharedMeshes_.giveBack(at->second.place);
     at = sent_.erase(at);
   }
   if (!news.gone.empty()) known_ = {};  // what stands still may name them

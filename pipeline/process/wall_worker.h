@@ -1,16 +1,16 @@
 #pragma once
-/// One running process that draws a wall, and the conversation with it.
+/// A running process that draws a wall, and the messages to and from it (protocol.h).
 ///
-/// Ownership  owns the process and the segments it shares with it; borrows the parcels.
-/// Errors     whatever the process does (dies, hangs, sends nonsense), the calls return and say so; the next
-///            start() begins anew. No signal reaches the show.
+/// Ownership  owns the process, the draw list's segment and the pictures' segment; borrows the meshes.
+/// Errors     if the process crashes, hangs or sends nonsense, the calls return and report it. The next
+///            start() starts a new process. No signal reaches the show.
 /// Threads    one at a time.
 
 #include "pipeline/platform/child_process.h"
 #include "pipeline/platform/processor_set.h"
 #include "pipeline/process/list_bytes.h"
-#include "pipeline/process/mesh_parcels.h"
 #include "pipeline/process/protocol.h"
+#include "pipeline/process/shared_meshes.h"
 
 #include <array>
 #include <chrono>
@@ -46,7 +46,7 @@ std::filesystem::path wallProgram();
 
 class WallWorker {
 public:
-  WallWorker(WorkerSetting setting, const MeshStore& meshes, MeshParcels& parcels);
+  WallWorker(WorkerSetting setting, const MeshStore& meshes, SharedMeshes& shared);
   ~WallWorker() { stop(); }
   WallWorker(const WallWorker&) = delete;
   WallWorker& operator=(const WallWorker&) = delete;
@@ -71,9 +71,10 @@ public:
   void warmUp(const DrawList& list);
   void readPictures();
 
-  /// Hears what it has to say, at most so long. True when it has become idle; read the answer then. When it
-  /// is gone, its state is Down and end() says how it ended: at once where its socket ends, else at the end
-  /// of the time. (A rasteriser's threads, of the lowest priority, may keep the socket open for seconds.)
+  /// Waits for its answer, for at most that time. Returns true if it has become idle; answer() is then new.
+  /// If it has exited, its state is Down and end() tells how it ended. That is noticed when its socket ends,
+  /// or at the end of the time. (A rasteriser's threads, of lowest priority, may keep the socket open for
+  /// seconds.)
   bool hear(std::chrono::milliseconds atMost);
 
   const AnswerHead& answer() const { return answer_; }
@@ -104,9 +105,9 @@ private:
 
   WorkerSetting setting_;
   const MeshStore& meshes_;
-  MeshParcels& parcels_;
+  SharedMeshes& sharedMeshes_;
   std::unique_ptr<ChildProcess> process_ = std::make_unique<ChildProcess>();
-  std::vector<std::unique_ptr<ChildProcess>> dying_;  ///< killed; nobody waits until they are gone
+  std::vector<std::unique_ptr<ChildProcess>> dying_;  ///< killed; no call waits for their end
   Descriptor socket_;
   SharedSegment list_, pictures_;
   State state_ = State::Down;

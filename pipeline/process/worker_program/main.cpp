@@ -3,8 +3,8 @@
 /// Started by stadion with a socket as its standard input; it ends when the show closes that.
 
 #include "pipeline/process/list_bytes.h"
-#include "pipeline/process/mesh_parcels.h"
 #include "pipeline/process/protocol.h"
+#include "pipeline/process/shared_meshes.h"
 #include "pipeline/target/rasteriser_settings.h"
 #include "pipeline/target/target.h"
 
@@ -38,8 +38,7 @@ void answer(Order to, const std::string& text, bool failed, const ViewTotals& to
   }
 }
 
-void answer(Order to, const std::optional<Diagnostic>& problem,
-            const ViewTotals& totals = {}) {
+void answer(Order to, const std::optional<Diagnostic>& problem, const ViewTotals& totals = {}) {
   answer(to, problem ? problem->message : std::string(), problem.has_value(), totals);
 }
 
@@ -87,7 +86,7 @@ private:
   void rename(std::vector<DrawItem>& items) const;
   void renameStill();
 
-  std::unique_ptr<SharedSegment> bytes_, parcels_, pictures_;
+  std::unique_ptr<SharedSegment> bytes_, sharedMeshes_, pictures_;
   std::unique_ptr<GlProvider> provider_;
   std::unique_ptr<Target> target_;
   MeshStore meshes_;
@@ -95,8 +94,7 @@ private:
   std::size_t pictureBytes_ = 0;
   DrawList list_;
   ListNews news_;
-  /// What the show calls a mesh, and what it is called here: the same, but by a chance of one in four
-  /// billion.
+  /// The mesh's id in this process, by its id in the show. They are equal, but for a collision of hashes.
   std::unordered_map<MeshId, MeshId> ids_;
   std::array<std::shared_ptr<const std::vector<DrawItem>>, kShadowRings> still_;  ///< renamed
   std::uint64_t frames_ = 0;
@@ -104,7 +102,7 @@ private:
 
 std::optional<std::string> Worker::open(const OrderHead& order, const std::array<int, 3>& segments) {
   bytes_ = std::make_unique<SharedSegment>(segments[0], kListReserve, Access::Read);
-  parcels_ = std::make_unique<SharedSegment>(segments[1], kMeshReserve, Access::Read);
+  sharedMeshes_ = std::make_unique<SharedSegment>(segments[1], kMeshReserve, Access::Read);
   pictures_ = std::make_unique<SharedSegment>(segments[2], kPictureReserve, Access::Write);
   if (!order.processors.empty()) order.processors.bindThisThread();  // others will start from here
   goWithTheShow();
@@ -134,7 +132,7 @@ void Worker::takeNews() {
     }
   meshes_.collect(frames_);
   for (const MeshPlace& place : news_.meshes)
-    if (auto mesh = meshOf({parcels_->data() + place.offset, place.bytes}))
+    if (auto mesh = meshOf({sharedMeshes_->data() + place.offset, place.bytes}))
       ids_[place.id] = meshes_.add(std::move(mesh));
 }
 

@@ -148,10 +148,10 @@ TEST(WallWorkerBytes, MeshesArriveWithTheirLevels) {
   const Mesh& was = *ball;
   const std::uint64_t hash = was.hash;
   const MeshId id = meshes.add(std::move(ball));
-  MeshParcels parcels(meshes);
-  const auto place = parcels.take(id, hash);
+  SharedMeshes shared(meshes);
+  const auto place = shared.take(id, hash);
   ASSERT_TRUE(place);
-  SharedSegment mapped(dup(parcels.descriptor()), kMeshReserve, SharedSegment::Access::Read);
+  SharedSegment mapped(dup(shared.descriptor()), kMeshReserve, SharedSegment::Access::Read);
   const auto got = meshOf({mapped.data() + place->offset, place->bytes});
   ASSERT_TRUE(got);
   EXPECT_EQ(got->positions, was.positions);
@@ -159,10 +159,10 @@ TEST(WallWorkerBytes, MeshesArriveWithTheirLevels) {
   ASSERT_EQ(got->levels.size(), 1u);
   EXPECT_EQ(got->levels[0].indices, was.levels[0].indices);
   EXPECT_EQ(got->levels[0].error, 0.25);
-  EXPECT_FALSE(parcels.take(id + 1, hash));
+  EXPECT_FALSE(shared.take(id + 1, hash));
 }
 
-TEST(WallWorkerBytes, AParcelIsWrittenOnceAndItsPlaceGivenToOthersWhenNobodyUsesIt) {
+TEST(WallWorkerBytes, AMeshIsWrittenOnceAndItsPlaceIsFreeAfterItsLastUse) {
   MeshStore meshes;
   const auto add = [&](double radius) {
     auto mesh = test::MeshMaker(test::matt(1, 0, 0)).sphere(radius, 8).seal();
@@ -171,14 +171,14 @@ TEST(WallWorkerBytes, AParcelIsWrittenOnceAndItsPlaceGivenToOthersWhenNobodyUses
   };
   const auto [one, oneHash] = add(1);
   const auto [two, twoHash] = add(2);
-  MeshParcels parcels(meshes);
-  const auto first = parcels.take(one, oneHash), again = parcels.take(one, oneHash);
+  SharedMeshes shared(meshes);
+  const auto first = shared.take(one, oneHash), again = shared.take(one, oneHash);
   EXPECT_EQ(first->offset, again->offset);
-  parcels.giveBack(*first);
-  EXPECT_NE(parcels.take(two, twoHash)->offset, first->offset);
-  parcels.giveBack(*again);
+  shared.giveBack(*first);
+  EXPECT_NE(shared.take(two, twoHash)->offset, first->offset);
+  shared.giveBack(*again);
   const auto [three, threeHash] = add(3);
-  EXPECT_EQ(parcels.take(three, threeHash)->offset, first->offset);
+  EXPECT_EQ(shared.take(three, threeHash)->offset, first->offset);
 }
 
 TEST(ProgramWallWorkers, DrawTheSamePictures) {

@@ -1,4 +1,4 @@
-#include "pipeline/process/mesh_parcels.h"
+#include "pipeline/process/shared_meshes.h"
 
 #include "engine/asset/mesh_checks.h"
 #include "engine/asset/mesh_file.h"
@@ -34,9 +34,9 @@ std::vector<std::uint8_t> encodeAll(const Mesh& mesh) {
   return bytes;
 }
 
-class ParcelReader {
+class SharedMeshReader {
 public:
-  explicit ParcelReader(std::span<const std::byte> bytes) : rest_(bytes) {}
+  explicit SharedMeshReader(std::span<const std::byte> bytes) : rest_(bytes) {}
   template <class T>
   bool get(T* values, std::uint64_t count) {
     if (count > rest_.size() / sizeof(T)) return false;
@@ -60,7 +60,7 @@ private:
   std::span<const std::byte> rest_;
 };
 
-bool readLevels(ParcelReader& in, Mesh& mesh) {
+bool readLevels(SharedMeshReader& in, Mesh& mesh) {
   constexpr std::uint64_t kMostLevels = 64;
   std::uint64_t levels = 0;
   if (!in.get(&levels, 1) || levels > kMostLevels) return false;
@@ -77,15 +77,15 @@ bool readLevels(ParcelReader& in, Mesh& mesh) {
 
 }  // namespace
 
-MeshParcels::MeshParcels(const MeshStore& meshes)
+SharedMeshes::SharedMeshes(const MeshStore& meshes)
     : meshes_(meshes), segment_("stadion-meshes", kMeshReserve) {}
 
-std::optional<MeshPlace> MeshParcels::take(MeshId id, std::uint64_t hash) {
+std::optional<MeshPlace> SharedMeshes::take(MeshId id, std::uint64_t hash) {
   const std::lock_guard lock(mutex_);
-  const auto known = std::find_if(parcels_.begin(), parcels_.end(), [&](const auto& p) {
+  const auto known = std::find_if(entries_.begin(), entries_.end(), [&](const auto& p) {
     return p.second.place.id == id && p.second.hash == hash;
   });
-  if (known != parcels_.end()) return ++known->second.users, known->second.place;
+  if (known != entries_.end()) return ++known->second.users, known->second.place;
   const Mesh* mesh = meshes_.find(id);
   if (!mesh) return {};
   const std::vector<std::uint8_t> bytes = encodeAll(*mesh);
@@ -93,22 +93,22 @@ std::optional<MeshPlace> MeshParcels::take(MeshId id, std::uint64_t hash) {
   segment_.growTo(extents_.end());
   std::memcpy(segment_.data() + offset, bytes.data(), bytes.size());
   const MeshPlace place{id, offset, bytes.size()};
-  parcels_[offset] = {place, hash, 1};
+  entries_[offset] = {place, hash, 1};
   return place;
 }
 
-void MeshParcels::giveBack(const MeshPlace& place) {
+void SharedMeshes::giveBack(const MeshPlace& place) {
   const std::lock_guard lock(mutex_);
-  const auto at = parcels_.find(place.offset);
-  if (at == parcels_.end() || --at->second.users > 0) return;
+  const auto at = entries_.find(place.offset);
+  if (at == entries_.end() || --at->second.users > 0) return;
   const std::size_t bytes = (place.bytes + kPage - 1) / kPage * kPage;
-  parcels_.erase(at);
+  entries_.erase(at);
   segment_.discard(place.offset, bytes);
   extents_.giveBack(place.offset, bytes);
 }
 
 std::unique_ptr<const Mesh> meshOf(std::span<const std::byte> bytes) {
-  ParcelReader in(bytes);
+  SharedMeshReader in(bytes);
   std::uint64_t size = 0;
   std::span<const std::byte> file;
   if (!in.get(&size, 1) || !in.get(file, size)) return {};

@@ -1,9 +1,8 @@
 #pragma once
-/// The meshes of a show as bytes, in memory that the walls' workers map: each is written once, whoever needs
-/// it.
+/// The meshes of a show as bytes, in memory that all wall processes map. Each mesh is written once.
 ///
 /// Layout   a mesh file (engine/asset/mesh_file.h), then its simplified levels.
-/// Threads  any, at once; a mesh that is asked for must be in the store until the call returns.
+/// Threads  any, at once. Expects that a mesh stays in the store until take() returns.
 
 #include "engine/asset/mesh_store.h"
 #include "pipeline/process/list_bytes.h"
@@ -17,18 +16,19 @@
 
 namespace stadion::worker {
 
-class MeshParcels {
+class SharedMeshes {
 public:
-  explicit MeshParcels(const MeshStore& meshes);
+  explicit SharedMeshes(const MeshStore& meshes);
 
-  /// Where the mesh lies, for one who will give it back; nothing if the store has none of that id.
+  /// Returns where the mesh lies, and writes it there if it is new. Each call needs a giveBack(). Returns
+  /// nothing if the store has no such mesh.
   std::optional<MeshPlace> take(MeshId id, std::uint64_t hash);
   void giveBack(const MeshPlace& place);
 
   int descriptor() const { return segment_.descriptor(); }
 
 private:
-  struct Parcel {
+  struct Entry {
     MeshPlace place;
     std::uint64_t hash = 0;
     std::size_t users = 0;
@@ -38,10 +38,10 @@ private:
   std::mutex mutex_;
   SharedSegment segment_;
   Extents extents_;
-  std::map<std::uint64_t, Parcel> parcels_;  ///< by offset
+  std::map<std::uint64_t, Entry> entries_;  ///< by offset
 };
 
-/// Reads what lies there; null if it is not a mesh.
+/// Reads a mesh; null if the bytes are damaged.
 std::unique_ptr<const Mesh> meshOf(std::span<const std::byte> bytes);
 
 }  // namespace stadion::worker
