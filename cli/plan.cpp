@@ -225,7 +225,7 @@ void addPlanCommand(CLI::App& app, int& code) {
       "WIDTHxHEIGHT in pixels of one eye's picture (default: what the wall file says, else 800x600)");
   addLookOption(*command, show);
   addLengthOptions(*command, show);
-  command->add_option("--gl", o->provider, "who draws: osmesa or egl")
+  command->add_option("--gl", o->provider, "the driver that draws: osmesa or egl")
       ->check(CLI::IsMember({"osmesa", "egl"}))
       ->capture_default_str();
   command->add_option("--svg", o->svg, "write a timing diagram to this file");

@@ -203,7 +203,7 @@ void addProfileCommand(CLI::App& app, int& code) {
   command->add_option("--stereo", o->run.stereo, "pair, or off for one eye")
       ->check(CLI::IsMember({"pair", "off"}))
       ->capture_default_str();
-  command->add_option("--gl", o->run.provider, "who draws: osmesa or egl")
+  command->add_option("--gl", o->run.provider, "the driver that draws: osmesa or egl")
       ->check(CLI::IsMember({"osmesa", "egl"}))
       ->capture_default_str();
   o->blackBox =

@@ -165,7 +165,7 @@ void Soak::see(const TimeSignature& now, const Scene& scene, const RunWatch& wat
   loadsVersion_ = scene.tree().version();
   const bool another = now.frame % kCheckEvery == 0 && !record_.agrees(show_, now.frame, watch.history());
   if (another) ++c.wrongHashes;
-  // Whatever ends the run now. Only what is kept is told: who reads it may end the run.
+  // Saves the counts before it reports them: the reader of the report may end the run.
   if (another || (wrong == 0 && c.wrongSteps > 0)) keepCounts();
   if (another)
     std::fprintf(stderr, "%s: frame %ju has another history of states than before\n", show_.c_str(),

@@ -20,8 +20,8 @@
 namespace stadion {
 namespace {
 
-/// True for a line of ctest that says only that a test begins or has passed. In a file or a CI log thousands
-/// of them bury the one test that failed; whoever waits at a terminal sees them.
+/// Returns true for a line of ctest that reports only the start or success of a test. In a file or a CI log,
+/// thousands of them bury the one test that failed; at a terminal they show progress.
 bool tellsOfSuccessOnly(const std::string& line) {
   return line.find("  Start ") != std::string::npos || line.find("   Passed  ") != std::string::npos;
 }

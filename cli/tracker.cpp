@@ -123,7 +123,8 @@ Result<Pose> heldPose(TrackerDevice& device, const std::string& tracker, const s
                       const std::atomic<bool>& stop) {
   std::fprintf(stderr, "%s, and press Enter.\n", ask.c_str());
   std::string line;
-  if (!std::getline(std::cin, line)) return Result<Pose>::failure("nobody pressed Enter");
+  if (!std::getline(std::cin, line))
+    return Result<Pose>::failure("Enter was not pressed; the input has ended");
   std::vector<Pose> measured;
   for (const auto end = Clock::now() + kHoldStill; Clock::now() < end && !stop;
        std::this_thread::sleep_for(kMeasureEvery))

@@ -37,8 +37,8 @@ bool namesAreKnown(const bench::ComparisonOptions& options, const std::vector<be
   return unknown.empty();
 }
 
-/// Says which other engines take part, and how to get the others.
-void sayWho(const std::vector<bench::EngineProgram>& programs) {
+/// Reports that other engines are missing, and how to build them.
+void reportMissingEngines(const std::vector<bench::EngineProgram>& programs) {
   if (programs.size() == 4) return;
   std::fprintf(stderr,
                "stadion: %s. To have Bullet, ODE and MuJoCo beside Stadion, install and build them with\n"
@@ -98,7 +98,7 @@ int benchDynamics(const BenchDynamicsOptions& o) {
     out = std::move(opened.value());
     out->clear();
   }
-  sayWho(programs);
+  reportMissingEngines(programs);
   const auto start = std::chrono::steady_clock::now();
   const std::vector<bench::CaseResult> results = compareAndPrint(programs, o);
   const std::chrono::duration<double, std::ratio<60>> minutes = std::chrono::steady_clock::now() - start;

@@ -88,7 +88,7 @@ Errors errorsOf(const HeadPath& path, const BenchPredictionOptions& o, double ah
 std::optional<HeadPath> pathOf(const std::string& file, Diagnostics& findings) {
   auto log = loadInputLog(file, findings);
   if (!log) return {};
-  if (!log->find("head")) return findings.error({file, 0, 0}, "nobody's head is in this log"), std::nullopt;
+  if (!log->find("head")) return findings.error({file, 0, 0}, "the log has no head; record one with --record-input"), std::nullopt;
   const auto shared = std::make_shared<const InputLog>(std::move(*log));
   return HeadPath{std::filesystem::path(file).filename(), [shared](Nanoseconds t) {
                     InputSample sample;

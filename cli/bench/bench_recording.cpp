@@ -49,15 +49,15 @@ double processMs() {
 /// threads, so that what collects records counts, too.
 class Turns {
 public:
-  void begin(std::size_t who) {
+  void begin(std::size_t turn) {
     std::unique_lock lock(mutex_);
-    changed_.wait(lock, [&] { return next_ == who || alone_; });
+    changed_.wait(lock, [&] { return next_ == turn || alone_; });
     began_ = processMs();
   }
-  void end(std::size_t who) {
+  void end(std::size_t turn) {
     const std::lock_guard lock(mutex_);
-    took_[who].push_back(processMs() - began_);
-    next_ = 1 - who;
+    took_[turn].push_back(processMs() - began_);
+    next_ = 1 - turn;
     changed_.notify_all();
   }
   void leave() {
@@ -65,7 +65,7 @@ public:
     alone_ = true;
     changed_.notify_all();
   }
-  const std::vector<double>& took(std::size_t who) const { return took_[who]; }
+  const std::vector<double>& took(std::size_t turn) const { return took_[turn]; }
 
 private:
   std::mutex mutex_;
@@ -80,8 +80,8 @@ private:
 class TurningShow {
 public:
   static std::unique_ptr<TurningShow> create(const ShowOptions& options, GlProvider& provider, bool recorded,
-                                             Turns& turns, std::size_t who, Diagnostics& findings) {
-    std::unique_ptr<TurningShow> made(new TurningShow(turns, who));
+                                             Turns& turns, std::size_t turn, Diagnostics& findings) {
+    std::unique_ptr<TurningShow> made(new TurningShow(turns, turn));
     made->player_ = Player::create(options, findings, tell);
     if (!made->player_) return nullptr;
     RecordingOptions everything;
@@ -94,8 +94,8 @@ public:
       if (show->recording_) show->recording_->see(scene);
     };
     parts.shown = [show = made.get()] {
-      show->turns_.end(show->who_);
-      if (++show->frames_ < show->player_->frames()) show->turns_.begin(show->who_);
+      show->turns_.end(show->turn_);
+      if (++show->frames_ < show->player_->frames()) show->turns_.begin(show->turn_);
     };
     made->stages_ = std::make_unique<ShowStages>(std::move(parts));
     return made;
@@ -104,7 +104,7 @@ public:
   void play() {
     FrameLoopOptions options = player_->loopOptions();
     options.mode = Mode::Sequential;
-    turns_.begin(who_);
+    turns_.begin(turn_);
     FrameLoop loop(*stages_, options, never_, probe());
     failure_ = loop.run().failure;
     if (failure_) turns_.leave();
@@ -113,11 +113,11 @@ public:
   std::uint64_t lost() const { return recording_ ? recording_->lost() : 0; }
 
 private:
-  TurningShow(Turns& turns, std::size_t who) : turns_(turns), who_(who) {}
+  TurningShow(Turns& turns, std::size_t turn) : turns_(turns), turn_(turn) {}
   FrameProbe* probe() { return recording_ ? &recording_->probe() : nullptr; }
 
   Turns& turns_;
-  std::size_t who_;
+  std::size_t turn_;
   std::uint64_t frames_ = 0;
   std::atomic<bool> never_ = false;
   std::unique_ptr<Player> player_;
@@ -154,9 +154,9 @@ std::optional<Measured> measureRound(const ShowOptions& options, GlProvider& pro
                                      Diagnostics& findings) {
   Turns turns;
   std::array<std::unique_ptr<TurningShow>, 2> shows;
-  for (std::size_t who = 0; who < 2; ++who) {
-    shows[who] = TurningShow::create(options, provider, who == recorded, turns, who, findings);
-    if (!shows[who]) return {};
+  for (std::size_t turn = 0; turn < 2; ++turn) {
+    shows[turn] = TurningShow::create(options, provider, turn == recorded, turns, turn, findings);
+    if (!shows[turn]) return {};
   }
   std::thread second([&] { shows[1]->play(); });
   shows[0]->play();

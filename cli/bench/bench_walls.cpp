@@ -49,7 +49,7 @@ int measureOne(WallsSetting s, bool control) {
   return kOk;
 }
 
-void sayWho(const bench::WallsPrograms& programs) {
+void reportMissingPrograms(const bench::WallsPrograms& programs) {
   if (programs.floor.empty())
     std::fprintf(stderr, "stadion: stadion-walls-floor is missing beside the program; build the target "
                          "walls_programs\n");
@@ -96,7 +96,7 @@ int benchTable(const BenchWallsOptions& o) {
     out = std::move(opened.value());
     out->clear();
   }
-  sayWho(programs);
+  reportMissingPrograms(programs);
   const std::string workers = o.workers.empty() ? "process" : o.workers;
   const bench::WallsChoice choice{o.scenes, !programs.osg.empty(), !programs.floor.empty(), workers};
   WallsRounds how{o.rounds, o.minutes, o.record, recordHead(programs, workers), !o.scaling, o.scenes};
@@ -209,7 +209,8 @@ void addBenchWalls(CLI::App& bench, int& code) {
       bench.add_subcommand("walls", "A room of stereo walls beside OpenSceneGraph and bare OpenGL");
   addTableTo(*command, *o);
   addOneTo(*command, *o);
-  command->add_option("--wall-workers", o->workers, "thread or process: who draws Stadion's walls")
+  command
+      ->add_option("--wall-workers", o->workers, "thread or process: each of Stadion's walls is drawn by one")
       ->check(CLI::IsMember({"thread", "process"}));
   command->callback([o, command, &code] { code = benchWalls(*command, *o); });
 }

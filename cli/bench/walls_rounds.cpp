@@ -87,7 +87,8 @@ public:
   WallsOutcome take() { return std::move(outcome_); }
 
 private:
-  /// Every second one the other way round, so that nobody always comes after the same neighbour.
+  /// Plays all cases once. Every second round has the reverse order, so that no case always follows the same
+  /// neighbour.
   bool playOne(std::size_t n) {
     std::vector<const bench::WallsCase*> order;
     for (const bench::WallsCase& c : cases_) order.push_back(&c);

@@ -1,7 +1,7 @@
 /// `stadion cluster FILE SHOW`: plays a show on all nodes of a cluster at once, on this machine, for trying
 /// out.
 
-#include "cli/cluster/node_words.h"
+#include "cli/cluster/cluster_arguments.h"
 #include "cli/commands.h"
 #include "cli/exit_code.h"
 #include "cli/options/run_options.h"
@@ -31,19 +31,20 @@ struct ClusterOptions {
 
 /// Whether nothing is wrong that each node would find and tell by itself, or wait for the others meanwhile.
 /// What there is to warn of is the same for all.
-bool canBePlayed(const ClusterOptions& o, const std::vector<std::vector<std::string>>& words) {
+bool canBePlayed(const ClusterOptions& o, const std::vector<std::vector<std::string>>& arguments) {
   const auto isWell = [](const Diagnostics& findings) {
     if (findings.hasErrors()) tell(findings);
     return !findings.hasErrors();
   };
   Diagnostics findings;
-  for (const std::vector<std::string>& ofNode : words) {
+  for (const std::vector<std::string>& ofNode : arguments) {
     findings = {};
-    checkWordsOfNode(ofNode, findings);
+    checkArgumentsOfHost(ofNode, findings);
     if (!isWell(findings)) return false;
   }
   if (!isWell(checkScripts(o.run.settings.show.script, o.run.settings.show.assetRoots,
-                            o.run.settings.show.types))) return false;
+                           o.run.settings.show.types)))
+    return false;
   tell(findings);
   return true;
 }
@@ -52,7 +53,7 @@ bool canBePlayed(const ClusterOptions& o, const std::vector<std::vector<std::str
 bool makeFolders(const std::string& out, const ClusterFile& cluster, Diagnostics& findings) {
   if (out.empty()) return true;
   for (const ClusterNode& node : cluster.nodes)
-    if (const auto folder = OutputFolder::open(folderOfNode(out, node.name)); !folder)
+    if (const auto folder = OutputFolder::open(folderOfHost(out, node.name)); !folder)
       return findings.add(folder.error()), false;
   return true;
 }
@@ -62,17 +63,18 @@ bool makeFolders(const std::string& out, const ClusterFile& cluster, Diagnostics
 std::unique_ptr<Journal> openJournal(const std::string& file, const ClusterNode& node,
                                      Diagnostics& findings) {
   if (file.empty()) return nullptr;
-  auto journal = Journal::open(fileOfNode(file, node.name));
+  auto journal = Journal::open(fileOfHost(file, node.name));
   if (!journal) return findings.error({}, "--journal: " + journal.error().message), nullptr;
   return std::move(journal.value());
 }
 
 /// This program, which ends with us. `progress`: where it says that it shows pictures.
-std::vector<std::string> programOf(const std::vector<std::string>& words, const SharedProgress* progress) {
+std::vector<std::string> programOf(const std::vector<std::string>& arguments,
+                                   const SharedProgress* progress) {
   std::vector<std::string> all{std::filesystem::canonical("/proc/self/exe").string(), "run", "--ends-with",
                                std::to_string(getpid())};
   if (progress) all.insert(all.end(), {"--supervised", std::to_string(progress->descriptor())});
-  all.insert(all.end(), words.begin(), words.end());
+  all.insert(all.end(), arguments.begin(), arguments.end());
   return all;
 }
 
@@ -83,10 +85,10 @@ int playCluster(const ClusterOptions& o, const CLI::App& command) {
   if (command.get_option("--walls")->count() > 0)
     findings.error({}, "--walls is not for clusters: " + o.file + " says which walls there are");
   if (findings.hasErrors()) return tell(findings), kBadInput;
-  std::vector<std::vector<std::string>> words;
+  std::vector<std::vector<std::string>> arguments;
   for (std::size_t i = 0; i < cluster->nodes.size(); ++i)
-    words.push_back(wordsOfNode(command, o.run, *cluster, i));
-  if (!canBePlayed(o, words)) return kBadInput;
+    arguments.push_back(argumentsOfHost(command, o.run, *cluster, i));
+  if (!canBePlayed(o, arguments)) return kBadInput;
   if (!makeFolders(o.run.settings.record.out, *cluster, findings)) return tell(findings), kBadInput;
   auto progress = SharedProgress::create();
   if (!progress) findings.add(progress.error());
@@ -94,11 +96,11 @@ int playCluster(const ClusterOptions& o, const CLI::App& command) {
   TerminalReporter terminal;
   ClusterNodes nodes(*cluster, o.once, terminal);
   if (!o.run.settings.record.out.empty()) nodes.needAll();
-  for (std::size_t i = 0; i < words.size(); ++i)
+  for (std::size_t i = 0; i < arguments.size(); ++i)
     nodes.add(cluster->nodes[i].name,
-              programOf(words[i], i == cluster->lead ? progress.value().get() : nullptr),
+              programOf(arguments[i], i == cluster->lead ? progress.value().get() : nullptr),
               openJournal(o.run.settings.supervision.journal, cluster->nodes[i], findings));
-  // Who leads may wait for a node that lives and draws nothing (pipeline/cluster/lead.cpp).
+  // The leader may wait for a follower that lives and draws nothing (pipeline/cluster/lead.cpp).
   nodes.watchLead(std::move(progress.value()), fromSeconds(o.run.settings.supervision.hangAfter +
                                                            cluster::Lead::kStuck * cluster->deadline));
   if (findings.hasErrors()) return tell(findings), kBadInput;
@@ -123,8 +125,8 @@ const char* groupOf(const RunOptions& run, const std::string& option) {
   for (const char* refused :
        {"--walls", "--supervise", "--hang-after", "--late-latch", "--latch-reach", "--spans", "--count-work"})
     if (option == refused) return "";
-  if (isOfWhoLeads(option)) return "Options of `stadion run` for the node that leads, whose input all have";
-  if (namesFileOfEach(run, option))
+  if (isLeaderOption(option)) return "Options of `stadion run` for the leader, which sends its input to all";
+  if (namesFileOfEachHost(run, option))
     return "Options of `stadion run` for a file of each node (trace.json becomes trace-NODE.json)";
   return "Options of `stadion run` for all nodes";
 }

@@ -41,7 +41,7 @@ void ViewOptions::addTo(CLI::App& command) {
   command
       .add_option(
           "--gl", provider,
-          "who draws the walls: osmesa (software), egl, or auto: egl where the display is accelerated")
+          "the driver that draws the walls: osmesa (software), egl, or auto: egl on an accelerated display")
       ->check(CLI::IsMember({"auto", "osmesa", "egl"}))
       ->capture_default_str();
   std::string keys = "Keys and mouse:\n";

@@ -21,7 +21,7 @@ namespace {
 
 using nlohmann::json;
 
-/// A ball that falls and is pushed about by whoever walks near it.
+/// A ball that falls, and that the visitor pushes about by walking near it.
 constexpr const char* kOperated = R"(forcelinear( name=gravity, direction="0, 0, -1" )
 forcelinear( name=push, direction="0, 0, 3", initstate=off, duration=0.1 )
 object( name=floor, file=plane.3ds )
@@ -103,7 +103,7 @@ TEST(ProgramOperator, EveryGroupsRecordReplaysToItsOwnState) {
       lo_send(wand, "/tracker/head/pose", "ddddddd", 0.3 * t, 0.0, 1.7, 0.0, 0.0, 0.0, 1.0);
       lo_send(wand, "/tracker/wand/pose", "ddddddd", 0.5, 0.2 * t, 1.2, 0.0, 0.0, 0.0, 1.0);
       lo_send(wand, "/tracker/wand/button", "ii", 1, i / 10 % 2);
-      lo_send(wand, "/tracker/nobody/pose", "ddddddd", 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0);
+      lo_send(wand, "/tracker/stray/pose", "ddddddd", 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0);
       if (i == 40)
         live.send("/stadion/pause", 1), live.send("/stadion/step"), live.send("/stadion/freeze-head", 1);
       if (i == 60)
@@ -123,7 +123,7 @@ TEST(ProgramOperator, EveryGroupsRecordReplaysToItsOwnState) {
   ASSERT_TRUE(summary.is_object()) << live.err;
   EXPECT_EQ(summary.at("groups"), 2) << live.err;
   EXPECT_NE(live.err.find("group 2 begins"), std::string::npos) << live.err;
-  EXPECT_NE(live.err.find("\"nobody\" is not in the rig file"), std::string::npos) << live.err;
+  EXPECT_NE(live.err.find("\"stray\" is not in the rig file"), std::string::npos) << live.err;
   const std::string second = records.path() / "visit-2.input";
   EXPECT_EQ(hashAtTheEnd(live.show(), second), lastOf(summary)) << fileContent(second).substr(0, 2000);
   EXPECT_NE(fileContent(second).find("order 0 volume 0.5"), std::string::npos)
@@ -149,7 +149,7 @@ TEST(ProgramOperator, ANextGroupWhoseScriptHasErrorsWaitsForItToBeMended) {
   lo_address_free(to);
 }
 
-TEST(ProgramOperator, WhoWaitsStandsAtTheFirstFrameUntilTheStart) {
+TEST(ProgramOperator, AShowThatWaitsStandsAtTheFirstFrameUntilTheStart) {
   LiveShow waiting({"--wait"});
   ASSERT_TRUE(waiting.says("waiting for start"));
   const json summary = waiting.finish();
@@ -277,9 +277,9 @@ TEST(ProgramTracker, ShowsWhatArrivesAndCalibratesTheRoom) {
   EXPECT_EQ(last.at("trackers").at(1).at("name"), "wand");
   EXPECT_EQ(last.at("trackers").at(1).at("as_sent").at("position"), (json{1.0, 2.0, 0.5}));
 
-  const ProgramResult nobody = stadionProgram({"tracker", "--tracker", device, "--rig", rig, "--calibrate"});
-  EXPECT_EQ(nobody.status, 1);
-  EXPECT_NE(nobody.err.find("nobody pressed Enter"), std::string::npos) << nobody.err;
+  const ProgramResult unheld = stadionProgram({"tracker", "--tracker", device, "--rig", rig, "--calibrate"});
+  EXPECT_EQ(unheld.status, 1);
+  EXPECT_NE(unheld.err.find("Enter was not pressed"), std::string::npos) << unheld.err;
   EXPECT_FALSE(std::filesystem::exists(rig)) << "nothing is left behind";
   ending = true;
   sender.join();
