@@ -87,7 +87,7 @@ AtomicFile::AtomicFile(std::string path, Unfinished unfinished)
   if (!file_) {
     const int reason = errno;
     temporary_.clear();
-    fail(reason == ENXIO && S_ISFIFO(status.st_mode) ? "it is a pipe that nobody reads"
+    fail(reason == ENXIO && S_ISFIFO(status.st_mode) ? "it is a pipe without a reader"
                                                      : std::strerror(reason));
   }
 }

@@ -15,7 +15,7 @@
 
 namespace stadion {
 
-/// Gives the mesh for a declaration's file; never kNoMesh. Who gives it keeps count of it, too.
+/// Returns the mesh for a declaration's file; never kNoMesh. The source also counts its uses.
 using MeshSource = std::function<MeshId(const Declaration&)>;
 
 /// Gives the length of a declaration's sound file, of a silent stand-in if it cannot be read [ns].

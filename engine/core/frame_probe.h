@@ -1,12 +1,12 @@
 #pragma once
 /// Where the frame loop, the stages and the nodes report what they do. Implemented by the profiling floor;
-/// where nobody asks, there is no probe, and nothing is called.
+/// without recording there is no probe, and nothing is called.
 ///
 /// Stretches of time (spans) nest strictly within a thread: a stage holds its parts, which hold nodes. Time
 /// within a stage that is in no part is the stage's own.
 ///
-/// What cannot be timed a node at a time is timed together, and shared: `shared` says among whom, `drewAlone`
-/// what a few of them cost when nothing else was drawn.
+/// Work that cannot be timed node by node is timed together. `shared` names the nodes that share the time;
+/// `drewAlone` gives what a few of them cost when nothing else was drawn.
 ///
 /// Threads  each function is called on the thread that does the work; an implementation takes calls of
 ///          several threads at a time.
@@ -34,12 +34,12 @@ enum class Span : std::uint8_t {
   // Of App beside the nodes' cycles.
   Input,     ///< devices and logs are asked
   Loading,   ///< files take effect or go
-  Mail,      ///< who is to be visited, with which messages
+  Mail,      ///< the nodes to visit are found, with their messages
   Crew,      ///< nodes that simulate side by side are waited for
-  Settle,    ///< what a node's cycle changed is taken up: its hash, who is woken by it
+  Settle,    ///< what a node's cycle changed is taken up: its hash, the nodes that it wakes
   Publish,   ///< what changed, into the slot
   Sound,     ///< what is heard
-  Watching,  ///< whoever looks on: hashes, reports, records
+  Watching,  ///< observers: hashes, reports, records
   // Of Cull.
   Eyes,         ///< cameras and what they can see, lights, sky
   Test,         ///< spheres against what can be seen
@@ -133,7 +133,7 @@ struct DrawnAlone {
       Span::LeftEye;   ///< the eye: everything of it; Draw: nodes; Sky, Resolve, ShadowMaps, Prepare: these
   double ms = 0;       ///< without what drawing nothing takes
   double emptyMs = 0;  ///< what drawing nothing takes
-  /// After so many frames it has its turn again, if there is as much to draw; filled in by who gives turns.
+  /// After so many frames it has its turn again, if there is as much to draw. The turn's giver sets it.
   std::uint64_t round = 0;
 };
 
@@ -147,7 +147,7 @@ class FrameProbe {
 public:
   virtual ~FrameProbe() = default;
 
-  /// A stage, or a wait. kNoFrame: nobody knows yet for which frame; kNoWall: it is of no wall.
+  /// A stage, or a wait. kNoFrame: its frame is not known yet; kNoWall: it is of no wall.
   virtual void began(Span what, std::uint64_t frame, std::uint32_t wall) = 0;
   /// Anything within a stage; of a node if that is valid.
   virtual void began(Span what, NodeRef node) = 0;
@@ -157,8 +157,8 @@ public:
 
   /// Whether `shared` is wanted for this frame of that wall.
   virtual bool wantsShares(std::uint64_t, std::uint32_t) const { return false; }
-  /// The last span `what` of this frame and wall was spent on these nodes, on all alike; who is named twice
-  /// cost twice. A node that is not valid stands for the visitor. LeftEye, RightEye: whom that eye will draw.
+  /// The last such span of this frame and wall was spent on these nodes, on all alike; a node named twice
+  /// cost twice. An invalid node stands for the visitor. LeftEye, RightEye: the nodes that eye will draw.
   virtual void shared(Span, std::uint64_t, std::uint32_t, std::span<const NodeRef>) {}
 
   /// How this frame of that wall is sampled, which is now being drawn. Asked once a frame.

@@ -3,9 +3,9 @@
 ///
 /// The author writes a budget and an order of concessions: `budget=0.8, onoverrun="lod, half, rest"`. They
 /// make a ladder: at level 0 nothing is given up, each level gives up a little more, in the author's order.
-/// Who decides about levels looks at clocks, and so it stands outside of the show: a decision takes effect at
-/// the start of a named frame, travels in that frame's time signature, is written into the input log and
-/// obeyed by replays.
+/// The decider of levels looks at clocks, so it stands outside of the show. A decision takes effect at the
+/// start of a named frame. It travels in that frame's time signature, and is written into the input log, which
+/// replays apply.
 ///
 /// Threads  plain values.
 
@@ -90,7 +90,7 @@ inline double stressOf(std::uint32_t level) {
   return stress * kSteps[level];
 }
 
-/// Decides, in a live run, who gives up what.
+/// Decides, in a live run, which nodes give up what.
 ///
 /// Threads  called by App.
 class LoadDecider {

@@ -18,7 +18,7 @@ namespace stadion {
 /// A node's identity: which load it came with and where it stands in that file. Never used again after the
 /// node is unloaded, and equal on every replica.
 struct NodeRef {
-  std::uint32_t load = 0;  ///< from 1; 0 = nobody
+  std::uint32_t load = 0;  ///< from 1; 0 = no node
   std::uint32_t position = 0;
 
   bool valid() const { return load != 0; }

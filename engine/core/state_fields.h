@@ -2,7 +2,7 @@
 /// A state, field by field, in an order that is the same everywhere: to hash it, to write it down, to put it
 /// back, to say in which field two of them differ.
 ///
-/// Whoever has a state says once what it consists of, for all of these:
+/// A type with a state lists its fields once, for all of these:
 ///
 ///     template <class Self, class Fields>
 ///     static void fields(Self& self, Fields& f) {
@@ -80,7 +80,7 @@ public:
   virtual bool restores() const { return false; }
   /// What is there is no such state.
   virtual bool failed() const { return false; }
-  /// So says who knows better: a name that nobody has, a place that does not exist.
+  /// Called by a type that finds a value impossible: a name that does not occur, a place that does not exist.
   virtual void fail() {}
 
 protected:

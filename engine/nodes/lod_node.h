@@ -3,7 +3,7 @@
 ///
 /// What is nearer than the first range shows the first child, and so on; beyond the last range the child
 /// after it, or nothing. Coming nearer, a child comes back only a tenth nearer than where it went, so that
-/// nobody sees it come and go. While the show is under stress, or the node has to give up detail, it counts
+/// visitors do not see it flicker. While the show is under stress, or the node has to give up detail, it counts
 /// as farther away.
 ///
 /// The choice is made here, once a frame, for all walls and both eyes. It changes no simulated state and is

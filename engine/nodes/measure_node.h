@@ -1,7 +1,7 @@
 #pragma once
 /// `measure`: the distance of a throw, taken where and when the body first touches something. A throw that
 /// does not touch anything ends as a foul: when its body comes to rest or is taken out of the simulation, or
-/// after the node's duration. So whoever waits for a result gets one.
+/// after the node's duration. So every throw has a result.
 ///
 /// Events    measured (with its figure), foul; won, lost or drawn against another measure, once both have a
 ///           result. They carry the exact time of the touch.

@@ -58,11 +58,11 @@ PlacedNode* PathNode::target(Scene& scene) {
   return placed && !placed->moved() ? placed : nullptr;
 }
 
-/// Tells those who look at what it moves how that goes from since_ on.
+/// Reports the target's motion from since_ on to the nodes that watch it.
 void PathNode::trace(Nanoseconds to, FrameContext& frame) {
   const PlacedNode* placed = target(frame.scene);
   const Placements& placements = frame.scene.placements();
-  // In its first frame nobody may have had the time to say that he looks.
+  // In its first frame it reports always: watchers may not have registered yet.
   if (!placed || to <= since_ || (putAt_ && !placements.watchedBelow(placed->placement()))) return;
   const PlacementId id = placed->placement(), up = placements.parent(id);
   const auto at = [&](Nanoseconds time, double seconds) {
@@ -174,7 +174,7 @@ void PathNode::receive(const Message& m, FrameContext& frame) {
     const bool again = !before && switch_.on() && elapsed_ >= length();
     if (again || m.verb == Verb::Reset) elapsed_ = 0;
   }
-  // Once it is off nobody else puts the target where it is at this time.
+  // Once it is off, no other call places the target where it is at this time.
   if (m.verb == Verb::Reset)
     jump(frame.effective(m), frame);
   else if (moved && !switch_.on())

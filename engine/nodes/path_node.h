@@ -8,10 +8,10 @@
 /// Commands  enable (goes on where it stopped; after its end, from the first key again), disable (the target
 ///           stays where it is at the command's time), toggle, reset (back to the first key), and those of a
 ///           placed node when it moves what stands below it.
-/// Times     who looks at what it moves is told its way inside the frame: straight ways exactly, bends and
-///           turns by chords of 2 ms on a grid of show time.
+/// Times     nodes that watch the target get its way inside the frame: straight ways exactly, bends and
+///           turns as chords of 2 ms on a grid of show time.
 /// Load      kept from running, it goes on where it stopped. In one of several frames, it is then where its
-///           own time has it; who looks sees it go straight there within that frame.
+///           own time has it; watching nodes see it go straight there within that frame.
 /// Frames    keys are in the coordinates of the target's parent, or of its own parent.
 
 #include "engine/nodes/switched.h"

@@ -150,11 +150,11 @@ void SwayNode::leaveTargets(Scene& scene) {
     if (node && !node->moved()) node->stay(scene);
 }
 
-/// Tells those who look at what it moves how that goes from since_ on.
+/// Reports the targets' motion from since_ on to the nodes that watch them.
 void SwayNode::trace(Nanoseconds to, FrameContext& frame) {
   settleTargets(frame.scene);
   if (to <= since_) return;
-  // In its first frame nobody may have had the time to say that he looks.
+  // In its first frame it reports always: watchers may not have registered yet.
   const Placements& placements = frame.scene.placements();
   if (putAt_ && !placements.anyWatched()) return;
   for (std::size_t k = 0; k < nodes_.size(); ++k)

@@ -14,10 +14,10 @@
 /// Commands  enable (goes on where it stopped), disable (the targets stay where they are at the command's
 ///           time), toggle, reset (back to t = 0), and those of a placed node when it moves what stands below
 ///           it.
-/// Times     who looks at what it moves is told its way inside the frame, by chords of 2 ms on a grid of show
+/// Times     nodes that watch a target get its way inside the frame, as chords of 2 ms on a grid of show
 ///           time.
 /// Load      kept from running, it goes on where it stopped. In one of several frames, its targets are then
-///           where its own time has them; who looks sees them go straight there within that frame.
+///           where its own time has them; watching nodes see them go straight there within that frame.
 /// Frames    displacement and angular velocity are in the coordinates of the target's parent.
 
 #include "engine/nodes/switched.h"

@@ -122,7 +122,7 @@ constexpr CommandSpec kTextCommands[] = {
 
 constinit const NodeType kTextType{
     .name = "text",
-    .help = "words in the scene, read by who looks along +Y",
+    .help = "words in the scene, for a reader who looks along +Y",
     .attributes = kTextRows,
     .commands = kTextCommands,
     .traits = {Trait::Placed, Trait::Level},

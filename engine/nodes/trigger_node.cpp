@@ -53,7 +53,7 @@ const Course& TriggerNode::wayInRig(const FrameContext& frame) {
   Course& way = way_;
   way.clear();
   const TrackerSample* t = frame.input.find(tracker_);
-  // A device without a pose is where the visitor is who holds it.
+  // A device without a pose is where the visitor's head is.
   const bool byHead = tracker_ == kHeadTracker || (t && t->controlsOnly);
   if (byHead) t = frame.input.find(kHeadTracker);
   if (looked_) {
@@ -232,7 +232,8 @@ std::unique_ptr<Node> makeTrigger(const NodeRequest& r) {
   }
   const bool wand = d.kind() == "wandtrigger";
   return std::make_unique<TriggerNode>(r.type(), r.self, r.name, r.place, region,
-                                       wand ? std::string(d.text("tracker")) : kHeadTracker, d.flag("initstate"));
+                                       wand ? std::string(d.text("tracker")) : kHeadTracker,
+                                       d.flag("initstate"));
 }
 
 void checkTrigger(DeclarationCheck& check) {
@@ -269,10 +270,14 @@ constexpr EventSpec kWandTriggerEvents[] = {
     {"button2", "button 2 was pressed inside the trigger's space"},
     {"button3", "button 3 was pressed inside the trigger's space"},
     {"button4", "button 4 was pressed inside the trigger's space"},
-    {"button1up", "button 1, of whose press the trigger told, was let go, wherever the device is then"},
-    {"button2up", "button 2, of whose press the trigger told, was let go, wherever the device is then"},
-    {"button3up", "button 3, of whose press the trigger told, was let go, wherever the device is then"},
-    {"button4up", "button 4, of whose press the trigger told, was let go, wherever the device is then"}};
+    {"button1up",
+     "button 1 was let go, after its press in the region was reported; the device may be anywhere"},
+    {"button2up",
+     "button 2 was let go, after its press in the region was reported; the device may be anywhere"},
+    {"button3up",
+     "button 3 was let go, after its press in the region was reported; the device may be anywhere"},
+    {"button4up",
+     "button 4 was let go, after its press in the region was reported; the device may be anywhere"}};
 
 }  // namespace
 

@@ -2,7 +2,7 @@
 /// A region that notices visitors: `usertrigger` watches the head, `wandtrigger` the wand and its buttons.
 ///
 /// Events    enter, exit; wandtrigger also button1..button4, pressed inside, and button1up..button4up, when
-///           a button of whose press it told is let go, inside or not. A visitor who is inside when the
+///           a button is let go after its reported press, inside or not. A visitor who is inside when the
 ///           trigger first looks (or is enabled) enters it then. Each event carries the exact time of the
 ///           crossing, also of one that is entered and left within a frame; a button that of its press or
 ///           release. Between the corners of its way (frames, records of a log) the visitor moves straight; a
@@ -60,8 +60,8 @@ protected:
   void simulate(FrameContext& frame) override;
 
 private:
-  /// Where the visitor was since the last look and is at the frame's end, in the rig; empty if nobody is
-  /// there.
+  /// Returns where the visitor was since the last look and is at the frame's end, in the rig; empty without
+  /// a visitor.
   const Course& wayInRig(const FrameContext& frame);
   /// Follows the visitor up to `until`, which lies in this frame.
   void look(FrameContext& frame, Nanoseconds until);
@@ -83,7 +83,7 @@ private:
   Vec3 p_RV_ = Vec3::Zero();  ///< and in the rig
   Affine X_NR_ = Affine::Identity();  ///< at the end of the frame before
   std::uint32_t buttons_ = 0;
-  std::uint32_t pressed_ = 0;       ///< of these, the ones of whose press it told
+  std::uint32_t pressed_ = 0;       ///< of these, the ones of which a press was reported
   Course way_;                      ///< wayInRig()'s answer
   std::vector<Nanoseconds> stops_;  ///< look()'s own
 };

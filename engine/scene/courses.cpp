@@ -65,7 +65,7 @@ Course Courses::within(PlacementId id, const Pose& before, Nanoseconds start, Na
   if (carried) {
     const Course& way = carrier->course;
     const bool itself = carrier->id == id;
-    // Who has not looked for some frames knows nothing of the time before this one: it came straight.
+    // A node that has not looked for some frames does not know the way before this one: it takes it as straight.
     const bool late = way.front().time > start;
     const Pose X_CN1 = itself ? Pose{} : way.back().X.inverse() * now;
     const Pose X_CN0 = itself ? Pose{} : late ? X_CN1 : way.front().X.inverse() * before;

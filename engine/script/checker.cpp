@@ -1,10 +1,10 @@
 #include "engine/script/checker.h"
 
 #include "engine/core/shared_rows.h"
+#include "engine/plain_text/suggestion.h"
 #include "engine/script/attribute_text.h"
 #include "engine/script/declaration_check.h"
 #include "engine/script/file_path.h"
-#include "engine/plain_text/suggestion.h"
 #include "engine/text/text_mesh.h"
 #include "engine/unicode/characters.h"
 
@@ -130,8 +130,8 @@ void Checker::take(const RawDeclaration& raw) {
   DeclarationCheck check(declaration, raw, report_);
   if (type.type().check != nullptr) type.type().check(check);
   if (seen[priority_] && !seen[onOverrun_])
-    report_.error(raw.type.offset, "priority says who gives something up first, and this node gives up "
-                                   "nothing: say onoverrun, or leave priority out");
+    report_.error(raw.type.offset, "priority orders the nodes that give something up, and this node "
+                                   "gives up nothing: add onoverrun, or remove priority");
 }
 
 void Checker::takeUnknown(const RawDeclaration& raw) {
@@ -337,7 +337,7 @@ void Checker::takeWords(const AttributeSpec& spec, TextSpan value) {
   writer_.addText(spec.attr, spec.kind, value);
 }
 
-/// How many there must be, and what they may be, is for those who know the models.
+/// Takes the coefficients as they are: their count and range are checked with the model.
 void Checker::takeCoefficients(const AttributeSpec& spec, TextSpan value) {
   const bool letter = value.length > 0 && std::isalpha(static_cast<unsigned char>(text(value).front()));
   if (letter && !faultOfName(text(value))) return writer_.addText(spec.attr, spec.kind, value);

@@ -46,7 +46,7 @@ std::string wrapped(std::string_view text, std::size_t indent) {
   return result;
 }
 
-/// Without the bounds that only keep nonsense out, and that nobody meets.
+/// Returns the range without bounds that only keep nonsense out; authors never meet these.
 NumberRange memorable(NumberRange range) {
   constexpr double kFarAway = 36000;
   if (range.least <= -kFarAway) range.least = -std::numeric_limits<double>::infinity();

@@ -6,7 +6,7 @@
 ///   texts->show();                          // Result<SourceText>
 ///   texts->part("olympia/game_ball.evs");   // as a scene node names its file
 ///
-/// Whoever checks and plays them plays what was checked, whatever becomes of the files meanwhile.
+/// A program that checks and then plays them plays what was checked, even if the files change meanwhile.
 ///
 /// Errors   of a file that cannot be read are kept, and told when it is asked for.
 /// Threads  constant once made.

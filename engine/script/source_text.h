@@ -32,7 +32,7 @@ public:
   std::uint32_t line(std::uint32_t offset) const;  ///< from 1
   SourcePosition position(std::uint32_t offset) const;
   std::uint32_t lineStart(std::uint32_t offset) const;  ///< offset of the first byte of the line
-  /// The line around `offset` without its end; empty if it is so long that nobody would read it.
+  /// The line around `offset` without its end; empty if it is too long to read.
   std::string excerpt(std::uint32_t offset) const;
 
   std::size_t bytesHeld() const;  ///< memory

@@ -2,9 +2,8 @@
 /// Text as a mesh: letters of triangles, which every sample of a pixel smooths as it does any edge, alike on
 /// all walls and for both eyes.
 ///
-/// Frames   the text runs along +X, upright along +Z, and is read by somebody who looks along +Y. The first
-/// line
-///          stands on the origin; further lines lie below it.
+/// Frames   the text runs along +X, upright along +Z, for a reader who looks along +Y. The first line stands
+///          on the origin; further lines lie below it.
 /// Threads  pure functions.
 
 #include "engine/asset/mesh.h"

@@ -42,7 +42,7 @@ enum class Phase : std::uint8_t {
 };
 
 /// No node; stands in place of a node's number (Session::giver).
-constexpr std::uint8_t kNobody = 255;
+constexpr std::uint8_t kNoNode = 255;
 
 class BusListener {
 public:

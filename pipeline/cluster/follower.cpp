@@ -124,9 +124,9 @@ std::optional<Joining> Follower::join() {
 std::optional<Joining> Follower::joinSession(std::unique_lock<std::mutex>& lock) {
   const std::string& lead = options_.cluster.nodes[options_.cluster.lead].name;
   const auto known = [&] {
-    return over_ || (session_.number != 0 && session_.giver == kNobody && !session_.over);
+    return over_ || (session_.number != 0 && session_.giver == kNoNode && !session_.over);
   };
-  if (!await(lock, (lead + ", who leads").c_str(), known) || over_) return {};
+  if (!await(lock, (lead + ", the leader").c_str(), known) || over_) return {};
   const Agreement theirs = read(session_.terms);
   if (const std::string why = refusal(theirs, options_.terms, lead); !why.empty()) {
     options_.tell(why);
@@ -177,7 +177,7 @@ std::optional<FrameOrder> Follower::next() {
   if (orders_.empty() && told_ != Phase::Ready) announce(Phase::Ready);
   const std::string& lead = options_.cluster.nodes[options_.cluster.lead].name;
   const auto has = [&] { return !orders_.empty() || hasEnded() || leaves(); };
-  if (!await(lock, (lead + ", who leads").c_str(), has)) return {};
+  if (!await(lock, (lead + ", the leader").c_str(), has)) return {};
   if (again_ || double_ || leaves() || orders_.empty()) return {};
   HeardOrder heard = std::move(orders_.front());
   orders_.pop_front();
@@ -214,7 +214,8 @@ bool Follower::explain(std::unique_lock<std::mutex>& lock) {
     late = Clock::now() - since > kLong;
     return hasEnded() || late || (incoming_.complete() && incoming_.serial() == obeyed_);
   };
-  if (!await(lock, "the scene of who leads, to compare ours with it", has) || hasEnded() || late) return true;
+  if (!await(lock, "the scene of the leader, to compare ours with it", has) || hasEnded() || late)
+    return true;
   const SceneParcel theirs = incoming_.take();
   const std::optional<Differs> differs = compare_ ? compare_(theirs.scene) : std::nullopt;
   Difference told{};
@@ -306,7 +307,7 @@ void Follower::hear(const Session& session) {
   {
     const std::lock_guard lock(mutex_);
     // A leader that looks for a show under way does not know its rate yet.
-    if (session.giver == kNobody && !(session.rate >= kLeastRate && session.rate <= kMostRate)) return;
+    if (session.giver == kNoNode && !(session.rate >= kLeastRate && session.rate <= kMostRate)) return;
     // An earlier leader that was taken for dead and comes back leads no more.
     if (session.number < session_.number && (hasShow(session_) || (session.over && !isOurs(session)))) return;
     session_ = session;
@@ -317,7 +318,7 @@ void Follower::hear(const Session& session) {
     }
     // While another node is asked for its scene, we keep ours.
     const bool holds =
-        session.resumes == joined_ && session.giver != kNobody && session.giver != options_.node;
+        session.resumes == joined_ && session.giver != kNoNode && session.giver != options_.node;
     if (joined_ != 0 && session.number != joined_ && !holds) again_ = true;
     giveIfAsked();
   }

@@ -54,7 +54,7 @@ private:
 Lead::Lead(LeadOptions options, std::uint64_t session)
     : options_(std::move(options)), followers_(options_.cluster.nodes.size()), words_(followers_.size()) {
   session_.number = std::max(session, options_.above + 1), session_.terms = written(options_.terms),
-  session_.giver = kNobody;
+  session_.giver = kNoNode;
 }
 
 Result<std::unique_ptr<Lead>> Lead::open(LeadOptions options) {
@@ -127,7 +127,7 @@ std::optional<ShowUnderWay> Lead::takeOver() {
     if (!incoming_.complete()) continue;
     SceneParcel parcel = incoming_.take();
     if (!isTime(parcel.time)) continue;
-    session_.giver = kNobody;
+    session_.giver = kNoNode;
     pending_.signature.frame = parcel.frame, pending_.signature.time = parcel.time;
     pending_.standsAfter = parcel.still, pending_.shown = parcel.shown;
     options_.tell(
@@ -138,7 +138,7 @@ std::optional<ShowUnderWay> Lead::takeOver() {
   }
   if (session_.resumes != 0 && !double_)
     options_.tell("the others play, but none sends its scene: the show begins anew");
-  session_.resumes = 0, session_.giver = kNobody;
+  session_.resumes = 0, session_.giver = kNoNode;
   return {};
 }
 
@@ -189,7 +189,7 @@ bool Lead::begin(double rate, const OperatorsPatience& operators) {
                                 fmt::join(missing(), ", "), patience.count()));
     }
     lock.unlock();
-    answerWhoAsks();
+    answerRequests();
     lock.lock();
     changed_.wait_for(lock, kLook);
   }
@@ -204,7 +204,7 @@ bool Lead::begin(double rate, const OperatorsPatience& operators) {
 
 // The order goes out with its input, which App takes next.
 void Lead::issue(FrameOrder& order) {
-  answerWhoAsks();
+  answerRequests();
   const std::lock_guard lock(mutex_);
   order.last = order.last || stop_ || double_;
   pending_ = order;
@@ -228,7 +228,7 @@ void Lead::send(const InputSample* input) {
 }
 
 // Runs between two frames: the scene is as it was after the previous order.
-void Lead::answerWhoAsks() {
+void Lead::answerRequests() {
   std::vector<std::uint64_t> asking;
   SceneParcel parcel;
   {
@@ -281,14 +281,14 @@ bool Lead::mayShow(const TimeSignature&) {
   release();
   while (go_ < serial && waits()) {
     changed_.wait_for(lock, kLook);
-    leaveOutWhoIsStuck();
+    leaveOutStuckFollowers();
   }
   if (latest) tally_.barrier.add(std::chrono::duration<double, std::milli>(Clock::now() - drawn).count());
   return go_ >= serial && !double_;
 }
 
 // Expects the lock. A node that lives but does not draw what all others have drawn would hold them forever.
-void Lead::leaveOutWhoIsStuck() {
+void Lead::leaveOutStuckFollowers() {
   if (rounds_.empty() || !rounds_.front().drawnHere) return;
   const double seconds = std::chrono::duration<double>(Clock::now() - *rounds_.front().drawnHere).count();
   if (seconds < kStuck * options_.cluster.deadline) return;

@@ -137,11 +137,11 @@ private:
   Lead(LeadOptions options, std::uint64_t session);
   std::optional<std::size_t> newestOf(std::uint32_t nodes) const;
   void send(const InputSample* input);
-  void answerWhoAsks();
+  void answerRequests();
   void sendParcels();
   void leaveOut(std::size_t node, const std::string& why);
   void letGo(std::size_t node);
-  void leaveOutWhoIsStuck();
+  void leaveOutStuckFollowers();
   std::vector<std::string> missing() const;
   void release();
   void compare(std::size_t node, std::uint64_t frame, std::uint64_t hash);

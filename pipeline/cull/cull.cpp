@@ -210,7 +210,7 @@ void WallCull::addCasters(const SlotView& state, DrawList& out) const {
   for (const InstanceRecord& r : state.instances) shadows.consider(r);
 }
 
-/// What was counted, and for whom the work was.
+/// Reports the counts, and the nodes that the work was for.
 void WallCull::tell(const SlotView& state, const WallSeen& seen, const EyeChoice& choice,
                     const DrawList& out) const {
   FrameProbe& probe = *parts_.probe;

@@ -6,7 +6,7 @@
 namespace stadion {
 namespace {
 
-constexpr double kNearest = 0.05;  ///< of a head to a wall [m]: nobody looks through it
+constexpr double kNearest = 0.05;  ///< of a head to a wall [m]: heads do not pass through it
 
 /// The smallest factor by which the matrix shortens anything: what is left of its determinant.
 double leastScale(const Mat3& m, double most) {

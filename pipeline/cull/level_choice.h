@@ -1,5 +1,5 @@
 #pragma once
-/// Which simplified level of a mesh is drawn: the coarsest one whose error would be seen by nobody.
+/// Chooses the simplified level of a mesh that is drawn: the coarsest one with an invisible error.
 ///
 /// A level is off the full surface by at most e [m]. Seen from a distance d at an angle theta from a wall's
 /// normal, that is at most

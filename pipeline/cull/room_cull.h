@@ -7,16 +7,16 @@
 /// ConvexVolume says so, in double precision. So the outcome is that of looking at every record, to the last
 /// one, on every machine.
 ///
-/// Threads    any, at once: one that comes while another searches waits for that. Nobody waits for a wall
-///            that does not come.
+/// Threads    any, at once: one that comes while another searches waits for that. A wall that does not come
+///            delays no other.
 /// Ownership  what is found is kept while somebody holds it; it points into the slot and its chunks and is
 ///            good while the slot is under lease. Of a slot that has been taken away it is void, but can be
-///            read without harm; nobody else hears of it.
+///            read without harm; other callers do not get it.
 
 #include "pipeline/cull/bounds_search.h"
 #include "pipeline/cull/moving_bounds.h"
-#include "pipeline/view/wall_views.h"
 #include "pipeline/state/scene_state.h"
+#include "pipeline/view/wall_views.h"
 
 #include <atomic>
 #include <memory>
@@ -62,7 +62,7 @@ public:
   const WallViews& wall(std::size_t number) const { return walls_[number]; }
   /// Expects the same choice for all walls of a frame.
   Seen seen(const SlotView& state, const EyeChoice& choice = {});
-  /// For whom the search for `wall` went down to single spheres. Searches again.
+  /// Returns the owners for which the search for `wall` went down to single spheres. Searches again.
   void reached(const SlotView& state, const EyeChoice& choice, std::size_t wall,
                std::vector<NodeRef>& owners);
 

@@ -96,7 +96,7 @@ RingCasters StillCasters::at(const RingPlace& place, const SlotView& state) {
   });
   if (known != kept.end()) return known->casters;
   const RingCasters casters = castersOf(place, state);
-  // Of a slot that has been taken away meanwhile nobody else must hear.
+  // The result for a slot that was taken away meanwhile must not be kept for others.
   if (state.intact()) {
     std::rotate(kept.begin(), kept.end() - 1, kept.end());
     kept.front() = {place, state.stillVersion, casters};

@@ -5,9 +5,8 @@
 /// all walls, and again only when the ring has followed the head or when something has come, gone or begun to
 /// move. A hundred thousand things that stand still cost nothing in the other frames.
 ///
-/// Threads  any, at once; who asks for what nobody has asked for yet finds it, the others wait. What is
-/// handed
-///          out never changes.
+/// Threads  any, at once; the first thread that asks searches, the others wait for its result. A result
+///          never changes.
 
 #include "pipeline/draw_list/draw_list.h"
 #include "pipeline/state/scene_state.h"

@@ -260,7 +260,7 @@ bool Renderer::takeMore() {
     there = list_->filling->await(batches_.taken());
   }
   complete_ = there == ListFilling::kAll;
-  if (complete_ && list_->filling && list_->filling->isVoid()) return false;  // nobody will see it
+  if (complete_ && list_->filling && list_->filling->isVoid()) return false;  // it will not be shown
   batches_.addOpaque(list_->opaque, std::min(there, list_->opaque.size()));
   if (complete_ && layersGlass_) batches_.addTransparent(list_->transparent);
   if (complete_ && !layersGlass_) {

@@ -17,8 +17,8 @@ bool drawnTogether(const GlMesh& mesh) {
 
 }  // namespace
 
-/// Before everything else, into the empty picture. True if OpenGL is to go on with that. Nobody else has to
-/// wait meanwhile, unless it is timed.
+/// Draws before everything else, into the empty picture. Returns true if OpenGL must continue with it. The
+/// other walls wait meanwhile only if it is timed.
 bool Renderer::drawSmallThings(const DrawView& from, std::uint32_t index, Turn& turn) {
   constexpr std::uint64_t kPixels = 64;  // to hand them over costs as much as a triangle in OpenGL
   isDrawn_.clear();

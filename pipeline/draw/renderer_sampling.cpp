@@ -53,7 +53,7 @@ void Renderer::forEachBatch(const F& f) {
       if (const GlMesh* mesh = cache_.find(b.mesh)) f(b, partsOf(*mesh, b.level));
 }
 
-/// How much there is to draw, and of whom the most, if that is much.
+/// Counts how much there is to draw, and finds the node with the most, if that is much.
 void Renderer::weigh() {
   constexpr float kMuch = 0.25f;  // of all
   NodeRef whose;
@@ -106,7 +106,7 @@ void Renderer::findPieces(std::uint32_t eye) {
   });
 }
 
-/// Who has which part in drawing these for that eye.
+/// Returns each node's share in drawing these for that eye.
 std::span<const NodeShare> Renderer::sharesOf(std::uint32_t eye, std::uint32_t first, std::uint32_t end) {
   shares_.clear();
   float sum = 0;

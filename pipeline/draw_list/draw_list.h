@@ -25,10 +25,10 @@ class ListFilling;
 struct DrawItem {
   std::array<float, 12> model;  ///< (3 x 4), row major: mesh coordinates to World axes relative to origin
   MeshId mesh = kNoMesh;
-  NodeRef owner;                   ///< who it is, for profiling
-  float distance = 0;              ///< of its centre from the viewer [m]
-  float pixels = 0;                ///< that its bounding sphere may cover in one view's picture, for profiling
-  std::uint32_t level = 0;         ///< 0 = all of the mesh; else Mesh::levels[level - 1]
+  NodeRef owner;            ///< the node, for profiling
+  float distance = 0;       ///< of its centre from the viewer [m]
+  float pixels = 0;         ///< that its bounding sphere may cover in one view's picture, for profiling
+  std::uint32_t level = 0;  ///< 0 = all of the mesh; else Mesh::levels[level - 1]
   std::uint32_t views = kAllViews;  ///< that may see it: bit v, DrawList::views[v]
 
   static constexpr std::uint32_t kAllViews = ~0U;
@@ -91,7 +91,7 @@ struct DrawList {
   Vec3 origin = Vec3::Zero();      ///< in World [m]
   std::array<DrawView, kMostViews> views;
   std::uint32_t viewCount = 2;
-  ViewerRecord viewer;             ///< who looks
+  ViewerRecord viewer;  ///< from where it is seen
   DrawSky sky;
   std::vector<DrawLight> lights;  ///< at most kMaxLights
   DrawShadows shadows;

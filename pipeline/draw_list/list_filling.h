@@ -66,7 +66,7 @@ public:
     const std::lock_guard lock(mutex_);
     return stopped_ && there_ != kAll;
   }
-  /// Nobody will fill it any more, and nobody waits for that.
+  /// Ends the filling, and all waits for it.
   void stop() {
     {
       const std::lock_guard lock(mutex_);

@@ -37,7 +37,7 @@ public:
   HeadLatch(InputDevice& input, const HeadReach& reach) : input_(input), reach_(reach) {}
 
   /// Looks at the list's wall from the newest head there is, carried on to `seen`, the time at which pictures
-  /// are expected to be (in the past: to now). The list stays as it is if nobody knows more of the head.
+  /// are expected to be (in the past: to now). The list stays as it is without newer data of the head.
   void latch(const WallViews& wall, TimePoint seen, DrawList& list);
 
   const LatchCounts& counts() const { return counts_; }

@@ -147,7 +147,7 @@ void ShowStages::still(const TimeSignature& now, std::size_t slot) {
 
 void ShowStages::cull(std::size_t wall, std::size_t slot, DrawList& list) {
   const Presentation& shown = list.ticket.shown;
-  const bool visitors = !parts_.walls[wall].camera;  // else it is somebody else's who looks on
+  const bool visitors = !parts_.walls[wall].camera;  // else the view is an onlooker's
   const CullOptions options{.eyes = {shown.eyeSeparation, shown.swapEyes}, .black = visitors && shown.black};
   culls_[wall].fill(parts_.state.view(slot), options, list);
 }
@@ -200,8 +200,9 @@ Failure ShowStages::readPictures(std::size_t wall) {
 
 void ShowStages::closeWall(std::size_t wall) {
   if (!drawing_) return;
-  // After a failure, or a wait that was given up, nobody knew which frame would be the last.
-  const bool wanted = drawn_[wall].views > 0 && !drawn_[wall].read && !(parts_.desk && parts_.desk->leaving());
+  // After a failure, or a wait that was given up, no stage knew which frame would be the last.
+  const bool wanted =
+      drawn_[wall].views > 0 && !drawn_[wall].read && !(parts_.desk && parts_.desk->leaving());
   if (wanted) readPictures(wall);
   drawing_->close(wall);
 }

@@ -25,7 +25,7 @@ bool set(const Attributes& attributes) {
 
 }  // namespace
 
-Promptness::Promptness(For whom) : handedDown_(whom == For::ThoseItStarts) {
+Promptness::Promptness(For threads) : handedDown_(threads == For::ThoseItStarts) {
   Attributes now;
   if (syscall(SYS_sched_getattr, 0, &now, sizeof now, 0) != 0 || now.policy != SCHED_OTHER) return;
   nice_ = now.nice;

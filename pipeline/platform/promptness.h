@@ -16,10 +16,13 @@ namespace stadion {
 /// Applies to the calling thread during its lifetime. The same thread must destroy it.
 class Promptness {
 public:
-  enum class For { This, ThoseItStarts };  ///< ThoseItStarts: threads started meanwhile, for their whole
-                                           ///< lives
+  enum class For {
+    This,
+    ThoseItStarts
+  };  ///< ThoseItStarts: threads started meanwhile, for their whole
+      ///< lives
 
-  explicit Promptness(For whom = For::This);
+  explicit Promptness(For threads = For::This);
   ~Promptness();
   Promptness(const Promptness&) = delete;
   Promptness& operator=(const Promptness&) = delete;

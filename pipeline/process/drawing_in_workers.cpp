@@ -20,7 +20,7 @@ using std::chrono::milliseconds;
 using State = worker::WallWorker::State;
 
 constexpr int kMostStarts = 3;            // for one frame after the first, or to open
-constexpr milliseconds kLookEvery{10};    // at who gives up, and whether it lives
+constexpr milliseconds kLookEvery{10};    // whether the run gives up, and whether the process lives
 constexpr milliseconds kHangs{5000};      // without using the processor, where every frame counts
 constexpr milliseconds kHangsLive{1000};  // where others must not wait
 constexpr milliseconds kStopped{250};     // if somebody has stopped it

@@ -1,8 +1,8 @@
 #pragma once
 /// How long the other walls wait for one whose frame is not there yet, where the newest frame counts.
 ///
-/// Half as long again as it usually takes, at least a frame and a half: whoever is done within a frame when
-/// all is well makes the others miss one at most. (Twice that for one that only lacks a processor, see
+/// Half as long again as it usually takes, at least a frame and a half. So a wall that is usually done within a
+/// frame makes the others miss one at most. (Twice that for one that only lacks a processor, see
 /// drawing_in_workers.cpp.) What is usual is the middle of the last few times: one that was long says
 /// nothing, and a view that takes longer from now on is waited for again soon.
 ///

@@ -1,5 +1,5 @@
 #pragma once
-/// Who may use which processor now: no more draw at once than there are processors, each on its own, and the
+/// Gives each drawing process a processor of its own. No more draw at once than there are processors, and the
 /// dearest goes first. Processes that share one take each other's caches away; two that wake up on the same
 /// one leave the other idle; and the dearest would end last, alone.
 ///

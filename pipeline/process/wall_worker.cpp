@@ -107,7 +107,7 @@ void WallWorker::stop() {
   state_ = State::Down;
 }
 
-/// A message that cannot be sent is one that is never answered: whoever waits finds out why.
+/// Sends an order. An order that cannot be sent is never answered; the wait for the answer reports why.
 void WallWorker::order(const OrderHead& head, std::span<const int> descriptors) {
   OrderHead copy = head;
   iovec part{&copy, sizeof copy};

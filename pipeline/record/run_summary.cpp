@@ -114,7 +114,7 @@ namespace {
 
 std::string clusterText(const ClusterSummary& c) {
   std::string text =
-      fmt::format("  cluster: {} {} {} hosts", c.node, c.leads ? "leads" : "is one of", c.nodes);
+      fmt::format("  cluster: {}, {} of {} hosts", c.node, c.leads ? "the leader" : "one", c.nodes);
   if (c.leads)
     text +=
         fmt::format("; {:.0f} bytes a frame, {} at most; {} have come, {} were left out; {} scenes compared, "

@@ -81,11 +81,11 @@ struct SessionInhibition::Bus {
   bool inhibit() {
     DBusMessage* call = dbus.message_new_method_call(kService, kPath, kService, "Inhibit");
     if (!call) return false;
-    const char *who = "Stadion", *why = "a show is being played";
+    const char *program = "Stadion", *why = "a show is being played";
     dbus.message_set_auto_start(call, 0);
     DBusError error;
     DBusMessage* answer = nullptr;
-    if (dbus.message_append_args(call, kString, &who, kString, &why, kEnd))
+    if (dbus.message_append_args(call, kString, &program, kString, &why, kEnd))
       answer = dbus.connection_send_with_reply_and_block(connection, call, kPatience, &error);
     dbus.message_unref(call);
     const bool granted = answer && dbus.message_get_args(answer, &error, kUnsigned, &cookie, kEnd);

@@ -1,9 +1,9 @@
 #pragma once
-/// A camera that is nobody's eye: it looks at the room, its walls and the visitor from outside, and changes
-/// nothing of the show.
+/// A camera apart from the visitor's eyes: it looks at the room, its walls and the visitor from outside, and
+/// changes nothing of the show.
 ///
 /// Frames   rig space, so that it goes along with the visitor's platform.
-/// Threads  asked on the Cull thread of its view; whoever moves it may do so from another.
+/// Threads  asked on the Cull thread of its view; it may be moved from another thread.
 
 #include "engine/display/wall.h"
 #include "engine/published/records.h"
@@ -23,7 +23,7 @@ class FreeCamera {
 public:
   virtual ~FreeCamera() = default;
 
-  /// Nothing while nobody looks through it.
+  /// Returns nothing while it is off.
   virtual std::optional<CameraView> view() const = 0;
   /// Adds what only it sees.
   virtual void addTo(std::vector<InstanceRecord>& records, const ViewerRecord& viewer) const = 0;

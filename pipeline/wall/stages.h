@@ -1,7 +1,7 @@
 #pragma once
 /// The three stages of a frame, as the frame loop calls them.
 ///
-/// The loop decides who runs them and when; the stages do not know whether they are overlapped.
+/// The loop decides on which thread they run, and when; the stages do not know whether they are overlapped.
 ///
 /// Threads  app() and wantsDrawn() on the App thread; cull(w) on wall w's Cull thread; openWall, latch, draw
 ///          and closeWall(w) on wall w's Draw thread; swap() on the Draw thread that arrives last, while the
@@ -23,10 +23,10 @@
 
 namespace stadion {
 
-/// Whose affair it is that a run cannot go on.
+/// The cause of a run that cannot go on.
 enum class FailureKind {
   Fault,    ///< ours, or OpenGL's
-  Refusal,  ///< the user's: a full disk, a size that nobody can draw
+  Refusal,  ///< the user's: a full disk, a size that cannot be drawn
 };
 
 /// Why a stage could not go on.
@@ -58,8 +58,8 @@ public:
   /// Fills `list` with what wall `wall` shows of the frame in `slot`, in all its views.
   virtual void cull(std::size_t wall, std::size_t slot, DrawList& list) = 0;
 
-  /// When the head's pose was measured that app() or still() has just taken; nothing: nobody knows, and the
-  /// start of the frame counts. On the App thread.
+  /// When the head's pose was measured that app() or still() has just taken; nothing: it is not known, and
+  /// the start of the frame counts. On the App thread.
   virtual std::optional<std::chrono::steady_clock::time_point> headMeasured() const { return {}; }
   /// The same of the picture that the wall shows, asked while all are swapped; nothing: that of the frame.
   virtual std::optional<std::chrono::steady_clock::time_point> posed(std::size_t wall) const {

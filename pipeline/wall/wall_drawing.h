@@ -1,5 +1,5 @@
 #pragma once
-/// Who draws the walls' lists: this process (drawing_here.h), or one process for each wall
+/// Draws the walls' lists: in this process (drawing_here.h), or in one process for each wall
 /// (process/drawing_in_workers.h) or for each view (process/views_in_workers.h). The pixels are the same.
 ///
 /// Threads  a wall's functions on its Draw thread, several walls at a time; destroyed when all walls are

@@ -30,8 +30,8 @@ void LiveBudget::take(std::size_t, const SpanRecord& r) {
 
 double LiveBudget::slowest(Span stage) const {
   double most = 0;
-  for (const auto& [who, mean] : means_)
-    if (who.first == stage) most = std::max(most, mean.ms);
+  for (const auto& [key, mean] : means_)
+    if (key.first == stage) most = std::max(most, mean.ms);
   return most;
 }
 

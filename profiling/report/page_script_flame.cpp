@@ -29,7 +29,7 @@ function flameTree(stage) {
   const root = {label: NAMES[stage], own: 0, children: [world, parts], say: stage === "draw" ? "all walls and eyes, each eye drawn alone" : stage === "cull" ? "all walls" : "one frame"};
   weigh(world), weigh(parts);
   const rest = explained.measured - world.total - parts.total;
-  if (rest > 0) root.children.push({label: "not explained", own: rest, total: rest, children: [], say: "measured, and found with nobody"});
+  if (rest > 0) root.children.push({label: "not explained", own: rest, total: rest, children: [], say: "measured, but not explained by any node or part"});
   weigh(root);
   for (const b of [world, ...boxes]) gather(b);
   return root;

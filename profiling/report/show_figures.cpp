@@ -175,8 +175,8 @@ private:
   }
 
   void addStages() {
-    for (const auto& [who, total] : profile_.spans()) {
-      const auto& [what, wall] = who;
+    for (const auto& [key, total] : profile_.spans()) {
+      const auto& [what, wall] = key;
       if (isOfNode(what) || what == Span::Settle) continue;
       StageRow row = stageRow(stageOf(what), wall);
       if (!isStage(what)) row.part = std::string(nameOf(what));
@@ -188,8 +188,8 @@ private:
       row.bytes = static_cast<double>(total.allocations.bytes) / times;
       out_.stages.push_back(std::move(row));
     }
-    for (const auto& [who, eye] : profile_.eyes()) {
-      const auto add = [&, wall = who.first, side = who.second](const std::string& part,
+    for (const auto& [key, eye] : profile_.eyes()) {
+      const auto add = [&, wall = key.first, side = key.second](const std::string& part,
                                                                 const CostSeries& ms) {
         StageRow row = stageRow(Span::Draw, wall);
         row.eye = side == 0 ? "left" : "right", row.part = part, row.alone = true;
@@ -204,16 +204,16 @@ private:
   }
 
   void addCounts() {
-    for (const auto& [who, amount] : profile_.counts()) {
+    for (const auto& [key, amount] : profile_.counts()) {
       CountRow row;
-      row.of = stageRow(stageOf(who.of), who.wall).name();
-      if (who.of == Span::LeftEye || who.of == Span::RightEye)
-        row.of += who.of == Span::LeftEye ? " left" : " right";
-      if (who.node.valid()) {
-        const auto name = names_.find(who.node);
+      row.of = stageRow(stageOf(key.of), key.wall).name();
+      if (key.of == Span::LeftEye || key.of == Span::RightEye)
+        row.of += key.of == Span::LeftEye ? " left" : " right";
+      if (key.node.valid()) {
+        const auto name = names_.find(key.node);
         row.of = name ? name->path : "a node";
       }
-      row.what = std::string(nameOf(who.what));
+      row.what = std::string(nameOf(key.what));
       row.mean = amount.sum() / frames_, row.most = amount.most();
       out_.counts.push_back(std::move(row));
     }
@@ -222,9 +222,9 @@ private:
   /// Returns the cost a frame, of one wall or of all; over the frames with recorded parts.
   double sum(Span what, std::optional<std::uint32_t> wall = {}) const {
     double ms = 0;
-    for (const auto& [who, total] : profile_.spans())
-      if (who.first == what && (!wall || who.second == *wall))
-        ms += (isStage(what) ? total.kept : total.own) / framesOf(what, who.second);
+    for (const auto& [key, total] : profile_.spans())
+      if (key.first == what && (!wall || key.second == *wall))
+        ms += (isStage(what) ? total.kept : total.own) / framesOf(what, key.second);
     return ms * (isPartOfApp(what) ? appScale_ : 1);
   }
 
@@ -266,13 +266,13 @@ private:
     for (const Span s :
          {Span::Prepare, Span::Upload, Span::ShadowMaps, Span::Finish, Span::Read, Span::ForTurn})
       draw.named += sum(s);
-    for (const auto& [who, eye] : profile_.eyes()) {
-      if (eye.whole.mean() <= 0 || who.first >= out_.walls.size()) continue;
-      const auto factor = factors_.find(who);
-      const double nodes = nodesOf(who),
+    for (const auto& [key, eye] : profile_.eyes()) {
+      if (eye.whole.mean() <= 0 || key.first >= out_.walls.size()) continue;
+      const auto factor = factors_.find(key);
+      const double nodes = nodesOf(key),
                    parts = partsOf(eye) * (factor == factors_.end() ? 1 : factor->second);
       const double whole = std::max(eye.whole.mean(), nodes + parts);
-      const double took = sum(who.second == 0 ? Span::LeftEye : Span::RightEye, who.first);
+      const double took = sum(key.second == 0 ? Span::LeftEye : Span::RightEye, key.first);
       draw.nodes += took * nodes / whole, draw.named += took * parts / whole;
     }
   }
@@ -289,7 +289,7 @@ private:
     Explained& alone = out_.alone;
     alone.stage = "alone";
     for (const NodeRow& row : out_.nodes) alone.nodes += row.draw;
-    for (const auto& [who, eye] : profile_.eyes())
+    for (const auto& [key, eye] : profile_.eyes())
       alone.measured += std::max(0.0, eye.whole.mean()), alone.named += partsOf(eye);
   }
   static double partsOf(const EyeCost& eye) {
@@ -302,17 +302,17 @@ private:
   /// Scales nodes and parts drawn alone by one factor, so that their sum is the eye's whole time. In a tiny
   /// picture most of that time is fixed cost, and belongs to no node.
   void scaleDraw() {
-    for (const auto& [who, eye] : profile_.eyes()) {
-      const std::uint32_t wall = who.first, side = who.second;
+    for (const auto& [key, eye] : profile_.eyes()) {
+      const std::uint32_t wall = key.first, side = key.second;
       if (eye.whole.count() == 0 || wall >= out_.walls.size()) continue;
       if (!std::ranges::all_of(out_.nodes,
                                [&](const NodeRow& row) { return row.walls[wall].drawMeasured[side]; }))
         continue;  // an eye without a sample must not be counted with the others
-      const double alone = nodesOf(who) + partsOf(eye);
+      const double alone = nodesOf(key) + partsOf(eye);
       const double factor =
           alone > 0 && eye.whole.mean() > 0 ? std::min(kMostScaled, eye.whole.mean() / alone) : 1;
       for (NodeRow& row : out_.nodes) row.walls[wall].draw[side] *= factor;
-      factors_[who] = factor;
+      factors_[key] = factor;
     }
     for (NodeRow& row : out_.nodes) {
       row.draw = 0;

@@ -65,12 +65,12 @@ std::string unmeasuredText(const ShowFigures& f) {
 
 /// Adds a node's rows: its App and the parts of it, its Cull by wall, its Draw by wall and eye.
 void addRows(const NodeRow& r, const ShowFigures& f, std::string& csv) {
-  const std::string who = fmt::format("{},{},{},{}", csvField(r.name.path), csvField(r.name.file),
-                                      r.name.line, r.name.type);
+  const std::string node =
+      fmt::format("{},{},{},{}", csvField(r.name.path), csvField(r.name.file), r.name.line, r.name.type);
   const std::string budget = r.name.budget > 0 ? fmt::to_string(r.name.budget) : "";
   const std::string method = csvField(f.drawMethod);
   const auto ifKnown = [](double ms, bool is) { return is ? fmt::to_string(ms) : ""; };
-  csv += fmt::format("{},app,,,,{},{},{},{},{},{},{},\n", who, r.app, ifKnown(r.visitP95, r.visits > 0),
+  csv += fmt::format("{},app,,,,{},{},{},{},{},{},{},\n", node, r.app, ifKnown(r.visitP95, r.visits > 0),
                      ifKnown(r.visitMost, r.visits > 0),
                      std::llround(r.visits * static_cast<double>(f.wholeFrames)), r.allocations, r.share,
                      budget);
@@ -79,13 +79,13 @@ void addRows(const NodeRow& r, const ShowFigures& f, std::string& csv) {
                                  {"dispatch", r.dispatch},
                                  {"settle", r.settle},
                                  {"publish", r.publish}})
-    csv += fmt::format("{},app,{},,,{},,,,,,,\n", who, part, ms);
+    csv += fmt::format("{},app,{},,,{},,,,,,,\n", node, part, ms);
   const auto add = [&](const char* stage, const std::string& wall, const char* eye, double ms, bool known) {
-    csv += fmt::format("{},{},,{},{},{},,,,,,,{}\n", who, stage, csvField(wall), eye,
+    csv += fmt::format("{},{},,{},{},{},,,,,,,{}\n", node, stage, csvField(wall), eye,
                        known ? fmt::to_string(ms) : "", *eye != 0 ? method : "");
   };
   if (!f.drawMethod.empty())
-    csv += fmt::format("{},draw,,,,{},{},{},{},,,,{}\n", who, ifKnown(r.draw, r.drawKnown()),
+    csv += fmt::format("{},draw,,,,{},{},{},{},,,,{}\n", node, ifKnown(r.draw, r.drawKnown()),
                        ifKnown(r.drawingP95, r.drawings > 0), ifKnown(r.drawingMost, r.drawings > 0),
                        r.drawings, method);
   for (std::size_t w = 0; w < r.walls.size(); ++w) {

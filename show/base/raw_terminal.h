@@ -2,8 +2,8 @@
 /// A terminal that hands over each key at once and does not show it. Ctrl-C works as ever.
 ///
 /// It is given back as it was in every way out of the program: when this object goes, when the program
-/// exits, and by the signals that end it (but for SIGKILL, which nobody hears). Ctrl-Z gives it back, and
-/// whoever calls the program to the foreground again gives it to the program.
+/// exits, and by the signals that end it (except SIGKILL, which cannot be caught). Ctrl-Z gives it back; the
+/// shell's `fg` gives it to the program again.
 ///
 /// Threads  one at a time; the process has one of them at most, as it has one terminal.
 
@@ -20,7 +20,7 @@ public:
   RawTerminal& operator=(const RawTerminal&) = delete;
 
   int file() const { return file_; }
-  /// Whether keys are this program's now. From the background, whoever touches the terminal is stopped.
+  /// Returns true if this program gets the keys. A background process that touches the terminal is stopped.
   bool inForeground() const;
 
 private:
@@ -28,8 +28,8 @@ private:
   int file_;
 };
 
-/// For those who end the process at once: nothing if it has not been taken. May be called in a signal's
-/// handler.
+/// Gives the terminal back before the process ends at once. Does nothing if it has not been taken. May be
+/// called in a signal's handler.
 void giveTerminalBack();
 
 }  // namespace stadion

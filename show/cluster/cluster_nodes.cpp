@@ -82,9 +82,9 @@ int ClusterNodes::play() {
     if (stop && !std::exchange(forwarded, true)) ask(stopSignal());
     for (Node& node : nodes_) look(node);
     killHangingLead();
-    endLeadOfNobody();
+    endLeadOfEndedShow();
     endWithLead();
-    killWhoHangs();
+    killHangingNodes();
   }
   return code();
 }
@@ -171,7 +171,7 @@ void ClusterNodes::ask(int signal) {
 }
 
 /// A process that hangs in the system may outlive even that. It is not waited for.
-void ClusterNodes::killWhoHangs() {
+void ClusterNodes::killHangingNodes() {
   if (!askedSince_ || Clock::now() - *askedSince_ < patience_) return;
   for (Node& node : nodes_) {
     if (!node.child.running()) continue;
@@ -194,7 +194,7 @@ void ClusterNodes::killHangingLead() {
 
 /// The leader has crashed, but the show was over for the followers. Restarted, it would play the show once
 /// more, alone.
-void ClusterNodes::endLeadOfNobody() {
+void ClusterNodes::endLeadOfEndedShow() {
   Node& lead = nodes_[lead_];
   const auto isOther = [&](const Node& node) { return &node != &lead; };
   const auto isDone = [](const Node& node) { return node.state == State::Ended && node.status == kPlayed; };

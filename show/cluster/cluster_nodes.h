@@ -84,9 +84,9 @@ private:
   bool leadIsGone() const { return nodes_[lead_].state == State::Ended; }
   void endWithLead();
   void ask(int signal);
-  void killWhoHangs();
+  void killHangingNodes();
   void killHangingLead();
-  void endLeadOfNobody();
+  void endLeadOfEndedShow();
   bool anyLeft() const;
   int code() const;
 

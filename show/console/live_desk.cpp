@@ -55,7 +55,8 @@ bool LiveDesk::begin(const Player& player, Diagnostics& findings) {
   keys_ = OperatorKeys::open(STDIN_FILENO, desk_->queue(), reporter_.hintFunction());
   const bool hasWindows = play.windows || play.display;
   if (console.wait && !keys_ && !osc_ && !hasWindows)
-    return findings.error({}, "--wait: nobody can say start; there is no terminal and no --osc PORT"), false;
+    return findings.error({}, "--wait: start could not be given: there is no terminal and no --osc PORT"),
+           false;
   if (keys_) reporter_.hint("operator: keys in this terminal, h shows them");
   return true;
 }

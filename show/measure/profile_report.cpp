@@ -31,7 +31,7 @@ std::string wallsText(const ProfileRunOptions& o, const Player& player) {
 }
 
 std::string rasteriserText(const ProfileRunOptions& o, const std::string& gl) {
-  if (!o.drawn || gl.empty()) return "nobody: App and Cull alone";
+  if (!o.drawn || gl.empty()) return "none: App and Cull alone";
   return !drawnBySoftware(gl) ? gl : gl + ", " + rasteriserThreadsText();
 }
 

@@ -10,7 +10,7 @@
 
 namespace stadion {
 
-/// `gl`: who drew, in the driver's words; empty if nobody did.
+/// `gl`: the driver that drew, in its own words; empty if nothing was drawn.
 ReportHead reportHead(const ProfileRunOptions& options, const Player& player, const std::string& gl);
 
 /// Cost and error of the bodies that dynamics nodes move; none if there are none. Bodies are played with

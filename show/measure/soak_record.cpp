@@ -23,7 +23,7 @@ using Json = nlohmann::json;
 
 constexpr int kVersion = 2;
 constexpr std::size_t kMostRecordBytes = std::size_t{1} << 30U;
-/// No frames, bytes or files are more; whoever adds some up need not think of overflows.
+/// No frames, bytes or files are more, so their sums do not overflow.
 constexpr std::uint64_t kMostNumber = std::uint64_t{1} << 53U;
 
 Json jsonOf(const SoakCounts& c) {
@@ -80,7 +80,7 @@ std::unique_ptr<SoakRecord> SoakRecord::open(const std::string& file, const std:
   return record;
 }
 
-/// Opens the file, for nobody else.
+/// Opens the file and locks it.
 bool SoakRecord::lock(Diagnostics& findings) {
   const auto refuse = [&](const std::string& why) {
     findings.error({}, "--record: " + name_ + why);

@@ -47,7 +47,7 @@ void SoakVisitor::measure(Nanoseconds at) {
   if (phaseOf(t, kMadEvery) > 0.02) return;
   const double nan = std::numeric_limits<double>::quiet_NaN();
   feed_.pose(kHeadTracker, at, {{nan, 0, 1e9}, turned(0)});
-  feed_.pose("nobody", at, {{0, 0, 1}, turned(0)});
+  feed_.pose("unknown", at, {{0, 0, 1}, turned(0)});
   feed_.button(kWandTracker, at, 4711, true);
 }
 

@@ -23,7 +23,7 @@ public:
   void restart() override;
 
   std::uint64_t throws() const { return throws_; }
-  /// What was no measurement: not finite, too far, of nobody.
+  /// Counts what was no measurement: not finite, too far, of an unknown tracker.
   std::uint64_t refused() const { return feed_.counts().refused + feed_.counts().unknown; }
 
 private:

@@ -150,7 +150,7 @@ void RunOutput::addToVideo(const Job& job) {
       return fail(Reason(*wrong, FailureKind::Refusal));
     video_ = std::make_unique<VideoWriter>(options_.folder.pathOf("video.mp4"), video);
   }
-  // Here every frame counts and nobody waits for us but the show's own back-pressure.
+  // Here every frame counts, and only the show's own back-pressure waits for the video.
   while (!video_->failed() && !video_->waitForRoom(std::chrono::seconds(1))) {
   }
   videoFailed_ = video_->failed();

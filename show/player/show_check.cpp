@@ -252,10 +252,10 @@ void lookAtCollisions(const std::string& file, const std::vector<std::string>& r
   for (const auto& [fit, objects] : alike) {
     const NodeRef ref = objects.first->self();
     const Load& from = *player->scene().tree().load(ref.load);
-    std::string who = "\"" + objects.first->name() + "\" " + fit->choice.remark;
+    std::string text = "\"" + objects.first->name() + "\" " + fit->choice.remark;
     if (objects.count > 1)
-      who += "; " + std::to_string(objects.count - 1) + " more of this model do the same";
-    findings.note({from.file, from.lines[ref.position], 1}, who);
+      text += "; " + std::to_string(objects.count - 1) + " more of this model do the same";
+    findings.note({from.file, from.lines[ref.position], 1}, text);
   }
 }
 

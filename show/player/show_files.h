@@ -1,5 +1,5 @@
 #pragma once
-/// The files that a show is played from, also those that nobody named on the command line.
+/// The files that a show is played from, including those not named on the command line.
 
 #include "show/output/output_names.h"
 

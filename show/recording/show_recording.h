@@ -110,9 +110,9 @@ public:
     head.frames = profile_.frames(), head.recording = recordingMs();
     ReportData data{std::move(head), figures, names_, report_->series(), report_->kept(), {}, {}};
     data.threads = report_->threads().threads();
-    for (const auto& [who, eye] : profile_.eyes())
+    for (const auto& [key, eye] : profile_.eyes())
       data.eyes.push_back(
-          {who.first, who.second, eye.whole.mean(), eye.whole.percentile(95), eye.whole.count()});
+          {key.first, key.second, eye.whole.mean(), eye.whole.percentile(95), eye.whole.count()});
     return data;
   }
   const BlackBox* blackBox() const { return box_.get(); }
@@ -130,7 +130,7 @@ private:
   /// What recording takes of all threads, a frame.
   double recordingMs() const {
     double spans = 0;
-    for (const auto& [who, total] : profile_.spans()) spans += static_cast<double>(total.ms.count());
+    for (const auto& [key, total] : profile_.spans()) spans += static_cast<double>(total.ms.count());
     const SpanOverhead& each = log_->overhead();
     return 1e-6 * spans * (each.inside + each.outside) /
            static_cast<double>(std::max<std::uint64_t>(1, profile_.frames()));

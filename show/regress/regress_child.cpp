@@ -113,7 +113,7 @@ std::pair<ChildResult, ChildResult> runInTurns(const std::vector<std::string>& f
   Running a, b;
   a.start(first, ofFirst.get(), environment);
   b.start(second, ofSecond.get(), environment);
-  ofFirst.close(), ofSecond.close();  // so that whoever is left learns when the other one has ended
+  ofFirst.close(), ofSecond.close();  // so that each child learns when the other one has ended
   const auto deadline = Clock::now() + limit;
   for (;;) {
     const bool aEnded = a.ended(std::chrono::milliseconds(10)),

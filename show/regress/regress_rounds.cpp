@@ -18,7 +18,7 @@ using namespace regression;
 
 constexpr const char* kStoppedFault = "stopped";
 
-/// The rasteriser works in the thread that draws: else nobody knows whose time it is.
+/// Lets the rasteriser work in the thread that draws: else its time cannot be attributed.
 const std::vector<std::string> kDrawAlone{"LP_NUM_THREADS=0"};
 
 ChildResult runMeasured(const std::vector<std::string>& words, const MeasuringOptions& o) {

@@ -134,7 +134,7 @@ TEST(ProgramLauncher, SetupPeersInstallsAndBuildsTheOtherEngines) {
 
   house.forgetCalls();
   EXPECT_EQ(house.start({"nodes"}, {"STUB_MISSING=libbullet-dev"}).out, "<nodes>");
-  EXPECT_EQ(house.calls(), "");  // nobody else needs them
+  EXPECT_EQ(house.calls(), "");  // no other program needs them
 }
 
 TEST(ProgramLauncher, SetupPeersSaysTheAptLineWhenItCannotBecomeRoot) {

@@ -460,10 +460,10 @@ std::map<std::string, std::string> filesWithFilesInThem() {
           {"assets/ball/ball.obj", "mtllib ball.mtl\nusemtl m\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"},
           {"assets/ball/ball.mtl", "newmtl m\nmap_Kd skins/leather.png\n"},
           {"assets/ball/skins/leather.png", "a picture"},
-          {"assets/ball/skins/leather.pn", "nobody's"},
+          {"assets/ball/skins/leather.pn", "unrelated"},
           {"assets/hiss.wav", "a sound"},
           {"show/main.suite", "stadion-suite 1\ncase one\n  show main.evs\n  frames 3\n"},
-          {"show/out/walls-left-000012.png", "nobody's"}};
+          {"show/out/walls-left-000012.png", "unrelated"}};
 }
 
 TEST(ProgramUsage, WhatSubScenesAndModelsReadIsNotWrittenOver) {
@@ -493,7 +493,7 @@ TEST(ProgramUsage, WhatSubScenesAndModelsReadIsNotWrittenOver) {
   for (const auto& [name, content] : files) EXPECT_EQ(fileContent(at(name)), content) << name;
   const ProgramResult beside = stadionProgram({"profile", show, "--frames", "9", "--no-draw", "--walls",
                                                "desktop", "--html", at("assets/ball/skins/leather.pn")});
-  EXPECT_EQ(beside.status, 0) << "nobody reads that one\n" << beside.err;
+  EXPECT_EQ(beside.status, 0) << "the show does not read that one\n" << beside.err;
 }
 
 TEST(ProgramUsage, PicturesWhoseNamesAModelWritesInPercentsAreNotWrittenOver) {

@@ -27,8 +27,8 @@ enum class Step : std::uint8_t {
   Join,       ///< the follower asks to
   Next,       ///< it takes the next order
   Show,       ///< both have drawn
-  Issue,      ///< who leads orders a frame
-  Simulated,  ///< who leads has made one
+  Issue,      ///< the leader orders a frame
+  Simulated,  ///< the leader has made one
   TakeOver,   ///< it looks for a show that the others play
   Begin,      ///< it begins, or goes on
   Count

@@ -23,7 +23,7 @@ void cluster_file(Bytes bytes);   ///< a cluster file
 void suite(Bytes bytes);          ///< a suite file
 void osc(Bytes bytes);            ///< packets on the OSC ports of trackers and operator
 void cluster_wire(Bytes bytes);   ///< what the machines of a cluster hear from each other
-void scene_state(Bytes bytes);    ///< a scene's state, as who leads a cluster sends it
+void scene_state(Bytes bytes);    ///< a scene's state, as the leader of a cluster sends it
 void imported_mesh(Bytes bytes);  ///< what the importer program answers
 
 struct Target {

@@ -184,7 +184,7 @@ TEST(Layering, TheLibraryThatPlaysShowsWritesToNoTerminal) {
 }
 
 /// The files that include a header whose name begins so.
-std::set<std::string> whoIncludes(const std::string& prefix) {
+std::set<std::string> includersOf(const std::string& prefix) {
   std::set<std::string> files;
   for (const std::string& floor : kFloors)
     for (const Line& line : linesBelow(floor))
@@ -196,24 +196,24 @@ TEST(Layering, EachForeignLibraryHasItsRoom) {
   using Files = std::set<std::string>;
   // The programs of `bench walls` link what they draw with; the product does not know them.
   const std::string osg = "profiling/bench/walls/osg/osg_walls.cpp", floor = "profiling/bench/walls/floor/";
-  EXPECT_EQ(whoIncludes("GL/osmesa"), (Files{"pipeline/target/osmesa_provider.cpp", osg}));
-  EXPECT_EQ(whoIncludes("EGL/"),
+  EXPECT_EQ(includersOf("GL/osmesa"), (Files{"pipeline/target/osmesa_provider.cpp", osg}));
+  EXPECT_EQ(includersOf("EGL/"),
             (Files{"pipeline/target/egl_provider.cpp", floor + "headless_context.cpp", osg}));
-  EXPECT_EQ(whoIncludes("osg"), Files{osg});
-  EXPECT_EQ(whoIncludes("GLFW/"), Files{"pipeline/target/glfw_windows.cpp"});
-  EXPECT_EQ(whoIncludes("meshoptimizer"), Files{"engine/asset/simplify.cpp"});
-  EXPECT_EQ(whoIncludes("sndfile"), Files{"engine/asset/sound_file.cpp"});
-  EXPECT_EQ(whoIncludes("hwloc"), Files{"pipeline/platform/topology.cpp"});
-  EXPECT_EQ(whoIncludes("lo/"), Files{"pipeline/device/osc_server.cpp"});
-  EXPECT_EQ(whoIncludes("vrpn"), Files{"pipeline/device/vrpn_trackers.cpp"});
-  EXPECT_EQ(whoIncludes("AL/"), Files{"pipeline/sound/sound_device.cpp"});
-  EXPECT_EQ(whoIncludes("fcl/"), Files{"dynamics/shapes/mesh_distance.cpp"});
-  EXPECT_EQ(whoIncludes("GL/gl"), (Files{"pipeline/gl/gl_table.h", floor + "gl.h"}));
-  EXPECT_EQ(whoIncludes("btBulletDynamicsCommon"), Files{"profiling/bench/dynamics/engine_bullet.cpp"});
-  EXPECT_EQ(whoIncludes("ode/"), Files{"profiling/bench/dynamics/engine_ode.cpp"});
-  EXPECT_EQ(whoIncludes("mujoco/"), Files{"profiling/bench/dynamics/engine_mujoco.cpp"});
+  EXPECT_EQ(includersOf("osg"), Files{osg});
+  EXPECT_EQ(includersOf("GLFW/"), Files{"pipeline/target/glfw_windows.cpp"});
+  EXPECT_EQ(includersOf("meshoptimizer"), Files{"engine/asset/simplify.cpp"});
+  EXPECT_EQ(includersOf("sndfile"), Files{"engine/asset/sound_file.cpp"});
+  EXPECT_EQ(includersOf("hwloc"), Files{"pipeline/platform/topology.cpp"});
+  EXPECT_EQ(includersOf("lo/"), Files{"pipeline/device/osc_server.cpp"});
+  EXPECT_EQ(includersOf("vrpn"), Files{"pipeline/device/vrpn_trackers.cpp"});
+  EXPECT_EQ(includersOf("AL/"), Files{"pipeline/sound/sound_device.cpp"});
+  EXPECT_EQ(includersOf("fcl/"), Files{"dynamics/shapes/mesh_distance.cpp"});
+  EXPECT_EQ(includersOf("GL/gl"), (Files{"pipeline/gl/gl_table.h", floor + "gl.h"}));
+  EXPECT_EQ(includersOf("btBulletDynamicsCommon"), Files{"profiling/bench/dynamics/engine_bullet.cpp"});
+  EXPECT_EQ(includersOf("ode/"), Files{"profiling/bench/dynamics/engine_ode.cpp"});
+  EXPECT_EQ(includersOf("mujoco/"), Files{"profiling/bench/dynamics/engine_mujoco.cpp"});
   // assimp lives in a program of its own.
-  const Files assimp = whoIncludes("assimp/");
+  const Files assimp = includersOf("assimp/");
   EXPECT_FALSE(assimp.empty());
   for (const std::string& file : assimp)
     EXPECT_TRUE(file.starts_with("engine/asset/importer_program/")) << file;

@@ -119,7 +119,7 @@ bool Display::photograph(const std::string& file, int screen) const {
 }
 
 std::uint16_t freePort() {
-  // Below the ports that the kernel gives to whoever asks for any.
+  // Below the ports that the kernel gives to programs that ask for any.
   constexpr int kFirst = 20'000, kCount = 10'000;
   static int next = ::getpid() * 7;
   const std::filesystem::path folder =

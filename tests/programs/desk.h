@@ -61,7 +61,7 @@ private:
   std::string name_;
 };
 
-/// A UDP port that nobody listens to, and that no other test takes while this process runs.
+/// Returns a UDP port without a listener. No other test takes it while this process runs.
 std::uint16_t freePort();
 
 /// `stadion` with these arguments, on that display.

@@ -31,7 +31,7 @@ std::vector<char*> pointersTo(std::vector<std::string>& words) {
   }
   const int none = ::open("/dev/null", O_RDONLY);
   if (none < 0 || ::dup2(none, 0) < 0) ::_exit(126);
-  ::putenv(const_cast<char*>("STADION_CALIBRATION=none"));  // whoever builds here may have calibrated
+  ::putenv(const_cast<char*>("STADION_CALIBRATION=none"));  // this machine may be calibrated
   // Its own last frames stay, too.
   ::putenv(const_cast<char*>("XDG_STATE_HOME=" STADION_BINARY_DIR "/tests/state"));
   for (const std::string& e : run.environment) ::putenv(const_cast<char*>(e.c_str()));

@@ -22,7 +22,7 @@ void drape(Part& part, Rgb cloth, double top) {
   }
 }
 
-void addHead(Part& body, const Person& who, Point at, Detail detail) {
+void addHead(Part& body, const Person& person, Point at, Detail detail) {
   Part head = detail == Detail::Far ? lathe({{0, -0.9}, {0.9, 0.05}, {0, 1}}, 4)
               : detail == Detail::Middle
                   ? lathe({{0, -1}, {0.8, -0.45}, {0.9, 0.35}, {0, 1}}, 6)
@@ -30,31 +30,31 @@ void addHead(Part& body, const Person& who, Point at, Detail detail) {
   for (Vertex& v : head.vertices) {
     v.n = {0, 0, 0};
     const bool face = v.p.y > 0.15 && v.p.z < 0.45;
-    const bool beard = who.beard && v.p.z < -0.35 && v.p.y > -0.2;
+    const bool beard = person.beard && v.p.z < -0.35 && v.p.y > -0.2;
     v.colour = (face && !beard) || (v.p.z < -0.6 && !beard) || (detail == Detail::Far && v.p.z < 0.5)
-                   ? who.skin
-                   : who.hair;
+                   ? person.skin
+                   : person.hair;
   }
   add(body, head, {at, 0, {0.085, 0.105, 0.13}});
-  if (who.hat && detail != Detail::Far) {
+  if (person.hat && detail != Detail::Far) {
     Part hat = lathe({{0.19, -0.01}, {0.1, 0.035}, {0.07, 0.09}, {0, 0.10}}, detail == Detail::Near ? 10 : 6);
     paint(hat, [](const Vertex&) { return Rgb{0.80, 0.68, 0.42}; });
     add(body, hat, {at + Point{0, 0, 0.05}});
   }
 }
 
-void addArms(Part& body, const Person& who, double shoulder, Detail detail) {
+void addArms(Part& body, const Person& person, double shoulder, Detail detail) {
   constexpr int sides = 3;
   for (int k = 0; k < 2; ++k) {
     const double side = k == 0 ? 1 : -1;
     const Point from{side * 0.2, 0, shoulder - 0.04};
-    const bool up = k < who.raised;
+    const bool up = k < person.raised;
     const Point elbow = from + (up ? Point{side * 0.14, 0.1, 0.2} : Point{side * 0.08, 0.06, -0.25});
     const Point hand = elbow + (up ? Point{side * 0.02, 0.08, 0.26} : Point{-side * 0.12, 0.24, -0.02});
     if (detail == Detail::Middle && !up && k == 1) continue;
     Part arm = limb(from, elbow, 0.055, 0.042, sides);
     add(arm, limb(elbow, hand, 0.042, 0.034, sides));
-    paint(arm, [&](const Vertex&) { return who.skin; });
+    paint(arm, [&](const Vertex&) { return person.skin; });
     add(body, arm);
   }
 }
@@ -62,22 +62,22 @@ void addArms(Part& body, const Person& who, double shoulder, Detail detail) {
 }  // namespace
 
 Person somebody(Dice& dice, bool standing) {
-  Person who;
-  who.standing = standing;
-  who.cloth = mix(0.9, 1.04, dice.even()) * oneOf(kCloths, dice);
-  who.skin = oneOf(kSkins, dice), who.hair = oneOf(kHairs, dice);
-  who.hat = dice.roll(6) == 0, who.beard = dice.roll(2) == 0;
+  Person person;
+  person.standing = standing;
+  person.cloth = mix(0.9, 1.04, dice.even()) * oneOf(kCloths, dice);
+  person.skin = oneOf(kSkins, dice), person.hair = oneOf(kHairs, dice);
+  person.hat = dice.roll(6) == 0, person.beard = dice.roll(2) == 0;
   const unsigned mood = dice.roll(10);
-  who.raised = mood == 0 ? 2 : mood < 3 ? 1 : 0;
-  who.turn = dice.even();
-  return who;
+  person.raised = mood == 0 ? 2 : mood < 3 ? 1 : 0;
+  person.turn = dice.even();
+  return person;
 }
 
-Part figure(const Person& who, Detail detail) {
+Part figure(const Person& person, Detail detail) {
   const int sides = detail == Detail::Near ? 8 : detail == Detail::Middle ? 6 : 4;
   Part body;
-  const double hip = who.standing ? 0.88 : 0.1, shoulder = hip + 0.56;
-  if (who.standing) {
+  const double hip = person.standing ? 0.88 : 0.1, shoulder = hip + 0.56;
+  if (person.standing) {
     Part robe = detail == Detail::Far ? loft({{{0, 0, 0}, 0.19, 0.16},
                                               {{0, 0, shoulder - 0.06}, 0.22, 0.14},
                                               {{0, 0, shoulder + 0.07}, 0.06, 0.05}},
@@ -88,7 +88,7 @@ Part figure(const Person& who, Detail detail) {
                                               {{0, 0, shoulder - 0.03}, 0.225, 0.12},
                                               {{0, 0, shoulder + 0.05}, 0.08, 0.07}},
                                              sides);
-    drape(robe, who.cloth, 1.2);
+    drape(robe, person.cloth, 1.2);
     add(body, robe);
   } else {
     Part lap =
@@ -105,15 +105,15 @@ Part figure(const Person& who, Detail detail) {
                                                {{0, 0, shoulder - 0.03}, 0.22, 0.12},
                                                {{0, 0, shoulder + 0.05}, 0.08, 0.07}},
                                               sides);
-    drape(lap, 0.95 * who.cloth, 0.4), drape(chest, who.cloth, 0.6);
+    drape(lap, 0.95 * person.cloth, 0.4), drape(chest, person.cloth, 0.6);
     add(body, lap), add(body, chest);
   }
   // Removes the undersides, which are never seen.
   std::erase_if(body.triangles, [&](const auto& t) {
     return std::all_of(t.begin(), t.end(), [&](std::uint32_t c) { return body.vertices[c].p.z < 0.03; });
   });
-  addHead(body, who, {0, 0.02, shoulder + 0.19}, detail);
-  if (detail != Detail::Far) addArms(body, who, shoulder, detail);
+  addHead(body, person, {0, 0.02, shoulder + 0.19}, detail);
+  if (detail != Detail::Far) addArms(body, person, shoulder, detail);
   return body;
 }
 

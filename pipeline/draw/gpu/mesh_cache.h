@@ -41,7 +41,7 @@ struct GlMesh {
   std::vector<std::vector<GlSubmesh>> levels;  ///< of the simplified ones
   std::size_t transparentParts = 0;
   std::optional<SieveMesh> sieve;  ///< all levels, as in `indices`; where triangles are sieved
-  Aabb bounds;  ///< [m]
+  Aabb bounds;                     ///< [m]
   std::optional<MeshShading>
       shading;  ///< there, if it has neither pictures nor holes nor anything to see through
 
@@ -66,7 +66,7 @@ public:
   const GlMesh* find(MeshId id);
   /// Whether find() has it already, and uploads nothing.
   bool holds(MeshId id) const;
-  /// Who is told of uploads from now on; null = nobody.
+  /// Reports uploads to this probe from now on; null = none.
   void tell(FrameProbe* probe) { probe_ = probe; }
   /// Frees the GL objects of meshes that the store has freed since the last call.
   void freeUnused();

@@ -175,7 +175,7 @@ std::optional<Diagnostic> Worker::readPictures() {
 
 int work() {
   std::signal(SIGINT, SIG_IGN);   // Ctrl-C is for the show
-  std::signal(SIGPIPE, SIG_IGN);  // that nobody reads what OpenGL says is no end
+  std::signal(SIGPIPE, SIG_IGN);  // OpenGL may write without a reader
   Worker worker;
   OrderHead order;
   std::array<int, 3> segments{-1, -1, -1};

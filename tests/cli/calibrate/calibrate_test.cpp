@@ -15,7 +15,7 @@ using nlohmann::json;
 /// What is known of rooms with several walls says nothing of one wall.
 const std::string kCalibratedWalls = STADION_SOURCE_DIR "/scripts/suites/two.walls";
 
-/// A place for calibrations, and programs that look for them there. Nobody gives the rasteriser threads.
+/// A place for calibrations, and programs that look for them there. The rasteriser's threads are not set.
 class Home {
 public:
   std::string file() const { return folder_.path() / "config" / "stadion" / "calibration.json"; }

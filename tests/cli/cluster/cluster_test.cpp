@@ -123,7 +123,7 @@ public:
   pid_t processNow(const std::string& node) const { return processOf(file_, node); }
   std::filesystem::path out(const std::string& node) const { return folder_.path() / "out" / node; }
   int end() const { return endOf(program_); }
-  /// Asks who leads to end, who ends the show for all in the same frame.
+  /// Asks the leader to end. It ends the show for all hosts in the same frame.
   int stop() const {
     signalTo(processNow("front"), SIGTERM);
     return end();
@@ -168,11 +168,11 @@ TEST(ProgramCluster, AMachineThatDiesIsLeftOutAndComesBackWithTheSameScene) {
     EXPECT_EQ(summaryOf(cluster.out(node))["state_hash"], lead["state_hash"]) << node;
 }
 
-TEST(ProgramCluster, WhoLeadsMayDieAndTheShowGoesOn) {
+TEST(ProgramCluster, TheLeaderMayDieAndTheShowGoesOn) {
   const RunningCluster cluster;
   ASSERT_TRUE(signalTo(cluster.processOfRunning("front"), SIGKILL));
   EXPECT_TRUE(cluster.tells("the show goes on after frame")) << cluster.told();
-  // Whoever leads now has shown something, too.
+  // The new leader has shown something, too.
   const std::size_t shown = swapTimesOf(cluster.out("left")).size();
   EXPECT_TRUE(becomes([&] { return swapTimesOf(cluster.out("left")).size() > shown + 60; }))
       << cluster.told();
@@ -186,7 +186,7 @@ TEST(ProgramCluster, WhoLeadsMayDieAndTheShowGoesOn) {
 }
 
 /// A frame a second: one machine holds the last one up until the leader is dead.
-TEST(ProgramCluster, WhoLeadsMayDieInTheLastFrame) {
+TEST(ProgramCluster, TheLeaderMayDieInTheLastFrame) {
   const TemporaryFolder folder;
   const std::string file =
       folder.write("two.cluster", "walls cave4\nnode front front left right\nnode floor floor\ndeadline 6\n"
@@ -303,11 +303,11 @@ class MachinesByHand {
 public:
   MachinesByHand() : file_(fourNodes(folder_)) {}
   pid_t start(const std::string& node, const std::string& as) {
-    return startProgram({{stadionPath(), "run",        kKick,    "--cluster", file_,    "--node",    node,
-                          "--out",       as_(as),      "--size", "32x24",     "--look", "plain",     "--pace",
-                          "lock",        "--pictures", "none",   "--input",   "none",   "--seconds", "600",
-                          "--hashes"}},
-                        as_(as + ".said"), as_(as + ".told"));
+    return startProgram(
+        {{stadionPath(), "run",     kKick,   "--cluster", file_,   "--node",  node,   "--out",
+          as_(as),       "--size",  "32x24", "--look",    "plain", "--pace",  "lock", "--pictures",
+          "none",        "--input", "none",  "--seconds", "600",   "--hashes"}},
+        as_(as + ".said"), as_(as + ".told"));
   }
   bool tells(const std::string& as, const std::string& what) const {
     return becomes([&] { return told(as).find(what) != std::string::npos; });
@@ -324,7 +324,7 @@ private:
   std::string file_;
 };
 
-TEST(ProgramCluster, OfTwoProgramsOfOneNodeTheLaterEndsAndWhoLeadsEndsTheShowForAll) {
+TEST(ProgramCluster, OfTwoProgramsOfOneHostTheLaterEndsAndTheLeaderEndsTheShowForAll) {
   MachinesByHand machines;
   std::map<std::string, pid_t> all;
   for (const char* node : kFourNodes) all[node] = machines.start(node, node);
@@ -344,7 +344,7 @@ TEST(ProgramCluster, OfTwoProgramsOfOneNodeTheLaterEndsAndWhoLeadsEndsTheShowFor
     EXPECT_EQ(status, node == "front" ? 128 + SIGTERM : 0) << node << machines.told(node);
   }
   EXPECT_EQ(machines.told("left").find("another program"), std::string::npos) << "it played first";
-  EXPECT_EQ(machines.told("front").find("the others go on"), std::string::npos) << "nobody was disturbed\n"
+  EXPECT_EQ(machines.told("front").find("the others go on"), std::string::npos) << "no host was disturbed\n"
                                                                                 << machines.told("front");
 }
 
@@ -394,14 +394,14 @@ private:
   std::string script_, file_;
 };
 
-TEST(ProgramCluster, WhoIsLeftOutAsTheShowEndsSaysThatItsLastPicturesAreMissing) {
+TEST(ProgramCluster, AHostLeftOutAsTheShowEndsReportsItsMissingPictures) {
   const std::string missing =
       "--out: the show ended before this machine had caught up with it: its last pictures are missing";
   std::string told;
-  // Who leads waits a second to be told that its last order was heard. On a busy machine the other one may
-  // wake before or after that second, and end otherwise: then the next try.
+  // The leader waits a second for the answer to its last order. On a busy machine the follower may wake before
+  // or after that second, and end otherwise: then the next try.
   for (int tries = 0; tries < 10 && !has(told, missing); ++tries) {
-    // Who leads does not lose sight of a machine that stands still before two deadlines are over.
+    // The leader does not lose sight of a machine that stands still before two deadlines are over.
     const TwoLive two("", "deadline 2\n");
     const TemporaryFolder folder;
     const std::string out = folder.path() / "floor";
@@ -425,7 +425,7 @@ TEST(ProgramCluster, WhoIsLeftOutAsTheShowEndsSaysThatItsLastPicturesAreMissing)
   EXPECT_TRUE(has(told, missing)) << told;
 }
 
-TEST(ProgramCluster, TheTrackersAreThoseOfWhoLeadsAndTheOthersNeedNotNameThem) {
+TEST(ProgramCluster, TheTrackersAreTheLeadersAndTheOthersNeedNotNameThem) {
   const TwoLive two;
   const auto front = two.start("front", {"--tracker", "osc:" + std::to_string(freePort())});
   const auto floor = two.start("floor");
@@ -455,7 +455,7 @@ TEST(ProgramCluster, ANetworkThatCannotServeIsNamed) {
   EXPECT_EQ(r.status, 0) << "and then it can: " << r.err;
 }
 
-TEST(ProgramCluster, WhoLedWasStoppedAndComesBackEnds) {
+TEST(ProgramCluster, ALeaderThatWasStoppedAndComesBackEnds) {
   const TwoLive two;
   const std::vector<std::string> live{"--input", "none"};
   const auto floor = two.start("floor", live), first = two.start("front", live);
@@ -472,7 +472,7 @@ TEST(ProgramCluster, WhoLedWasStoppedAndComesBackEnds) {
   EXPECT_EQ(floor->status(), 0) << floor->err();
 }
 
-TEST(ProgramCluster, WhoLeadsSaysForWhomItWaitsAndTheOperatorNeedNot) {
+TEST(ProgramCluster, TheLeaderNamesTheHostsItWaitsForAndTheOperatorNeedNot) {
   const TwoLive two;
   const std::string port = std::to_string(freePort());
   const lo_address desk = lo_address_new("127.0.0.1", port.c_str());
@@ -486,7 +486,7 @@ TEST(ProgramCluster, WhoLeadsSaysForWhomItWaitsAndTheOperatorNeedNot) {
   lo_address_free(desk);
 }
 
-TEST(ProgramCluster, WhatTheOperatorDecidedStaysWhereWhoLeadsBeginsAgain) {
+TEST(ProgramCluster, WhatTheOperatorDecidedStaysWhenTheLeaderRestarts) {
   const TwoLive two;
   const auto floor = two.start("floor", {"--input", "none"});
   const std::string port = std::to_string(freePort());
@@ -508,7 +508,7 @@ TEST(ProgramCluster, WhatTheOperatorDecidedStaysWhereWhoLeadsBeginsAgain) {
   EXPECT_EQ(floor->status(), 0) << floor->err();
 }
 
-TEST(ProgramCluster, AShowThatWaitsForStartStillDoesWhereWhoLeadsBeginsAgain) {
+TEST(ProgramCluster, AShowThatWaitsForStartStillDoesWhenTheLeaderRestarts) {
   const TwoLive two;
   const auto floor = two.start("floor", {"--input", "none"});
   const std::string port = std::to_string(freePort());
@@ -597,7 +597,7 @@ TEST(ProgramCluster, ABitOfABodyThatHasNotMovedYetIsFoundInTime) {
   EXPECT_TRUE(has(told, "ball (") && has(told, "), path.c is ")) << told;
 }
 
-TEST(ProgramCluster, WhereModelsAreOthersTheyAreNamedAndNobodyPlaysWithThem) {
+TEST(ProgramCluster, OtherModelsAreNamedAndNotPlayed) {
   const TemporaryFolder ours, theirs;
   const char* const triangle = "v 0 0 0\nv 1 0 0\nv 0 0 1\nf 1 2 3\n";
   ours.write("thing.obj", triangle), theirs.write("thing.obj", std::string("v 0 0 2\n") + triangle);
@@ -644,7 +644,7 @@ private:
   TemporaryFolder ours_, models_, scenes_;
 };
 
-TEST(ProgramCluster, WhoComesLateWithOtherModelsOrSubScenesMayComeAgain) {
+TEST(ProgramCluster, ALateHostWithOtherModelsOrSubScenesMayComeAgain) {
   const OtherFiles files;
   const TwoLive two;
   const auto front = two.startWith(files.ours(), "front", OtherFiles::play("600"));
@@ -662,7 +662,7 @@ TEST(ProgramCluster, WhoComesLateWithOtherModelsOrSubScenesMayComeAgain) {
   EXPECT_EQ(TwoLive::endOf(*front), 130) << front->err();
 }
 
-TEST(ProgramCluster, WhoLeadsAnewWithOtherFilesBeginsTheShowAnew) {
+TEST(ProgramCluster, ALeaderThatComesBackWithOtherFilesRestartsTheShow) {
   const OtherFiles files;
   for (const std::string& other : files.others()) {
     const TwoLive two;
@@ -680,7 +680,7 @@ TEST(ProgramCluster, WhoLeadsAnewWithOtherFilesBeginsTheShowAnew) {
   }
 }
 
-TEST(ProgramCluster, WhereFilesOrDeadlinesDifferWhoFollowsSaysWhichAndEnds) {
+TEST(ProgramCluster, WhereFilesOrDeadlinesDifferTheFollowerSaysWhichAndEnds) {
   const TemporaryFolder folder;
   const auto file = [&](const std::string& name, const std::string& more) {
     return folder.write(name, "walls cave4\npartition files" + std::to_string(getpid()) + "\n" + more);

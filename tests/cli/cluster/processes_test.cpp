@@ -1,4 +1,4 @@
-/// `stadion cluster`: who dies, who is asked to end, and what of the command line goes to which node.
+/// `stadion cluster`: hosts that crash, hosts that are asked to end, and the arguments of each host.
 
 #include "cli/terminal.h"
 #include "show/cluster/cluster_nodes.h"
@@ -57,7 +57,7 @@ public:
                                  [&](auto n) { return swapTimesOf(folder_.path() / "out" / n).size() > 10; });
     });
   }
-  bool nobodyIsLeft() const {
+  bool allHaveEnded() const {
     return becomes([&] { return std::ranges::all_of(kFourNodes, [&](auto n) { return node(n) < 0; }); });
   }
   bool tells(const std::string& what) const {
@@ -89,7 +89,7 @@ std::vector<std::string> forLong(std::vector<std::string> more = {}) {
   return more;
 }
 
-TEST(ProgramClusterProcesses, WhoLeadsDiesForGoodAndTheOthersEnd) {
+TEST(ProgramClusterProcesses, TheLeaderDiesForGoodAndTheOthersEnd) {
   PlayingCluster cluster(forLong({"--once"}));
   ASSERT_TRUE(cluster.plays()) << cluster.told();
   ASSERT_TRUE(signalTo(cluster.node("front"), SIGKILL));
@@ -98,7 +98,7 @@ TEST(ProgramClusterProcesses, WhoLeadsDiesForGoodAndTheOthersEnd) {
   EXPECT_TRUE(has(cluster.told(), "cluster: front, which leads, is gone; the others end")) << cluster.told();
 }
 
-TEST(ProgramClusterProcesses, ADeathIsToldAlsoWhereNobodyBeginsAgain) {
+TEST(ProgramClusterProcesses, ACrashIsReportedAlsoWithoutARestart) {
   PlayingCluster cluster(forLong({"--once"}));
   ASSERT_TRUE(cluster.plays()) << cluster.told();
   ASSERT_TRUE(signalTo(cluster.node("left"), SIGKILL));
@@ -120,12 +120,12 @@ TEST(ProgramClusterProcesses, TheSoundsAreHeardOnce) {
   cluster.end();
 }
 
-TEST(ProgramClusterProcesses, NodesDoNotOutliveWhoStartedThem) {
+TEST(ProgramClusterProcesses, HostsDoNotOutliveTheirLauncher) {
   PlayingCluster cluster(forLong());
   ASSERT_TRUE(cluster.plays()) << cluster.told();
   ASSERT_TRUE(signalTo(cluster.program(), SIGKILL));
   EXPECT_EQ(cluster.end(), 128 + SIGKILL);
-  EXPECT_TRUE(cluster.nobodyIsLeft()) << cluster.told();
+  EXPECT_TRUE(cluster.allHaveEnded()) << cluster.told();
 }
 
 TEST(ProgramClusterProcesses, TheSignalThatStopsThemIsTheOneThatCame) {
@@ -148,7 +148,7 @@ TEST(ProgramClusterProcesses, ANodeThatIsAskedToEndIsNotBegunAnew) {
   EXPECT_TRUE(cluster.tells("the others go on")) << cluster.told();
   EXPECT_TRUE(becomes([&] { return cluster.node("left") < 0; }));
   ASSERT_TRUE(signalTo(cluster.node("front"), SIGTERM));
-  EXPECT_EQ(cluster.end(), 128 + SIGTERM) << "and who leads ends the show for all: " << cluster.told();
+  EXPECT_EQ(cluster.end(), 128 + SIGTERM) << "and the leader ends the show for all: " << cluster.told();
   EXPECT_FALSE(has(cluster.told(), "begins again")) << cluster.told();
 }
 
@@ -174,7 +174,7 @@ std::size_t startsIn(const fs::path& count) {
 TEST(ProgramClusterProcesses, ANodeWithoutMemoryOrOpenGlBeginsAgainAfterAPauseIfItFailsAtOnce) {
   const TemporaryFolder folder;
   ClusterNodes nodes(twoNodes(), false, terminal);
-  // Who leads plays until the other one has begun for the third time, half a minute at most.
+  // The leader plays until the other one has begun for the third time, half a minute at most.
   nodes.add("front", {"sh", "-c",
                       "for i in $(seq 300); do [ $(wc -l <" + (folder.path() / "left").string() +
                           ") -lt 3 ] || break; sleep 0.1; done"});
@@ -197,7 +197,7 @@ TEST(ProgramClusterProcesses, WhatIsWrongWithTheShowIsNoReasonToBeginAgain) {
     ClusterNodes nodes(twoNodes(), false, terminal);
     nodes.add("front", failing(folder.path() / name, code, 1));
     nodes.add("left", {"sleep", "600"});
-    EXPECT_EQ(nodes.play(), code) << "the others end with who leads";
+    EXPECT_EQ(nodes.play(), code) << "the others end with the leader";
     EXPECT_EQ(startsIn(folder.path() / name), 1U);
   }
 }
@@ -223,7 +223,7 @@ TEST(ProgramClusterProcesses, AFollowerThatFindsOtherFilesComesBackOnceTheyAreAl
       << told;
 }
 
-TEST(ProgramClusterProcesses, WhoLeadsAndHangsIsReplaced) {
+TEST(ProgramClusterProcesses, ALeaderThatHangsIsReplaced) {
   const TemporaryFolder folder;
   const std::string starts = folder.write("starts", "");
   ClusterNodes nodes(twoNodes(), false, terminal);
@@ -248,14 +248,14 @@ TEST(ProgramClusterProcesses, OnlyTheOneThatLeadsAndIsStoppedIsTakenForHanging) 
   EXPECT_EQ(cluster.end(), 128 + SIGTERM) << cluster.told();
 }
 
-TEST(ProgramClusterProcesses, WhoFindsTheShowAtItsEndHasNotFailed) {
+TEST(ProgramClusterProcesses, AHostThatFindsTheShowAtItsEndHasNotFailed) {
   ClusterNodes nodes(twoNodes(), false, terminal, kShort);
   nodes.add("front", {"true"});
   nodes.add("left", {"sh", "-c", "exec sleep 600"});
-  EXPECT_EQ(nodes.play(), 0) << "it waits for who has gone, and is asked to end";
+  EXPECT_EQ(nodes.play(), 0) << "it waits for the host that has gone, and is asked to end";
 }
 
-TEST(ProgramClusterProcesses, WherePicturesAreKeptWhoDiedAndIsNotBackAtTheEndHasFailed) {
+TEST(ProgramClusterProcesses, WherePicturesAreKeptAHostThatDiedAndIsNotBackHasFailed) {
   for (const bool needed : {false, true}) {
     const TemporaryFolder folder;
     const std::string starts = folder.write("starts", "");
@@ -269,7 +269,7 @@ TEST(ProgramClusterProcesses, WherePicturesAreKeptWhoDiedAndIsNotBackAtTheEndHas
   }
 }
 
-TEST(ProgramClusterProcesses, WherePicturesAreKeptWhoWasNotDoneAtTheEndHasFailed) {
+TEST(ProgramClusterProcesses, WherePicturesAreKeptAHostThatWasNotDoneHasFailed) {
   ClusterNodes nodes(twoNodes(), false, terminal, kShort);
   nodes.needAll();
   nodes.add("front", {"true"});
@@ -282,8 +282,8 @@ TEST(ProgramClusterProcesses, WherePicturesAreKeptWhoWasNotDoneAtTheEndHasFailed
       << told;
 }
 
-/// The others wait for who leads, which was asked to end before there was a show.
-TEST(ProgramClusterProcesses, AShowThatIsOverForTheOthersIsNotPlayedAgainByWhoLeadsAlone) {
+/// The others wait for the leader, which was asked to end before there was a show.
+TEST(ProgramClusterProcesses, AShowThatIsOverForTheOthersIsNotPlayedAgainByTheLeaderAlone) {
   for (const bool endsFirst : {true, false}) {
     const TemporaryFolder folder;
     const std::string starts = folder.write("starts", "");
@@ -319,7 +319,7 @@ TEST(ProgramClusterProcesses, AShowThatEndsForADifferenceDoesNotBeginAgain) {
   EXPECT_EQ(startsIn(folder.path() / "front"), 1U);
 }
 
-TEST(ProgramClusterProcesses, WhoHangsIsKilledOnceWhoLeadsHasEnded) {
+TEST(ProgramClusterProcesses, AHostThatHangsIsKilledOnceTheLeaderHasEnded) {
   for (const char* lead : {"exit 0", "exit 1"}) {
     const TemporaryFolder folder;
     const std::string hangs = folder.path() / "hangs";
@@ -335,7 +335,7 @@ TEST(ProgramClusterProcesses, WhoHangsIsKilledOnceWhoLeadsHasEnded) {
   }
 }
 
-TEST(ProgramClusterProcesses, WhoHangsIsKilledAfterASignal) {
+TEST(ProgramClusterProcesses, AHostThatHangsIsKilledAfterASignal) {
   const auto play = [] {
     ClusterNodes nodes(twoNodes(), false, terminal, kShort);
     nodes.add("front", {"sleep", "600"});
@@ -393,7 +393,7 @@ TEST(ProgramClusterProcesses, FilesGetTheNodesNamesAndWhatTheInputWasIsWrittenOn
     EXPECT_FALSE(fs::exists(file(name))) << name;
 }
 
-TEST(ProgramClusterProcesses, TrackersAndOperatorAreThoseOfWhoLeads) {
+TEST(ProgramClusterProcesses, TrackersAndOperatorAreTheLeaders) {
   PlayingCluster cluster({"--tracker", "osc:0", "--osc", "0", "--predict", "10", "--no-sound", "--journal",
                           "journal", "--black-box", "box"});
   const auto plays = [&](const std::string& node) {

@@ -31,7 +31,7 @@ TEST(ProgramProfile, EveryNodeThatWorksOrIsSeenHasARow) {
   EXPECT_EQ(rows["playfield"]["app_ms"], 0) << "what stands still costs App nothing";
 }
 
-/// Who else takes the processor lengthens stages, but not what is measured of nodes: one undisturbed run is
+/// Other programs on the processor lengthen stages, but not what is measured of nodes: one undisturbed run is
 /// enough.
 TEST(ProgramProfile, MostOfEveryStageIsExplained) {
   nlohmann::json little;

@@ -261,7 +261,7 @@ TEST_F(ProgramFaults, ADiskThatIsFullWhenTheJournalIsWrittenIsToldAndTheShowGoes
   EXPECT_TRUE(text.empty() || text.ends_with("\n")) << "no half line: " << text;
 }
 
-/// The player and who watches over it have the same fault.
+/// The player and its supervisor have the same fault.
 TEST_F(ProgramFaults, AWatchedShowWhoseJournalIsOnAFullDiskIsPlayedOnce) {
   const std::string journal = file("run.log");
   ProgramRun watched = run("write error=28 path=run.log", {"--gl", "none", "--pace", "lock", "--seconds", "6",
@@ -317,7 +317,7 @@ std::string socketsOf(pid_t program) {
 
 class ProgramFaultsLive : public ProgramFaults {
 protected:
-  /// Nobody plays the visitor: it plays until it is told to end.
+  /// A show without input: it plays until it is told to end.
   ProgramRun live(std::vector<std::string> more) const {
     return run("", with({"--input", "none", "--gl", "none", "--pace", "lock", "--rate", "20"}, more));
   }
@@ -350,7 +350,7 @@ TEST_F(ProgramFaultsLive, AProgramThatStoodStillGoesOnByTheClock) {
   EXPECT_EQ(program.status(), 130);
   const json summary = json::parse(program.out(), nullptr, false);
   ASSERT_TRUE(summary.is_object()) << program.out();
-  EXPECT_GE(summary.value("most_passed_over", 0), 20);  // of forty ticks that nobody could see
+  EXPECT_GE(summary.value("most_passed_over", 0), 20);  // of forty ticks that could not be shown
   EXPECT_GT(summary.value("seconds", 0.0), 1.5);        // the show's time went on with the clock
 }
 

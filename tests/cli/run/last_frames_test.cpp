@@ -1,4 +1,4 @@
-/// A run keeps its last frames in a file, and harms nobody's by it.
+/// A run keeps its last frames in a file, and harms no other file.
 
 #include "tests/programs/desk.h"
 
@@ -93,7 +93,7 @@ TEST(ProgramLastFrames, WhatIsDamagedIsSaidToBe) {
   }
 }
 
-TEST(ProgramLastFrames, ARunThatCrashesTellsWhereItsLastFramesAreWhoeverWaitedForThem) {
+TEST(ProgramLastFrames, ACrashedRunReportsItsLastFramesAlsoWhileAnotherOneWaits) {
   const TemporaryFolder folder;
   ProgramRun run;
   run.words = live({"--frames", "10000000", "--input", "none"});

@@ -90,7 +90,7 @@ TEST(ProgramFullOlympia, AllGoAsFarAtOtherFrameRatesAndWhenFramesAreLate) {
 }
 
 // His legs carry the hand along once they are free again, which must not be before it lets go.
-TEST(ProgramOlympia, WhoPushesTheJoypadForwardAllTheWhileThrowsAsFarAtAnyRate) {
+TEST(ProgramOlympia, AVisitorThatPushesTheJoypadAllTheWhileThrowsAsFarAtAnyRate) {
   const TemporaryFolder folder;
   const std::string log = folder.path() / "push.input";
   std::ofstream(log) << R"(stadion-input 1
@@ -122,7 +122,7 @@ TEST(ProgramFullOlympia, AsItComesFromTheClockTheVisitIsTheRecordedOne) {
   std::ofstream(log)
       << "stadion-input 1\nkey head 0 0 0 1.7\nkey head 2.5 0 0 1.7\n"
          "key wand 0 0.28 0.3 1.1\nkey wand 1 0.28 0.3 1.1 axes 0 1\nkey wand 2.5 0.28 0.3 1.1 axes 0 1\n";
-  // The log lies beside the script that is played: nobody asks for every frame.
+  // The log lies beside the script that is played: the command does not ask for every frame.
   const std::string scripts = STADION_SOURCE_DIR "/scripts";
   const std::string script = folder.path() / "visit.evs";
   std::filesystem::copy(scripts + "/olympia.evs", script);
@@ -170,7 +170,7 @@ key wand 30.4 0.52 0.62  1.79  turn 33 0 0
 key wand 36   0.52 0.44  1.68  turn 33 0 0
 )";
 
-TEST(ProgramOlympia, WhoDropsTheDiscusOnItsStandLosesTheTurnAndCanTakeItAgain) {
+TEST(ProgramOlympia, ADiscusDroppedOnItsStandEndsTheTurnAndCanBeTakenAgain) {
   const TemporaryFolder folder;
   const std::string log = folder.path() / "drop.input";
   std::ofstream(log) << kTake << kDrop;
@@ -188,7 +188,7 @@ TEST(ProgramOlympia, WhoDropsTheDiscusOnItsStandLosesTheTurnAndCanTakeItAgain) {
 
 // He has taken the discus, so the joypad does not move him; a few steps on his own feet must not end the
 // game.
-TEST(ProgramOlympia, WhoStepsForwardWithTheDiscusCanThrowItAndWalkOn) {
+TEST(ProgramOlympia, AVisitorWithTheDiscusCanStepForwardThrowItAndWalkOn) {
   const TemporaryFolder folder;
   const std::string log = folder.path() / "step.input";
   std::ofstream(log) << kTake << R"(

@@ -1,4 +1,4 @@
-/// A live run and somebody who commands it, over the network and from a terminal.
+/// A live run and its operator, over the network and at a terminal.
 
 #include "pipeline/picture/picture.h"
 #include "tests/programs/desk.h"
@@ -240,7 +240,7 @@ TEST(ProgramOperator, KeysOfATerminalCommandTheShowAndTheTerminalIsGivenBack) {
   close(terminal), close(other);
 }
 
-TEST(ProgramOperator, WhatNeedsSomebodyThereIsRefusedWhereEveryFrameCounts) {
+TEST(ProgramOperator, WhatNeedsAnOperatorIsRefusedWhereEveryFrameCounts) {
   const TemporaryFolder folder;
   const std::string show = folder.write("show.evs", kOperated);
   for (const std::vector<std::string>& words :

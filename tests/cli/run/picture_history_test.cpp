@@ -1,4 +1,4 @@
-/// A picture follows from its frame alone: whoever was restored from a snapshot, or has not drawn the frames
+/// A picture follows from its frame alone. A show that was restored from a snapshot, or has not drawn the frames
 /// before, draws the same to the bit as one that has drawn them all. In the full look, with shadows, levels
 /// of detail and haze.
 

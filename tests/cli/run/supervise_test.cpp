@@ -141,7 +141,8 @@ TEST(ProgramSupervise, TheSummarySaysWhatKeepingTheSceneTook) {
                       "32x24", "--look", "plain", "--walls", "desktop"});
   ASSERT_EQ(r.status, 0) << r.err;
   const std::string remarks = Json::parse(r.out)["remarks"].dump();
-  EXPECT_TRUE(std::regex_search(remarks, std::regex("bytes\\) was kept (once|[0-9]+ times) for the next player")))
+  EXPECT_TRUE(
+      std::regex_search(remarks, std::regex("bytes\\) was kept (once|[0-9]+ times) for the next player")))
       << remarks;
 }
 
@@ -173,7 +174,7 @@ TEST(ProgramSupervise, APlayerThatIsKilledSoonAfterItWentOnHasKeptTheSceneForThe
 }
 
 /// Where it was paused, not where the scene was kept: also if the next player dies as well.
-TEST(ProgramSupervise, AShowThatIsPausedStandsStillAtTheSameFrameWhoeverPlaysIt) {
+TEST(ProgramSupervise, AShowThatIsPausedStandsStillAtTheSameFrameForEveryPlayer) {
   const std::uint16_t port = freePort();
   Supervised run({"--gl", "none", "--no-sound", "--input", "none", "--osc", std::to_string(port)});
   const auto send = [to = std::to_string(port)](const char* path, double value) {
@@ -234,7 +235,7 @@ TEST(ProgramSupervise, HoweverTheOptionIsWrittenItIsNotThePlayers) {
   }
 }
 
-TEST(ProgramSupervise, ALiveShowEndsWithWhoWatchesOverIt) {
+TEST(ProgramSupervise, ALiveShowEndsWithItsSupervisor) {
   Supervised run({"--walls", "desktop", "--size", "32x24", "--look", "plain", "--input", "none"});
   ASSERT_TRUE(becomes([&] { return run.hasNoted("the first picture"); })) << fileContent(run.told());
   const pid_t first = run.player();
@@ -251,7 +252,7 @@ TEST(ProgramSupervise, ALiveShowEndsWithWhoWatchesOverIt) {
   EXPECT_NE(said["remarks"].dump().find("replaced once;"), std::string::npos) << said["remarks"];
 }
 
-TEST(ProgramSupervise, APlayerDoesNotOutliveWhoWatchesOverIt) {
+TEST(ProgramSupervise, APlayerDoesNotOutliveItsSupervisor) {
   Supervised run({"--walls", "desktop", "--size", "32x24", "--look", "plain", "--input", "none"});
   ASSERT_TRUE(becomes([&] { return run.hasNoted("the first picture"); })) << fileContent(run.told());
   const pid_t player = run.player();
@@ -262,7 +263,7 @@ TEST(ProgramSupervise, APlayerDoesNotOutliveWhoWatchesOverIt) {
       << fileContent(run.journal());
 }
 
-TEST(ProgramSupervise, ThatNobodyReadsAnyLongerWhatItSaysIsNoEnd) {
+TEST(ProgramSupervise, OutputWithoutAReaderIsNoEnd) {
   const TemporaryFolder folder;
   const std::string journal = folder.path() / "run.log";
   // The reader of its messages is gone at once; the watcher and the player say something all the same.

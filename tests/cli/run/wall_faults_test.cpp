@@ -74,9 +74,7 @@ public:
     return json::parse(program_.out(), nullptr, false);
   }
   std::string err() const { return program_.err(); }
-  bool showsPictures() const {
-    return fileContent(journal()).find("the first picture") != std::string::npos;
-  }
+  bool showsPictures() const { return fileContent(journal()).find("the first picture") != std::string::npos; }
   bool says(const std::string& what, int times = 1) const { return program_.says(what, times); }
   bool waitUntil(const std::function<bool()>& condition) const { return program_.waitUntil(condition); }
 
@@ -85,7 +83,8 @@ private:
     const std::string show = folder_.write("show.evs", "object( name=floor, file=plane.3ds )\n"
                                                        "object( file=football.3ds, position=\"0, 3, 1\" )\n");
     return {{stadionPath(), "run", show, "--asset-root", assetFolder(), "--walls", "cave4", "--size",
-             "160x120", "--rate", "10", "--wall-workers", "process", "--json", "--no-sound", "--osc", port_, "--journal", journal()}};
+             "160x120", "--rate", "10", "--wall-workers", "process", "--json", "--no-sound", "--osc", port_,
+             "--journal", journal()}};
   }
 
   std::string journal() const { return folder_.path() / "run.log"; }
@@ -115,7 +114,7 @@ std::string wrongWith(const json& summary, const std::string& err) {
   const auto passedOver = summary.at("most_passed_over").get<std::uint64_t>();
   if (passedOver > 1) wrong += std::to_string(passedOver) + " ticks in a row were passed over; ";
   for (const char* said : {"was killed by signal 9", "hung; another one is started", "draws again, after"})
-    if (err.find(said) == err.npos) wrong += std::string("nobody said that it ") + said + "; ";
+    if (err.find(said) == err.npos) wrong += std::string("not reported: ") + said + "; ";
   return wrong.empty() ? wrong : wrong + late.dump() + "\n" + err;
 }
 

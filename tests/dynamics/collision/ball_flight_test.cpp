@@ -108,7 +108,7 @@ TEST(BallFlight, StaysNearAsLongAsItSaysAndIsFarOffThenIfItIsSure) {
   EXPECT_GE(sure, 60);
 }
 
-/// While nobody is near anybody else, the world looks ahead for up to a second at once.
+/// While no body is near another, the world looks ahead for up to a second at once.
 TEST(BallFlight, LongLooksChangeNothingAtAnyFrameRate) {
   std::vector<double> first;
   for (const double rate : {30., 60., 96., 240.}) {

@@ -235,7 +235,7 @@ TEST(LastingContact, ABallPutInsideAMeshComesOutWithoutAJumpAndRests) {
   }
 }
 
-TEST(LastingContact, AFieldThatIsOffKeepsNobodyAwakeHoweverItMoves) {
+TEST(LastingContact, AFieldThatIsOffKeepsNoBodyAwakeHoweverItMoves) {
   World w;
   addFloor(w, 0.5);
   const BodyId box = addBox(

@@ -100,16 +100,16 @@ TEST(MassRatio, ARowOfBallsOfAnyMassesPassesABlowOnInTheRightOrder) {
     for (std::size_t k = 0; k < x.size(); ++k) x[k] = 0.3 * static_cast<double>(k);
     for (double left = toSeconds(signatureAt(90, 60).time); left > 0;) {
       double first = left;
-      std::size_t who = x.size();
+      std::size_t ball = x.size();
       for (std::size_t k = 0; k + 1 < x.size(); ++k) {
         const double gap = x[k + 1] - x[k] - 0.2, closing = v[k] - v[k + 1];
-        if (closing > 0 && gap / closing < first) first = std::max(0.0, gap / closing), who = k;
+        if (closing > 0 && gap / closing < first) first = std::max(0.0, gap / closing), ball = k;
       }
       for (std::size_t k = 0; k < x.size(); ++k) x[k] += first * v[k];
       left -= first;
-      if (who == x.size()) break;
-      const double a = mass[who], b = mass[who + 1], u = v[who] - v[who + 1];
-      v[who] -= 2 * b / (a + b) * u, v[who + 1] += 2 * a / (a + b) * u;
+      if (ball == x.size()) break;
+      const double a = mass[ball], b = mass[ball + 1], u = v[ball] - v[ball + 1];
+      v[ball] -= 2 * b / (a + b) * u, v[ball + 1] += 2 * a / (a + b) * u;
     }
     for (std::size_t k = 0; k < x.size(); ++k) {
       EXPECT_NEAR(w.state(row[k]).p.x(), x[k], 1e-9 * (1 + std::fabs(x[k]))) << i << ' ' << k;

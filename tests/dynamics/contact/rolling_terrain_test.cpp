@@ -46,7 +46,7 @@ BallSpec dropped(Chance& chance, double steep) {
   return s;
 }
 
-/// No frame is cut short, no energy comes of folds, and nobody falls through.
+/// No frame is cut short, no energy comes of folds, and no ball falls through.
 TEST(RollingTerrain, BallsRollOverFoldsOfEveryKind) {
   Chance chance(412);
   for (const double steep : {0.02, 0.2, 1.0})

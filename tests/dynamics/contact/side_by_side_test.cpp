@@ -103,7 +103,7 @@ TEST(ThreadsDynamics, SideBySideTheStateIsTheSameToTheBitOnAnyNumberOfThreads) {
 
 /// A plate that another node's ball carries stays on the ball: the second node sees where the first has put
 /// it.
-TEST(ThreadsDynamics, WhoLooksAtAnothersBodyWaitsForIt) {
+TEST(ThreadsDynamics, ANodeThatLooksAtAnothersBodyWaitsForIt) {
   for (const std::size_t threads : {1, 4}) {
     ShowFixture show(threads);
     const MeshId crate = show.meshes.add(cube(0.1));

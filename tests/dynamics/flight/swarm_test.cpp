@@ -54,14 +54,14 @@ void expectSame(const BodyState& a, const BodyState& b) {
   EXPECT_EQ(a.arcs, b.arcs);
 }
 
-TEST(Swarm, WhereNobodyMeetsAnybodyNoPairIsLookedAt) {
+TEST(Swarm, WhereNoBodiesMeetNoPairIsLookedAt) {
   Swarm swarm(400, 4);
   swarm.playTo(2000, 10);
   EXPECT_EQ(swarm.pairs, 0);
   for (const BodyId id : swarm.all) EXPECT_GT(swarm.w.state(id).arcs, 5);
 }
 
-TEST(Swarm, ArcsThatNobodyAsksForAreTheSameToTheBitAtEveryFrameRate) {
+TEST(Swarm, ArcsWithoutAnObserverAreTheSameToTheBitAtEveryFrameRate) {
   Swarm first(80, 4);
   first.playTo(2000, 500);
   for (const int step : {1, 8, 20, 100}) {
@@ -71,7 +71,7 @@ TEST(Swarm, ArcsThatNobodyAsksForAreTheSameToTheBitAtEveryFrameRate) {
   }
 }
 
-TEST(Swarm, WhoeverIsPutIntoSomebodysWayIsMet) {
+TEST(Swarm, ABodyPutIntoAnothersWayIsMet) {
   std::vector<BodyState> first;
   for (const int step : {250, 5, 10, 50}) {
     Swarm swarm(80, 4);
@@ -87,7 +87,7 @@ TEST(Swarm, WhoeverIsPutIntoSomebodysWayIsMet) {
   }
 }
 
-TEST(Swarm, ThoseWhoCrossMeet) {
+TEST(Swarm, BodiesThatCrossMeet) {
   for (const double apart : {0.5, 0.7}) {
     Swarm coarse(100, apart), fine(100, apart);
     coarse.playTo(1000, 100);

@@ -134,8 +134,8 @@ TEST(VaryingStrength, AHeapWokenOffItsStepsGoesOnAndItsFramesEnd) {
   // Pushes at odd times, between the steps of 8 ms and of 2 ms, of one after the other.
   for (int k = 0; k < 25; ++k) {
     go(1'234'567 + 777'777 * k);
-    const BodyId who = heap[static_cast<std::size_t>(17 * k) % heap.size()];
-    ASSERT_TRUE(w.push(who, 0.02 * (k + 1) * chance.direction(), w.state(who).p));
+    const BodyId kicked = heap[static_cast<std::size_t>(17 * k) % heap.size()];
+    ASSERT_TRUE(w.push(kicked, 0.02 * (k + 1) * chance.direction(), w.state(kicked).p));
     watch.busiest = 0;
     for (int n = 0; n < 12; ++n) go(k % 2 ? 3'141'593 : 16'666'667);
     EXPECT_LE(watch.busiest, 5000u) << k;

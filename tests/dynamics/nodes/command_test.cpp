@@ -82,7 +82,7 @@ TEST(Command, AHeapOnTheFloorTakesAPulseAtItsTime) {
 }
 
 TEST(Command, ABoxUnderAStrengthThatGrowsGoesAsFarAtEveryFrameRate) {
-  // Steps end with the frames, beyond which nobody knows the strength; parts may be a nanosecond long.
+  // Steps end with the frames, beyond which the strength is unknown; parts may be a nanosecond long.
   for (const double rate : {30., 60., 97., 240., 1000.}) {
     World w;
     const FieldId g = addGravity(w), push = addPulse(w, 4);

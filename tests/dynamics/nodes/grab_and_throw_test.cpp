@@ -109,7 +109,7 @@ TEST(GrabAndThrow, AThrowHasTheSlopeOfTheHandsLastEightyMilliseconds) {
 TEST(GrabAndThrow, OnReleaseTheFieldsPushAgain) {
   const auto still = [](double) { return Vec3(0, 0, 1); };
   const BodyState s = thrown(60, still, {3, 0, 0});
-  // It has been pushed from 0.8 s on; before, as long as nobody held it, for 0.2 s.
+  // It has been pushed from 0.8 s on; before, as long as no hand held it, for 0.2 s.
   EXPECT_NEAR(s.v.x(), 3 * 0.2, 3 * 0.02);
   EXPECT_NEAR(s.v.y(), 0, 1e-9);
 }

@@ -126,7 +126,7 @@ TEST(Measure, OnlyTheFirstImpactAfterItsStartCounts) {
   EXPECT_GT(toSeconds(show.told[0].when), 0.7);
 }
 
-TEST(Measure, WithoutAStartNothingIsMeasuredAndNobodyVisitsIt) {
+TEST(Measure, WithoutAStartNothingIsMeasuredAndItIsNotVisited) {
   Field2 show;
   show.open();
   show.play(6);
@@ -143,7 +143,8 @@ TEST(Measure, TheFartherThrowWinsOnceBothAreMeasuredWhicheverComesLast) {
     show.open();
     show.start("tape"), show.start("other-tape");
     show.play(2);
-    EXPECT_EQ(show.events(show.visitor), (std::vector<Event>{Event("measured"), Event("won")})) << ourselvesLast;
+    EXPECT_EQ(show.events(show.visitor), (std::vector<Event>{Event("measured"), Event("won")}))
+        << ourselvesLast;
     EXPECT_NEAR(toSeconds(show.told.back().when), std::sqrt(2 * (3 - kRadius) / kStandardGravity), 1e-8)
         << "told for the time of the later touch";
     EXPECT_EQ(show.board->words(), "Visitor 43.01 m\nAthlete 41.20 m\nVisitor wins by 1.81 m");

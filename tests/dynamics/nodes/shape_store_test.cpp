@@ -9,7 +9,7 @@ namespace {
 
 using namespace show_nodes;
 
-TEST(ShapeStore, FitsOnceForAllThatLookAlikeAndForgetsWhatNobodyUses) {
+TEST(ShapeStore, FitsOnceForAllThatLookAlikeAndForgetsUnusedShapes) {
   ShapeStore store;
   const auto mesh = cube(0.5);
   const Appearance look{1, true, "mesh"};

@@ -104,7 +104,7 @@ TEST(StrengthAxis, AStillDeviceLeavesTheShowAsleep) {
   show.after(1);
   const std::size_t before = show.scene.counters().nodesVisited;
   EXPECT_TRUE(show.ball->state().asleep());
-  EXPECT_LE(before, 1u) << "the field looks at its axis, and nobody else does anything";
+  EXPECT_LE(before, 1u) << "the field looks at its axis, and no other node does anything";
 }
 
 TEST(StrengthAxis, OfAMediumItScalesTheWind) {

@@ -80,7 +80,7 @@ public:
     return std::all_of(bodies_.begin(), bodies_.end(), [&](BodyId b) { return world_.state(b).asleep(); });
   }
 
-  bool finite = true;          ///< no state was undefined, nobody was put in quarantine
+  bool finite = true;          ///< no state was undefined, no body was put in quarantine
   double fastest = 0;          ///< [m/s]
   double first = 0, last = 0;  ///< energy at the start and now [J]
   double greatestRise = 0;     ///< of the energy from one frame to the next [J]

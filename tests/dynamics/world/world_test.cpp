@@ -123,7 +123,7 @@ TEST(World, ReleasesAreToldToTheNanosecondAtAnyFrameRateOverPlanesBoxesAndMeshes
     }
 }
 
-TEST(World, ReleasesThatNobodyAskedForAreNotToldAndChangeNothingElse) {
+TEST(World, ReleasesWithoutListenersAreNotReportedAndChangeNothingElse) {
   std::vector<Nanoseconds> impacts[2];
   BodyState end[2];
   for (const bool asked : {true, false}) {

@@ -49,7 +49,7 @@ TEST_F(AtomicFiles, OfWritersThatAreGoneAreFoundAndOthersAreNot) {
   EXPECT_NE(found[0].find("/.a.input." + std::to_string(writer) + "-"), std::string::npos) << found[0];
   const AtomicFile here(file);
   std::ofstream(folder / (".a.input.2." + std::to_string(writer) + "-0.part")) << "of another file";
-  std::ofstream(folder / ".a.input.x-0.part") << "of nobody";
+  std::ofstream(folder / ".a.input.x-0.part") << "of no process";
   fs::create_symlink(file, folder / "link");
   EXPECT_EQ(partsOfKilledWriters(file), found);
   EXPECT_EQ(partsOfKilledWriters(folder / "link"), found);
@@ -94,9 +94,9 @@ TEST_F(AtomicFiles, ThatCannotBeAreToldAtOnce) {
   }
   EXPECT_TRUE(fs::is_symlink(folder / "ring"));
   ASSERT_EQ(mkfifo((folder / "pipe").c_str(), 0600), 0);
-  const auto wrong = writeFile(folder / "pipe", "nobody waits for a reader");
+  const auto wrong = writeFile(folder / "pipe", "writeFile() does not wait for a reader");
   ASSERT_TRUE(wrong);
-  EXPECT_EQ(wrong->message, "cannot be written: it is a pipe that nobody reads");
+  EXPECT_EQ(wrong->message, "cannot be written: it is a pipe without a reader");
 }
 
 /// As /dev/stdout is: what it leads to is open already, and stays the same file.

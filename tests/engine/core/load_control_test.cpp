@@ -172,7 +172,7 @@ TEST(LoadControl, LessDetailIsInTheRecordsOfAllBelow) {
   EXPECT_EQ(f.scene.degradation().of(LoadFixture::kRunning), Relief{});
 }
 
-TEST(LoadControl, DecisionsAboutNobodyAreLeft) {
+TEST(LoadControl, DecisionsAboutNoNodeAreIgnored) {
   LoadFixture f;
   f.frames(2);
   f.frame({{7, 3, 2}, {1, 1, 1}, {1, 999, 1}});
@@ -223,7 +223,7 @@ private:
 };
 
 /// A scene, whose file holds a path that runs along x at 1 m/s and begins again after two metres, a sway
-/// along y, and who looks at the path.
+/// along y, and a node that watches the path.
 struct StandsFixture : ShowFixture {
   static constexpr NodeRef kScene{1, 0}, kPath{2, 0};
   static constexpr std::uint32_t kHalf = 1, kQuarter = 2, kRest = 3;

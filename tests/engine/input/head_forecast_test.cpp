@@ -36,7 +36,7 @@ TEST(Forecast, WhatTremblesStaysAlmostWhereItIs) {
   EXPECT_EQ(forecast(X, Vec3(1, 0, 0), Vec3::Zero(), 0).p, X.p);
 }
 
-TEST(Forecast, NobodyIsCarriedFasterOrLongerThanTheLimitsAllow) {
+TEST(Forecast, NoHeadIsCarriedFasterOrLongerThanTheLimitsAllow) {
   const ForecastLimits limits;
   const Pose fast = forecast({}, Vec3(100, 0, 0), Vec3(0, 0, 100), 0.05, {}, limits);
   EXPECT_NEAR(fast.p.x(), 0.05 * limits.speed, 1e-9);
@@ -100,7 +100,7 @@ TEST(TrackerFeed, WhatWasForeseenIsInTheRecordAndTheReplayHasItToTheBit) {
         feed.pose("head", measured,
                   {Vec3(std::sin(3 * t), 0.4 * std::sin(9 * t), 1.7), det::fromEuler(0, 0, t)});
       }
-      // As auto aims, from frame to frame; and now and then as nobody does.
+      // As auto aims, from frame to frame; and now and then as it never does.
       feed.aim("head", n % 50 == 49 ? 0 : static_cast<Nanoseconds>(40 + n % 7) * kMs);
       InputSample sample;
       feed.sampleFrame(now.time, now.time - now.step, now.time, sample);

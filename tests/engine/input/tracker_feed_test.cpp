@@ -85,7 +85,7 @@ TEST(TrackerFeed, ASilentHeadHoldsThenEasesToItsSafePoseThenIsLost) {
   EXPECT_FALSE(room.frame().find("head")->valid);
 }
 
-TEST(TrackerFeed, ASilenceIsToldAndItsEndButNotOfWhoComesAndGoes) {
+TEST(TrackerFeed, ASilenceAndItsEndAreReportedButNotOfTrackersThatComeAndGo) {
   Room room;
   const auto heardAt = [&](Nanoseconds time) {
     std::string told;
@@ -94,7 +94,7 @@ TEST(TrackerFeed, ASilenceIsToldAndItsEndButNotOfWhoComesAndGoes) {
               std::to_string(std::lround(10 * h.silent)) + ";";
     return told;
   };
-  EXPECT_EQ(heardAt(0), "");  // nobody has been heard of yet
+  EXPECT_EQ(heardAt(0), "");  // no tracker has been heard of yet
   room.head(10 * kMs, poseAt(0, 0, 1.7));
   EXPECT_EQ(heardAt(50 * kMs), "");
   EXPECT_EQ(heardAt(1010 * kMs), "head silent 10;");
@@ -209,7 +209,7 @@ TEST(TrackerFeed, ADeviceOfAxesAndButtonsOnlyIsThereWithoutAPose) {
   room.feed.button("pad", room.now(), 3, true);
   const TrackerSample& pad = room.pad();
   EXPECT_TRUE(pad.controlsOnly);
-  EXPECT_FALSE(pad.valid) << "nobody knows where it is";
+  EXPECT_FALSE(pad.valid) << "its place is unknown";
   EXPECT_EQ(pad.axes[1], 0.75f);
   EXPECT_EQ(pad.buttons, 4u);
   EXPECT_TRUE(pad.knots.empty());

@@ -118,7 +118,7 @@ TEST(Light, OfMoreThanSixteenThoseShineThatAreBrightestWhereTheVisitorIs) {
   for (int i = 0; i < 16; ++i) expected.push_back(100 * i);
   EXPECT_EQ(show.places(), expected);
   show.frame();
-  EXPECT_FALSE(show.changes.lightsChanged) << "nobody moved";
+  EXPECT_FALSE(show.changes.lightsChanged) << "nothing moved";
   show.head({3900, 0, 0});
   show.frame();
   ASSERT_TRUE(show.changes.lightsChanged);

@@ -6,7 +6,7 @@
 namespace stadion {
 namespace {
 
-/// A path of two seconds along x at 1 m/s, its target, and who hears when it has finished.
+/// A path of two seconds along x at 1 m/s, its target, and a node that hears when it has finished.
 struct PathShow : ShowFixture {
   PlacedNode* target = nullptr;
   ListeningNode* listener = nullptr;

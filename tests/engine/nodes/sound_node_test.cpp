@@ -99,7 +99,7 @@ TEST(SoundNode, SinceWhenItPlaysIsInTheStateHash) {
   EXPECT_NE(early.scene.stateHash(), late.scene.stateHash());
 }
 
-TEST(SoundNode, WhileItPlaysNobodyVisitsIt) {
+TEST(SoundNode, WhileItPlaysItIsNotVisited) {
   HeardShow show(false, true);
   show.frames(5);
   show.frame();

@@ -230,7 +230,7 @@ TEST(Sway, EachIsPublishedOnceWhereItIsWhateverBecomesOfIt) {
   }
 }
 
-TEST(Sway, WhoeverItCarriesGoesAlongAlsoWhenHeComesLater) {
+TEST(Sway, AVisitorItCarriesGoesAlongAlsoWhenHeComesLater) {
   SwayShow show;
   show.until(0.5);
   PlacedNode* rider = nullptr;
@@ -339,7 +339,7 @@ private:
   bool watched_ = false;
 };
 
-TEST(Sway, TellsWhoLooksTheWayInsideTheFrame) {
+TEST(Sway, ReportsTheWayInsideTheFrameToNodesThatWatch) {
   ShowFixture show;
   show.rate = 5;
   Onlooker* onlooker = nullptr;

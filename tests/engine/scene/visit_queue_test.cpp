@@ -37,10 +37,10 @@ TEST(VisitQueue, VisitsByRankThenByPositionHoweverTheyWereCalled) {
   queue.sort();
   EXPECT_EQ(takeAll(queue), (Order{7, 2, 3, 1}));
   queue.begin();
-  EXPECT_EQ(takeAll(queue), (Order{3, 1})) << "who was only called once is not visited again";
+  EXPECT_EQ(takeAll(queue), (Order{3, 1})) << "a node that was called once only is not visited again";
 }
 
-TEST(VisitQueue, WhoIsCalledWhileARoundIsUnderWayHasItsTurnOnce) {
+TEST(VisitQueue, ANodeCalledWhileARoundIsUnderWayHasItsTurnOnce) {
   RankedNode a(1, Rank::Motion), b(2, Rank::Motion), c(3, Rank::Motion);
   VisitQueue queue;
   queue.setBusy(a, true), queue.setBusy(c, true);

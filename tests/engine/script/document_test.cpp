@@ -133,7 +133,7 @@ TEST(ScriptDocument, SpheresBoxesAndKeysHaveTheirNumbers) {
 
 TEST(ScriptDocument, SeveralErrorsComeInOnePassInTheOrderOfTheLines) {
   Diagnostics findings;
-  checked("group(name=a, scal=2)\ngroup(name=b, parent=nobody)\ngroup(name=c,\nobject(name=d)\ngroup(name=a)",
+  checked("group(name=a, scal=2)\ngroup(name=b, parent=absent)\ngroup(name=c,\nobject(name=d)\ngroup(name=a)",
           findings);
   std::vector<std::uint32_t> lines;
   for (const Diagnostic& d : findings.all()) lines.push_back(d.where.line);
@@ -165,7 +165,7 @@ TEST(ScriptDocument, VeryManyLostNamesDoNotMakeReferencesDear) {
 
 TEST(ScriptDocument, TheFlowOfErrorsIsBounded) {
   std::string text;
-  for (int i = 0; i < 10'000; ++i) text += "group(scal=1, nam=2, parent=nobody)\n";
+  for (int i = 0; i < 10'000; ++i) text += "group(scal=1, nam=2, parent=absent)\n";
   const auto errors = errorsOf(text);
   EXPECT_GT(errors.size(), 50U);
   EXPECT_LT(errors.size(), 250U);

@@ -17,7 +17,7 @@ ClusterFile room() {
   return file;
 }
 
-/// Who leads and who follows, without a network between them; nobody waits for anything.
+/// A leader and a follower without a network between them; neither waits.
 class Room {
 public:
   void take(Step step, Bytes bytes) {

@@ -16,8 +16,8 @@ std::unique_ptr<BuiltShow> playing(const Workshop& workshop, const FuzzedShow& w
 }  // namespace
 
 /// The first byte says whose state it is. A follower's scene takes it over, and one that plays already is
-/// compared with it. What goes on is what has no bodies: what is put back of a world is checked for being
-/// one, but how bodies move that are where none can be is nobody's promise (SECURITY.md).
+/// compared with it. Only a scene without bodies goes on. A restored world is checked for being one, but the
+/// motion of bodies in impossible places is not promised (SECURITY.md).
 void scene_state(Bytes bytes) {
   if (bytes.empty()) return;
   static const Workshop workshop;

@@ -30,7 +30,7 @@ TEST(ClusterFile, FourMachinesNeedFiveLines) {
   EXPECT_EQ(c->names(), (std::vector<std::string>{"front", "left", "right", "floor"}));
   EXPECT_EQ(c->nodes[3].walls, (std::vector<std::string>{"floor"}));
   EXPECT_EQ(c->lead, 0U);
-  EXPECT_EQ(c->interface, "") << "loopback: nobody else hears";
+  EXPECT_EQ(c->interface, "") << "loopback: no other machine hears";
   EXPECT_EQ(c->partition, "stadion");
 }
 
@@ -77,7 +77,7 @@ TEST(ClusterFile, MistakesAreToldWithTheirPlaceAndTheFix) {
   EXPECT_NE(wrongIn(many).find("25:1: error: there are more than 24 nodes"), std::string::npos);
 }
 
-TEST(ClusterFile, WallsThatTheRoomHasNotAndThoseThatNobodyShowsAreToldWithTheirPlace) {
+TEST(ClusterFile, WallsThatTheRoomLacksAndThoseThatNoHostShowsAreReportedWithTheirPlace) {
   const auto wrongWith = [](const std::string& text) {
     Diagnostics found;
     const auto c = parseCluster(text, "room.cluster", found);

@@ -65,7 +65,7 @@ std::unique_ptr<Follower> follower() {
 
 Session session(double rate, bool begun) {
   Session s{};
-  s.number = 1, s.terms.script = 1, s.rate = rate, s.begun = begun, s.giver = kNobody;
+  s.number = 1, s.terms.script = 1, s.rate = rate, s.begun = begun, s.giver = kNoNode;
   return s;
 }
 
@@ -117,7 +117,7 @@ TEST(ClusterHearing, AStateArrivesInParts) {
   EXPECT_EQ(*joining->state, std::vector<std::uint8_t>(20, 3));
 }
 
-TEST(ClusterHearing, ASceneThatNobodyHasTakenGivesWayToANewerOne) {
+TEST(ClusterHearing, ASceneThatNoHostHasTakenGivesWayToANewerOne) {
   std::vector<std::uint8_t> bytes(10, 3);
   StatePart part{};
   part.to = 7, part.session = 1, part.serial = 4, part.size = 10;
@@ -131,7 +131,7 @@ TEST(ClusterHearing, ASceneThatNobodyHasTakenGivesWayToANewerOne) {
   EXPECT_EQ(scene.serial(), 9U);
 }
 
-/// Who plays has a scene of that session, after that order.
+/// A host that plays has a scene of that session, after that order.
 Presence said(std::uint8_t node, std::uint64_t incarnation, std::uint64_t count, std::uint64_t session,
               std::uint8_t phase, std::uint64_t serial, bool plays, std::uint64_t show) {
   return {node, incarnation, count, 0, session, phase, plays ? session : 0, serial, show};
@@ -153,7 +153,7 @@ std::unique_ptr<Lead> lead() {
       kSession);
 }
 
-/// One that waits for nobody.
+/// A leader that waits for no other host.
 std::unique_ptr<Lead> leadThatTells(std::vector<std::string>& told) {
   return Lead::unconnected({room(),
                             {1},
@@ -163,7 +163,7 @@ std::unique_ptr<Lead> leadThatTells(std::vector<std::string>& told) {
                            kSession);
 }
 
-TEST(ClusterHearing, NobodyWaitsForWhoIsLostInTheLastFrame) {
+TEST(ClusterHearing, TheLeaderDoesNotWaitForAHostLostInTheLastFrame) {
   const auto l = lead();
   l->hear(said(1, 9, 1, kSession, static_cast<std::uint8_t>(Phase::Ready), 0, false, kShow));
   l->begin(60);
@@ -178,7 +178,7 @@ TEST(ClusterHearing, NobodyWaitsForWhoIsLostInTheLastFrame) {
   EXPECT_TRUE(l->mayShow(order.signature));
 }
 
-TEST(ClusterHearing, AShowGoesOnOnlyFromWhoHasPlayedIt) {
+TEST(ClusterHearing, AShowGoesOnOnlyFromAHostThatHasPlayedIt) {
   const auto l = lead();
   l->hear(said(1, 9, 1, 5, static_cast<std::uint8_t>(Phase::Ready), 0, false, kShow));
   std::vector<std::uint8_t> bytes(10, 3);
@@ -231,7 +231,7 @@ TEST(ClusterHearing, OfTwoProgramsOfOneNodeOneEnds) {
   EXPECT_FALSE(begun->hasDouble()) << "it has not begun, we have";
 }
 
-TEST(ClusterHearing, WhoWasTakenForDeadAndComesBackLeadsNoMore) {
+TEST(ClusterHearing, ALeaderTakenForDeadThatComesBackLeadsNoMore) {
   Session later = session(60, true);
   later.number = kSession + 1, later.resumes = kSession;
   const auto l = lead();
@@ -262,7 +262,7 @@ TEST(ClusterHearing, WhoWasTakenForDeadAndComesBackLeadsNoMore) {
   EXPECT_FALSE(f->join()) << "it is in the later session, and that is over";
 }
 
-TEST(ClusterHearing, WhoHadGoneBeforeTheNextGroupIsNotWaitedFor) {
+TEST(ClusterHearing, AHostGoneBeforeTheNextGroupIsNotWaitedFor) {
   using Clock = std::chrono::steady_clock;
   // Where it should wait, it is given a second; where it should not, so long that a busy machine is no
   // excuse.
@@ -283,7 +283,7 @@ TEST(ClusterHearing, WhoHadGoneBeforeTheNextGroupIsNotWaitedFor) {
   EXPECT_TRUE(waits(kShort, 3, false, false));
 }
 
-TEST(ClusterHearing, WhoPlayedIsWhoWasTakenIntoTheShow) {
+TEST(ClusterHearing, OnlyAHostTakenIntoTheShowHasPlayed) {
   const auto l = lead();
   EXPECT_EQ(l->played(), ~0U) << "there was no show before";
   const auto ready = static_cast<std::uint8_t>(Phase::Ready),
@@ -299,7 +299,7 @@ TEST(ClusterHearing, WhoPlayedIsWhoWasTakenIntoTheShow) {
   EXPECT_EQ(l->played(), 2U) << "it died just now, and is begun again";
 }
 
-TEST(ClusterHearing, WhoWaitsForOthersIsAskedOnlyWhenItHasBeenTold) {
+TEST(ClusterHearing, AWaitIsAnsweredOnlyAfterItsReport) {
   std::vector<bool> told;
   bool said = false;
   const auto l = Lead::unconnected(
@@ -314,7 +314,7 @@ TEST(ClusterHearing, WhoWaitsForOthersIsAskedOnlyWhenItHasBeenTold) {
   EXPECT_TRUE(l->hasBegun());
 }
 
-TEST(ClusterHearing, WhoGivesUpWaitingHasBegunNothing) {
+TEST(ClusterHearing, ALeaderThatGivesUpWaitingHasBegunNothing) {
   const auto l = Lead::unconnected(
       {room(), {1}, std::chrono::seconds(60), [](const std::string&) {}, [] { return false; }}, kSession);
   EXPECT_FALSE(l->begin(60, [](bool) { return Patience::GivesUp; }));
@@ -350,7 +350,7 @@ TEST(ClusterHearing, OfAnotherClusterInTheSameNetworkItIsSaidThatThereIsOne) {
   EXPECT_NE(told.find("another cluster plays in the same network"), std::string::npos) << told;
 }
 
-TEST(ClusterHearing, WhoGoesIsNotMissed) {
+TEST(ClusterHearing, AHostThatLeavesIsNotMissed) {
   std::vector<std::string> told;
   const auto l = leadThatTells(told);
   l->hear(said(1, 9, 1, kSession, static_cast<std::uint8_t>(Phase::Ready), 0, true, kShow));
@@ -361,7 +361,7 @@ TEST(ClusterHearing, WhoGoesIsNotMissed) {
   EXPECT_EQ(told, std::vector<std::string>{"left plays no longer; the others go on"});
 }
 
-TEST(ClusterHearing, WhoIsAskedToEndObeysNoFurtherOrder) {
+TEST(ClusterHearing, AFollowerAskedToEndAppliesNoFurtherOrder) {
   bool leaves = false;
   const auto f = Follower::unconnected(
       {room(), 1, {1}, [](const std::string&) {}, [] { return true; }, [&] { return leaves; }}, 7);
@@ -378,7 +378,7 @@ TEST(ClusterHearing, WhoIsAskedToEndObeysNoFurtherOrder) {
   EXPECT_FALSE(f->isToJoinAgain());
 }
 
-TEST(ClusterHearing, WhoComesBesideAMemberOfItsNameIsNoneUntilItAsks) {
+TEST(ClusterHearing, AHostBesideAMemberOfItsNameIsNoneUntilItAsks) {
   std::vector<std::string> told;
   const auto l = leadThatTells(told);
   const auto phase = [](Phase p) { return static_cast<std::uint8_t>(p); };
@@ -413,12 +413,12 @@ TEST(ClusterHearing, WhatMustBeAlikeIsNamedWhereItIsNot) {
   EXPECT_EQ(with(&Agreement::input, 0), "front plays another input log; put the same file on all machines");
   Agreement extended = lead;
   extended.plugins = "spring 1.0 (12ab)";
-  EXPECT_EQ(refusal(lead, extended, "front"),
-            "front plays with no plugins, we with the plugins spring 1.0 (12ab); load the same plugins on all machines");
+  EXPECT_EQ(refusal(lead, extended, "front"), "front plays with no plugins, we with the plugins spring 1.0 "
+                                              "(12ab); load the same plugins on all machines");
   EXPECT_EQ(refusal(extended, extended, "front"), "");
   Agreement live = lead;
   live.input = 0;
-  EXPECT_EQ(refusal(live, lead, "front"), "") << "who follows plays no log of its own then";
+  EXPECT_EQ(refusal(live, lead, "front"), "") << "a follower plays no log of its own then";
 }
 
 TEST(ClusterHearing, AMachinesInterfaceIsItsOwnAndTheRestOfTheFileIsNot) {
@@ -435,7 +435,7 @@ TEST(ClusterHearing, AMachinesInterfaceIsItsOwnAndTheRestOfTheFileIsNot) {
   EXPECT_TRUE(findings.all().empty());
 }
 
-TEST(ClusterHearing, WhoLeadsEndsTheShowForAll) {
+TEST(ClusterHearing, TheLeaderEndsTheShowForAll) {
   const auto f = follower();
   Session s = session(60, false);
   f->hear(s);
@@ -452,8 +452,8 @@ TEST(ClusterHearing, WhoLeadsEndsTheShowForAll) {
 }
 
 /// A follower that has played some frames and shown those of which it is a member, as far as all have drawn.
-std::unique_ptr<Follower> whoPlayed(const std::vector<bool>& member, std::uint64_t go,
-                                    bool toTheLast = false) {
+std::unique_ptr<Follower> followerThatPlayed(const std::vector<bool>& member, std::uint64_t go,
+                                             bool toTheLast = false) {
   auto f = follower();
   f->hear(session(60, false));
   EXPECT_TRUE(f->join());
@@ -469,7 +469,7 @@ std::unique_ptr<Follower> whoPlayed(const std::vector<bool>& member, std::uint64
   return f;
 }
 
-/// Who leads has shown so many frames.
+/// The leader has shown so many frames.
 Session over(std::uint64_t shown) {
   Session s = session(60, true);
   s.over = true, s.shown = shown;
@@ -482,25 +482,26 @@ bool missesTheEnd(const std::unique_ptr<Follower>& f, std::uint64_t shown) {
   return f->missedTheEnd();
 }
 
-TEST(ClusterHearing, WhoDoesNotShowTheLastFrameHasMissedTheEnd) {
-  EXPECT_FALSE(missesTheEnd(whoPlayed({}, 0), 0)) << "a show without frames has been seen";
-  EXPECT_FALSE(missesTheEnd(whoPlayed({true, true}, 2), 2));
-  EXPECT_FALSE(missesTheEnd(whoPlayed({true, false, true}, 3), 3)) << "it was left out, and is back";
-  EXPECT_TRUE(missesTheEnd(whoPlayed({true, false, false}, 3), 3)) << "it was left out, and is not back";
-  EXPECT_TRUE(missesTheEnd(whoPlayed({true, true}, 1), 2)) << "the others have shown it";
-  EXPECT_FALSE(missesTheEnd(whoPlayed({true, true}, 1), 1)) << "nobody has";
-  EXPECT_TRUE(missesTheEnd(whoPlayed({true, true}, 2), 9)) << "it heard of no further order";
+TEST(ClusterHearing, AHostThatDoesNotShowTheLastFrameHasMissedTheEnd) {
+  EXPECT_FALSE(missesTheEnd(followerThatPlayed({}, 0), 0)) << "a show without frames has been seen";
+  EXPECT_FALSE(missesTheEnd(followerThatPlayed({true, true}, 2), 2));
+  EXPECT_FALSE(missesTheEnd(followerThatPlayed({true, false, true}, 3), 3)) << "it was left out, and is back";
+  EXPECT_TRUE(missesTheEnd(followerThatPlayed({true, false, false}, 3), 3))
+      << "it was left out, and is not back";
+  EXPECT_TRUE(missesTheEnd(followerThatPlayed({true, true}, 1), 2)) << "the others have shown it";
+  EXPECT_FALSE(missesTheEnd(followerThatPlayed({true, true}, 1), 1)) << "no host has";
+  EXPECT_TRUE(missesTheEnd(followerThatPlayed({true, true}, 2), 9)) << "it heard of no further order";
 }
 
 /// It ends by itself, maybe before it hears that the show is over.
-TEST(ClusterHearing, WhoIsLeftOutOfTheLastFrameHasMissedTheEnd) {
-  EXPECT_FALSE(whoPlayed({true, true}, 2, true)->missedTheEnd());
-  EXPECT_TRUE(whoPlayed({true, false}, 2, true)->missedTheEnd());
+TEST(ClusterHearing, AHostLeftOutOfTheLastFrameHasMissedTheEnd) {
+  EXPECT_FALSE(followerThatPlayed({true, true}, 2, true)->missedTheEnd());
+  EXPECT_TRUE(followerThatPlayed({true, false}, 2, true)->missedTheEnd());
 }
 
 /// A pause is that frame again and again.
-TEST(ClusterHearing, WhoIsLeftOutOfAPauseAtTheEndHasNotMissedIt) {
-  const auto f = whoPlayed({true, true}, 2);
+TEST(ClusterHearing, AHostLeftOutOfAPauseAtTheEndHasNotMissedIt) {
+  const auto f = followerThatPlayed({true, true}, 2);
   FrameOrder order;
   order.signature = signatureAt(1, 60), order.still = Standstill::Paused;
   WrittenOrder written;
@@ -511,7 +512,7 @@ TEST(ClusterHearing, WhoIsLeftOutOfAPauseAtTheEndHasNotMissedIt) {
 }
 
 /// With what the follower before it has kept: that one has shown so many frames of session 1.
-std::unique_ptr<Follower> whoHasShown(std::uint64_t frames, std::uint64_t played = 0) {
+std::unique_ptr<Follower> followerThatHasShown(std::uint64_t frames, std::uint64_t played = 0) {
   auto kept = std::make_shared<KeptScene>();
   kept->parcel.session = 1, kept->parcel.serial = frames, kept->parcel.frame = frames - 1;
   kept->framesShown = frames;
@@ -519,9 +520,9 @@ std::unique_ptr<Follower> whoHasShown(std::uint64_t frames, std::uint64_t played
       {room(), 1, {1}, [](const std::string&) {}, [] { return true; }, {}, kept, played}, 7);
 }
 
-TEST(ClusterHearing, WhoIsStillJoiningAsTheShowEndsHasMissedTheEnd) {
+TEST(ClusterHearing, AHostStillJoiningAsTheShowEndsHasMissedTheEnd) {
   for (const bool cameBefore : {false, true}) {
-    const auto f = cameBefore ? whoHasShown(3) : follower();
+    const auto f = cameBefore ? followerThatHasShown(3) : follower();
     std::vector<std::uint8_t> bytes(10, 3);
     StatePart part{};
     part.to = 7, part.session = 1, part.serial = 4, part.frame = 3, part.size = 10;
@@ -534,9 +535,9 @@ TEST(ClusterHearing, WhoIsStillJoiningAsTheShowEndsHasMissedTheEnd) {
   }
 }
 
-/// Who leads died when the last frame had been shown, and had its scene from us.
-TEST(ClusterHearing, WhoHasShownTheLastFrameHasNotMissedItWhoeverEndsTheShow) {
-  const auto f = whoHasShown(5);
+/// The leader died when the last frame had been shown, and had its scene from us.
+TEST(ClusterHearing, AHostThatHasShownTheLastFrameHasNotMissedTheEnd) {
+  const auto f = followerThatHasShown(5);
   Session s = session(60, true);
   s.number = 2, s.resumes = 1;
   f->hear(s);
@@ -552,16 +553,16 @@ TEST(ClusterHearing, WhoHasShownTheLastFrameHasNotMissedItWhoeverEndsTheShow) {
   EXPECT_FALSE(f->missedTheEnd());
 }
 
-TEST(ClusterHearing, WhoWantsToJoinAgainAndHearsThatTheShowIsOverIsDone) {
+TEST(ClusterHearing, AHostThatRejoinsAndHearsThatTheShowIsOverIsDone) {
   for (const std::uint64_t resumes : {0, 1}) {
-    const auto f = whoHasShown(5, 1);
+    const auto f = followerThatHasShown(5, 1);
     Session s = over(7);
     s.number = 1 + resumes, s.resumes = resumes;
     f->hear(s);
     EXPECT_FALSE(f->join());
     EXPECT_TRUE(f->isOver() && f->missedTheEnd());
   }
-  const auto f = whoHasShown(5, 1);
+  const auto f = followerThatHasShown(5, 1);
   Session another = over(7);
   another.number = 8;
   f->hear(another);

@@ -34,7 +34,7 @@ ClusterFile roomOf(pid_t test) {
   return file;
 }
 
-/// Where the visitor stands adds to it, so that who has not heard of him has another one.
+/// The visitor's place adds to it, so that a host without his input has another one.
 struct NumberScene {
   std::uint64_t number = 1;
 
@@ -159,7 +159,7 @@ protected:
   const pid_t test_ = getpid();
   bool stopOnDifference_ = false;
   Common* common_;
-  std::chrono::seconds patience_{20};  ///< with who has not come
+  std::chrono::seconds patience_{20};  ///< with a host that has not come
   ScriptedInput visitor_;
   NumberScene scene_;
   Told told_;
@@ -226,7 +226,7 @@ TEST_F(ThreadsCluster, WhereNoInterfaceIsNamedNothingIsHeardFromOtherMachines) {
   }
 }
 
-TEST_F(ThreadsCluster, WhoComesLaterGetsTheScene) {
+TEST_F(ThreadsCluster, AHostThatComesLaterGetsTheScene) {
   follow(1), follow(2, 20);
   patience_ = std::chrono::seconds(1);
   openLead();
@@ -267,7 +267,7 @@ TEST_F(ThreadsCluster, AnotherSceneMayEndTheShowForAll) {
   EXPECT_TRUE(told_.has("the number is one there and another here")) << told_.all();
 }
 
-TEST_F(ThreadsCluster, WhoLeadsAnewGoesOnFromAnothersScene) {
+TEST_F(ThreadsCluster, ARestartedLeaderGoesOnFromAnothersScene) {
   follow(1), follow(2);
   openLead();
   lead_->begin(60);
@@ -286,7 +286,7 @@ TEST_F(ThreadsCluster, WhoLeadsAnewGoesOnFromAnothersScene) {
   expectAllAlike();
 }
 
-TEST_F(ThreadsCluster, WhoLeadsAnewMayDieBeforeTheOthersHaveItsScene) {
+TEST_F(ThreadsCluster, ARestartedLeaderMayDieBeforeTheOthersHaveItsScene) {
   follow(1), follow(2);
   openLead();
   lead_->begin(60);
@@ -307,7 +307,7 @@ TEST_F(ThreadsCluster, WhoLeadsAnewMayDieBeforeTheOthersHaveItsScene) {
   expectAllAlike();
 }
 
-TEST_F(ThreadsCluster, AShowGoesOnFromWhoHasComeFarthest) {
+TEST_F(ThreadsCluster, AShowGoesOnFromTheHostThatHasComeFarthest) {
   follow(1), follow(2);
   openLead();
   lead_->begin(60);

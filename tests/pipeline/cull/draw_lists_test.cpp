@@ -76,8 +76,7 @@ TEST(DrawLists, WhereEyesMayGoBeforeTheyDrawBothDrawAll) {
     RoomCull room(views);
     DrawList list;
     WallCull({.room = room, .oneSample = true}, 0).fill(state, {}, list);
-    return std::ranges::count_if(list.opaque,
-                                 [](const DrawItem& d) { return d.views != 3; });
+    return std::ranges::count_if(list.opaque, [](const DrawItem& d) { return d.views != 3; });
   };
   EXPECT_GT(forOneEye({}), 0);
   EXPECT_EQ(forOneEye({0.05, 0.25}), 0);
@@ -156,7 +155,7 @@ public:
   std::map<Span, std::multiset<NodeRef>> shares;
 };
 
-TEST(DrawLists, TellWhatWasTestedAndForWhom) {
+TEST(DrawLists, ReportWhatWasTestedAndForWhichNodes) {
   Random random(14);
   Frames f;
   ChangeSet c;

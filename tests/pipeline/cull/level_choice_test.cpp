@@ -91,7 +91,7 @@ TEST(LevelChoice, UnderStressAndWithLessDetailThingsCountAsFartherAway) {
   EXPECT_EQ(room.levelOf(room.at(p)), 1U);
 }
 
-TEST(LevelChoice, WhoStandsInsideAThingSeesAllOfIt) {
+TEST(LevelChoice, AViewerInsideAThingSeesAllOfIt) {
   const LevelRoom room(30);
   EXPECT_EQ(room.levelOf(room.at(Vec3(0, 5, 1.7))), 0U);
 }

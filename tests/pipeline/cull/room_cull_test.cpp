@@ -105,7 +105,7 @@ TEST(RoomCull, FollowsWhatMovesComesGoesAndLeavesItsChunk) {
     const Vec3 rig = random.below(30) == 0 ? random.within(1e5) : random.within(20);
     f.viewer.set({rig, random.turned()}, headIn(1.5, random));
     const SlotView state = f.publish(c);
-    if (random.below(4) == 0) continue;  // nobody looks at this frame
+    if (random.below(4) == 0) continue;  // this frame is not culled
     ASSERT_NO_FATAL_FAILURE(expectAsSimple(room, state, views));
   }
 }
@@ -198,7 +198,7 @@ TEST(RoomCull, SearchesOnceForAllWallsOfAFrame) {
   EXPECT_NE(&first.on(0), &next.on(0)) << "another frame";
 }
 
-TEST(RoomCull, OfAFrameThatIsOverwrittenMeanwhileNobodyElseHears) {
+TEST(RoomCull, AFrameThatIsOverwrittenMeanwhileIsNotKeptForOthers) {
   const std::vector<WallViews> views = boxRoom(1.5, {0.1, 25});
   RoomCull room(views);
   Frames f;
@@ -215,10 +215,10 @@ TEST(RoomCull, OfAFrameThatIsOverwrittenMeanwhileNobodyElseHears) {
   EXPECT_EQ(now.on(0).records.size(), 0U);
   EXPECT_EQ(now.on(4).records.size(), 1U);
 
-  // A view from before, asked for after: void, and nobody else's.
+  // A view from before, asked for after: void, and not given to others.
   RoomCull other(views);
-  const RoomCull::Seen nobodys = other.seen(late), good = other.seen(f.state.view(late.slot));
-  EXPECT_NE(&nobodys.on(0), &good.on(0));
+  const RoomCull::Seen voided = other.seen(late), good = other.seen(f.state.view(late.slot));
+  EXPECT_NE(&voided.on(0), &good.on(0));
   EXPECT_EQ(good.on(4).records.size(), 1U);
 }
 

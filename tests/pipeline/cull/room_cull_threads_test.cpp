@@ -12,7 +12,7 @@ namespace {
 using test::Random;
 using test::thing;
 
-TEST(ThreadsRoomCull, EachWallGetsEveryFramesListAndNobodyWaitsForAWallThatIsMissing) {
+TEST(ThreadsRoomCull, EachWallGetsEveryFramesListAndAMissingWallDelaysNoOther) {
   constexpr std::size_t kWalls = 4, kFrames = 200;
   const std::vector<WallViews> views = test::boxRoom(1.5, {0.1, 40});
   SceneState state;

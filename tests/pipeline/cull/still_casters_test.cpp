@@ -99,7 +99,7 @@ TEST(StillCasters, AreWhatStandsStillInThatFrameWhateverComesGoesAndBeginsToMove
   EXPECT_LT(changed, 400) << "what moves on changes nothing here";
 }
 
-TEST(StillCasters, OfAFrameThatIsOverwrittenMeanwhileNobodyElseHears) {
+TEST(StillCasters, AFrameThatIsOverwrittenMeanwhileIsNotKeptForOthers) {
   Frames f;
   ChangeSet c;
   c.instances = {{0, thing(0)}};

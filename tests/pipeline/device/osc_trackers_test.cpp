@@ -14,7 +14,7 @@
 namespace stadion {
 namespace {
 
-/// A rig that listens on a free port, and somebody who sends there.
+/// A rig that listens on a free port, and a sender.
 struct Room {
   Room() : trackers(standardRig(), [this](const std::string& line) { told.push_back(line); }) {
     auto opened = OscTrackers::open(0, trackers);

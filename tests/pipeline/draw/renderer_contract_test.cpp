@@ -108,7 +108,7 @@ TEST(PictureRenderer, InstancesLookLikeSingleMeshes) {
 struct Sampling final : FrameProbe {
   std::vector<DrawnAlone> pieces;
   std::map<NodeRef, int> told;
-  std::set<NodeRef> alone;  ///< drawn with nobody else
+  std::set<NodeRef> alone;  ///< drawn with no other node
   double parts = 0;         ///< of all pieces
   std::size_t asked = 0, next = 0;
   std::set<NodeRef> wanted;  ///< empty: all
@@ -174,7 +174,7 @@ TEST(PictureRenderer, WhatIsDrawnInTwoPassesIsOnePieceThatHasItsTurn) {
   EXPECT_EQ(sampled, plain);
 }
 
-TEST(PictureRenderer, WhatIsNotWantedAloneTakesNobodysTurn) {
+TEST(PictureRenderer, WhatIsNotWantedAloneTakesNoTurn) {
   constexpr std::uint32_t kLamps = 100;
   MeshStore meshes;
   const DrawList list = lamps(meshes, kLamps);

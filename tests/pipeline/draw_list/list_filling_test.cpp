@@ -1,4 +1,4 @@
-/// Draw begins while Cull still fills its list: the same pictures, nothing torn, nobody left waiting.
+/// Draw begins while Cull still fills its list: the same pictures, nothing torn, no thread left waiting.
 
 #include "pipeline/draw_list/list_filling.h"
 

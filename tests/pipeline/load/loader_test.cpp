@@ -38,8 +38,8 @@ public:
     std::ofstream(file()) << "timer( )\n";
     types_.add(type_, "this test");
     roots_.add(folder_);
-    loader = std::make_unique<Loader>(LoaderParts{meshes_, state_.arena(), importer_, roots_, types_, services_,
-                                                  [](const Diagnostics&) {}, &stop});
+    loader = std::make_unique<Loader>(LoaderParts{meshes_, state_.arena(), importer_, roots_, types_,
+                                                  services_, [](const Diagnostics&) {}, &stop});
   }
   ~OneTimer() {
     released = true;
@@ -80,7 +80,7 @@ TEST(ThreadsLoader, WhatThePreparationThrowsIsThrownAgainWithTheFilesName) {
   EXPECT_NE(memory.find("timer.evs: out of memory"), std::string::npos) << memory;
 }
 
-TEST(ThreadsLoader, NobodyWaitsForALoadWhenTheRunIsToStop) {
+TEST(ThreadsLoader, NoThreadWaitsForALoadWhenTheRunIsToStop) {
   released = false;
   OneTimer show(waitForRelease);
   show.request(1);
@@ -113,7 +113,7 @@ TEST(ThreadsLoader, ALiveShowGoesOnAndTheDecisionIsTold) {
   EXPECT_EQ(told[0], std::pair(std::uint32_t{1}, now));
 }
 
-TEST(ThreadsLoader, WhoWaitsForFilesSaysSoAndThatItHasThem) {
+TEST(ThreadsLoader, AWaitForFilesIsReportedAndItsEnd) {
   released = false;
   OneTimer show(waitForRelease);
   std::vector<bool> told;

@@ -161,7 +161,7 @@ TEST(FrameLoop, TicksAreLaterByAsLongAsWallsGetReady) {
   EXPECT_EQ(pacer.missed(), 0u);
 }
 
-TEST(FrameLoop, TicksThatNobodySawAreCountedAtMostInARow) {
+TEST(FrameLoop, TicksThatWereNotShownAreCountedAtMostInARow) {
   CountingStages stages(1, kSlots);
   FrameLoopOptions o;
   o.mode = Mode::Sequential, o.frames = 6, o.rate = 50;
@@ -371,7 +371,7 @@ TEST(ThreadsFrameLoop, LatencyCountsFromTheAppOfTheFrameThatIsShown) {
   }
 }
 
-/// Nobody looks at most of its frames.
+/// Stages that show few of their frames.
 class SeldomSeen : public CountingStages {
 public:
   explicit SeldomSeen(std::uint64_t every) : CountingStages(2, kSlots), every_(every) {}

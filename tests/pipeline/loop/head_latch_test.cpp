@@ -50,7 +50,8 @@ Vec4 inPicture(const DrawList& list, std::size_t eye, const Vec3& p_W) {
 bool sameEyes(const DrawList& a, const DrawList& b) {
   bool same = a.viewCount == b.viewCount && a.origin == b.origin;
   for (std::size_t eye = 0; eye < 2; ++eye)
-    same = same && a.views[eye].view == b.views[eye].view && a.views[eye].projection == b.views[eye].projection;
+    same =
+        same && a.views[eye].view == b.views[eye].view && a.views[eye].projection == b.views[eye].projection;
   return same;
 }
 
@@ -77,7 +78,7 @@ TEST(HeadLatch, AWallIsDrawnAsIfItHadBeenCulledFromTheNewestHead) {
   }
 }
 
-TEST(HeadLatch, NothingChangesWhereNobodyKnowsMoreOrTheHeadHasNotMoved) {
+TEST(HeadLatch, NothingChangesWithoutNewerDataOrIfTheHeadHasNotMoved) {
   const WallViews view = test::boxRoom(1.5, {0.1, 60})[0];
   const Pose sampled{Vec3(0.2, 0.1, 0.3), det::fromEuler(0.1, 0, 0.5)};
   Head head;
@@ -142,7 +143,7 @@ TEST(HeadLatch, TheHeadIsAskedForWhereItWillBeWhenPicturesAreSeenAndNeverForTheP
   EXPECT_EQ(head.asked[1], 0);
 }
 
-TEST(HeadLatch, ExchangedEyesStayExchangedAndCamerasAreNobodysHead) {
+TEST(HeadLatch, ExchangedEyesStayExchangedAndCamerasAreNoHead) {
   WallViews view = test::boxRoom(1.5, {0.1, 60})[0];
   Head head;
   head.now = HeadNow{{Vec3(0.05, 0, 0), Quat::Identity()}, 1};
@@ -152,11 +153,11 @@ TEST(HeadLatch, ExchangedEyesStayExchangedAndCamerasAreNobodysHead) {
   latch.latch(view, {}, plain), latch.latch(view, {}, exchanged);
   EXPECT_EQ(plain.views[0].view, exchanged.views[1].view);
   EXPECT_EQ(plain.views[1].view, exchanged.views[0].view);
-  struct Nobody final : FreeCamera {
+  struct Blind final : FreeCamera {
     std::optional<CameraView> view() const override { return {}; }
     void addTo(std::vector<InstanceRecord>&, const ViewerRecord&) const override {}
-  } nobody;
-  view.camera = &nobody;
+  } blind;
+  view.camera = &blind;
   DrawList outside = listFrom({}, view);
   const DrawList before = outside;
   latch.latch(view, {}, outside);

@@ -9,7 +9,7 @@
 namespace stadion {
 namespace {
 
-/// Stages at which somebody sits who pauses the show, lets it go on by single frames, and slows it down.
+/// Stages with an operator: he pauses the show, steps it by single frames, and slows it down.
 class PlayedStages final : public CountingStages {
 public:
   PlayedStages(Playback& playback) : CountingStages(1, kSlots), playback_(playback) {}
@@ -170,7 +170,7 @@ public:
   std::vector<FrameOrder> orders;
 };
 
-/// An operator who says start once the show waits, pauses in frame 3, takes a single step, and ends the show.
+/// An operator that gives start once the show waits, pauses in frame 3, takes a single step, and ends the show.
 class OperatedStages final : public CountingStages {
 public:
   explicit OperatedStages(OperatorQueue& queue) : CountingStages(1, kSlots), queue_(queue) {}

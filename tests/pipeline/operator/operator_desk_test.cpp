@@ -7,7 +7,7 @@
 namespace stadion {
 namespace {
 
-TEST(OperatorDesk, WhoAsksAgainForTheNextGroupBeforeItsFirstPictureMeansThatOne) {
+TEST(OperatorDesk, AnotherRequestForTheNextGroupBeforeItsFirstPictureMeansThatOne) {
   OperatorDesk desk(false, 0.064);
   int told = 0;
   desk.told = [&](std::uint64_t, const OperatorCommand&) { ++told; };

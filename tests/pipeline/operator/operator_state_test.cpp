@@ -29,7 +29,7 @@ TEST(OperatorState, StepsAreForPausedShowsAlone) {
   EXPECT_FALSE(s.still());
 }
 
-TEST(OperatorState, WhoWaitsStandsStillUntilTheStart) {
+TEST(OperatorState, AShowThatWaitsStandsStillUntilTheStart) {
   OperatorState s;
   s.waiting = true;
   s.obey({OperatorAction::Pause, 0});

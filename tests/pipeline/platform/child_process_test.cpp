@@ -63,7 +63,8 @@ TEST(ChildProcess, WhatItHasStartedIsKilledWithIt) {
   ASSERT_EQ(::kill(sleeper, 0), 0);
   child.kill();
   EXPECT_EQ(child.wait(milliseconds(120'000)), 128 + SIGKILL);
-  // Whoever takes in orphans may take a moment; one that is dead and not yet taken in has no memory.
+  // The process that takes in orphans may take a moment; an orphan that is dead and not yet taken in has no
+  // memory.
   const auto isGone = [&] {
     const std::string state = saidBy({"sh", "-c", "ps -o stat= -p " + number + " || true"});
     return state.empty() || state.starts_with('Z');

@@ -12,7 +12,7 @@ double limitAfter(const std::vector<double>& times) {
   return patience.limit() ? patience.limit()->count() : -1;
 }
 
-TEST(Patience, NobodyKnowsWhatIsUsualAfterTwoFrames) {
+TEST(Patience, WhatIsUsualIsNotKnownAfterTwoFrames) {
   EXPECT_EQ(limitAfter({}), -1);
   EXPECT_EQ(limitAfter({20, 20}), -1);
 }

@@ -349,7 +349,7 @@ TEST(ProgramWallWorkers, ProcessesThatDieOneAfterTheOtherAreToldOfTwiceAndEndNoL
   Exchangeable program;
   auto parts = partsFor(meshes);
   parts.everyFrame = false, parts.program = program.path();
-  parts.rate = 0.1;  // who is waited for is in time
+  parts.rate = 0.1;  // a wall that is waited for is in time
   std::vector<std::string> told;
   parts.tell = [&](const std::string& what) { told.push_back(what); };
   DrawingInWorkers drawing(std::move(parts));
@@ -415,7 +415,7 @@ double secondsUntilDrawn(DrawingInWorkers& drawing, const DrawList& list, double
   }
 }
 
-TEST(ProgramWallWorkers, WhereTheNewestFrameCountsNobodyWaitsForAProcessThatIsGoneOrStopped) {
+TEST(ProgramWallWorkers, WhereTheNewestFrameCountsNoWallWaitsForAProcessThatIsGoneOrStopped) {
   MeshStore meshes;
   const DrawList list = stereoList(meshes);
   auto parts = partsFor(meshes);
@@ -475,11 +475,11 @@ TEST(ProgramWallWorkers, AProcessIsDeadWhenTheThreadThatDrawsIsThoughOthersLinge
       << failure->message;
 }
 
-TEST(ProgramWallWorkers, WhereTheNewestFrameCountsNobodyWaitsForWhatANewProcessDrawsFirst) {
+TEST(ProgramWallWorkers, WhereTheNewestFrameCountsNoWallWaitsForANewProcessFirstFrame) {
   MeshStore meshes;
   const DrawList list = stereoList(meshes);
   auto parts = partsFor(meshes);
-  parts.everyFrame = false, parts.rate = 0.01;  // who is waited for is in time
+  parts.everyFrame = false, parts.rate = 0.01;  // a wall that is waited for is in time
   DrawingInWorkers drawing(std::move(parts));
   ASSERT_FALSE(drawing.open(0));
   for (int frame = 0; frame < 8; ++frame) ASSERT_TRUE(drawing.draw(0, list, false).drawn);

@@ -104,7 +104,7 @@ TEST_F(JournalTest, TheFirstLineThatIsLostIsToldAndTheNextOneThatIsNotSaysHowMan
   EXPECT_TRUE(lines[1].ends_with("  -  fourth")) << lines[1];
 }
 
-TEST_F(JournalTest, WhoHoldsTheFileHoldsNobodyUp) {
+TEST_F(JournalTest, ALockOnTheFileDelaysNoWriter) {
   const auto journal = open();
   journal->add("before");
   const int other = ::open(file_.c_str(), O_RDONLY | O_CLOEXEC);

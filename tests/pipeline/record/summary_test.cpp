@@ -105,7 +105,7 @@ TEST(RunSummary, MakesGoodJsonOfBadNumbersAndNames) {
 
 TEST(RunSummary, TellsOfStressWhetherThereAreBudgetsOrNot) {
   RunSummary s = example();
-  EXPECT_FALSE(nlohmann::json::parse(toJson(s)).contains("stress")) << "nobody decided";
+  EXPECT_FALSE(nlohmann::json::parse(toJson(s)).contains("stress")) << "there was no decider";
   s.stress = StressFelt{};
   EXPECT_EQ(nlohmann::json::parse(toJson(s))["stress"]["highest"], 1);
   EXPECT_EQ(toText(s).find("farther away"), std::string::npos);

@@ -66,7 +66,7 @@ TEST(SceneState, EverySlotHoldsWhatASingleCopyWouldHold) {
   }
 }
 
-TEST(SceneState, WhoReadsWhileASlotIsWrittenFindsOutAlsoAfterAFrameThatWasGivenUp) {
+TEST(SceneState, AReaderOfASlotThatIsWrittenFindsOutAlsoAfterAFrameThatWasGivenUp) {
   SceneState state;
   ChangeSet c;
   c.instances = {instance(0, 1)};

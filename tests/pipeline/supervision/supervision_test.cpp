@@ -1,4 +1,4 @@
-/// What a player and who watches over it share, and how a show goes on after a death.
+/// What a player and its supervisor share, and how a show goes on after a crash.
 
 #include "pipeline/loop/frame_loop.h"
 #include "pipeline/supervision/hang_watch.h"
@@ -37,7 +37,7 @@ TEST(Recovery, FirstGoesOnAtOnceThenAfterGrowingPausesThenBeginsAgainThenGivesUp
   EXPECT_EQ(ways, (std::vector{on, on, on, on, again, again, again, again, again, Way::GiveUp}));
 }
 
-TEST(Recovery, WhoGotBeyondThePlaceOfTheLastDeathDiesForTheFirstTime) {
+TEST(Recovery, APlayerBeyondThePlaceOfTheLastCrashCrashesForTheFirstTime) {
   Recovery recovery;
   EXPECT_EQ(recovery.died(fromSeconds(17), fromSeconds(17)).way, Way::GoOn);
   for (Nanoseconds at = fromSeconds(22); at < fromSeconds(150); at += Recovery::kSteady) {
@@ -96,7 +96,7 @@ TEST(SharedProgress, WhatAProcessKeptIsThereAfterItWasKilled) {
   EXPECT_GE(here.timeNow(), 5000) << "show time would have gone on";
 }
 
-TEST(SharedProgress, WhoStillCatchesUpHasNotPlayed) {
+TEST(SharedProgress, APlayerThatStillCatchesUpHasNotPlayed) {
   auto made = SharedProgress::create();
   ASSERT_TRUE(made);
   SharedProgress& p = *made.value();
@@ -170,12 +170,12 @@ TEST(SharedProgress, WhyASceneCannotBeKeptIsKnownAndTheOneBeforeIsThere) {
 /// A clock that a test sets.
 Nanoseconds testTime = 0;
 
-TEST(HangWatch, WhoShowsNothingHangsAndWhoOpensMayTakeLonger) {
+TEST(HangWatch, APlayerThatShowsNothingHangsAndOneThatOpensMayTakeLonger) {
   auto made = SharedProgress::create();
   ASSERT_TRUE(made);
   SharedProgress& p = *made.value();
   constexpr Nanoseconds kAfter = fromSeconds(0.5);
-  // Asks every tenth of a second, as the watcher does: who asks more seldom was stopped itself.
+  // Asks every tenth of a second, as the watcher does: one that asks more seldom was stopped itself.
   const auto askUntil = [](HangWatch& watch, Nanoseconds end) {
     std::optional<Nanoseconds> silent;
     while (!silent && testTime < end) {
@@ -202,7 +202,7 @@ TEST(HangWatch, WhoShowsNothingHangsAndWhoOpensMayTakeLonger) {
   EXPECT_EQ(askUntil(plays, limit + 1), kAfter);
 }
 
-TEST(HangWatch, WhoDidNotAskForASecondWasStoppedItselfAndAsksAnew) {
+TEST(HangWatch, AWatcherThatDidNotAskForASecondWasStoppedItselfAndAsksAnew) {
   auto made = SharedProgress::create();
   ASSERT_TRUE(made);
   SharedProgress& p = *made.value();

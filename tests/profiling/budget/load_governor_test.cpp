@@ -1,5 +1,5 @@
-/// Who is told of, and who gives up what, when spans say that nodes and frames take too long. The spans are
-/// made up: no clock is asked.
+/// Which nodes are reported, and which give up what, when spans show that nodes and frames take too long. The
+/// spans are made up: no clock is asked.
 
 #include "profiling/budget/load_governor.h"
 
@@ -24,7 +24,7 @@ struct Governed : ShowFixture {
   bool sampled = false;                     ///< the coming frame's drawing is looked at
   std::optional<NodeTerms> guest;           ///< of the node in the annex
   std::optional<NodeTerms> dusk;            ///< of the annex' sky
-  std::map<NodeRef, std::uint32_t> levels;  ///< as they have been decided; of nobody: stress
+  std::map<NodeRef, std::uint32_t> levels;  ///< as they have been decided; of no node: stress
 
   explicit Governed(std::vector<NodeTerms> terms, bool scalable = false, GovernorOptions options = {}) {
     loader.files["show"] = [=](Load& load) {
@@ -227,7 +227,7 @@ TEST(LoadGovernor, WhatIsDearWheneverItIsShownIsTriedLessAndLessOften) {
   EXPECT_LT(early, 24U);
 }
 
-TEST(LoadGovernor, WhoDoesNotActOnlyTells) {
+TEST(LoadGovernor, AGovernorThatDoesNotActOnlyReports) {
   GovernorOptions options;
   options.acts = false;
   Governed g({{0.8, {Half, Rest}, 1}}, true, options);
@@ -306,10 +306,10 @@ TEST(LoadGovernor, TheSkyThatIsSeenTakesWhatTheBackgroundDoes) {
   EXPECT_EQ(sky.worst, 2);
   EXPECT_EQ(sky.worstStage, "Draw of wall front");
   EXPECT_GT(sky.overruns, 60U);
-  EXPECT_TRUE(mayBeDrawn(g.scene.find({2, 1}))) << "else nobody looks";
+  EXPECT_TRUE(mayBeDrawn(g.scene.find({2, 1}))) << "else it is not looked at";
 }
 
-TEST(NodeCosts, ASkyIsSeenWhoeverIsHiddenUntilAnotherOneIs) {
+TEST(NodeCosts, ASkyIsSeenWhileItsNodeIsHiddenUntilAnotherOneIs) {
   const NodeRef scene{1, 0}, dusk{2, 0}, dawn{3, 0};
   const std::vector<GovernedNode> nodes{{scene, {1, {Hide}, 1}, true}, {dusk, {1, {}, 1}, true}};
   const std::map<NodeRef, std::vector<std::size_t>> above{{scene, {0}}, {dusk, {1, 0}}};
@@ -375,7 +375,7 @@ TEST(LoadGovernor, WhatIsGivenUpForTheFrameStaysSoWhateverComesOrGoes) {
   EXPECT_EQ(g.level(0), 0U);
 }
 
-TEST(LoadGovernor, WhoComesWithALowerPriorityGivesUpBeforeThoseThatHaveAlready) {
+TEST(LoadGovernor, ANewNodeOfLowerPriorityGivesUpBeforeThoseThatHaveAlready) {
   Governed g({{0, {Half, Rest}, 5}, {0, {Half, Rest}, 2}});
   g.guest = NodeTerms{0, {Rest}, 1};
   g.frames(100, {4, 4});

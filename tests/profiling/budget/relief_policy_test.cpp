@@ -1,4 +1,4 @@
-/// Who gives up what, and when it comes back, for costs that are made up frame by frame.
+/// Which nodes give up what, and when it comes back, for costs that are made up frame by frame.
 
 #include "profiling/budget/relief_policy.h"
 

@@ -133,7 +133,7 @@ TEST(FrameVerdict, ADrawWithoutProcessorsIsPreempted) {
   EXPECT_EQ(causeOf(f), Cause::Draw);
 }
 
-TEST(FrameVerdict, OfALateDrawWhoHasMostToDrawIsNamed) {
+TEST(FrameVerdict, OfALateDrawTheNodeWithMostToDrawIsNamed) {
   FrameFacts f = facts(60);
   f.draw[1].ms = 50;
   copyText("playfield kick.evs:32", f.most);
@@ -142,7 +142,7 @@ TEST(FrameVerdict, OfALateDrawWhoHasMostToDrawIsNamed) {
   EXPECT_NE(toText(f, walls).find("; most there is to draw of playfield kick.evs:32"), std::string::npos);
 }
 
-TEST(FrameVerdict, OfALateCullWhoHasMostToCullIsNamed) {
+TEST(FrameVerdict, OfALateCullTheNodeWithMostToCullIsNamed) {
   FrameFacts f = facts(60);
   f.cull[0].ms = f.cull[0].processor = 40;
   copyText("village kick.evs:32", f.most);
@@ -186,7 +186,7 @@ TEST(FrameVerdict, ANodeIsNamedOnlyWhereAppTookLongByItself) {
   }
 }
 
-TEST(FrameVerdict, WhoBeginsLateForWantOfAProcessorIsPreempted) {
+TEST(FrameVerdict, AStageThatBeginsLateForWantOfAProcessorIsPreempted) {
   FrameFacts f = facts(60);
   for (StageFacts& s : f.draw) s.ms = 1;
   f.app.late = 40;
@@ -348,7 +348,7 @@ TEST(BlackBox, OnlyTheLastFramesAreKept) {
   EXPECT_EQ(kept.value().frames.front().frame, 400U);
   EXPECT_EQ(kept.value().frames.back().frame, 999U);
   box.value().reset();
-  EXPECT_FALSE(fs::exists(folder.file())) << "no frame was late, so nobody needs it";
+  EXPECT_FALSE(fs::exists(folder.file())) << "no frame was late, so it is not needed";
 }
 
 TEST(BlackBox, WhatIsNoneIsRefused) {
@@ -386,7 +386,7 @@ TEST(BlackBox, WhatIsSomethingElseIsLeftAsItIs) {
     EXPECT_TRUE(fs::exists(fs::symlink_status(other))) << other;
   }
   EXPECT_EQ(contentOf(folder.file()), "the only copy of a thesis");
-  EXPECT_FALSE(BlackBox::read(pipe)) << "and nobody waits for it";
+  EXPECT_FALSE(BlackBox::read(pipe)) << "and the reader does not wait for it";
 }
 
 TEST(BlackBox, OnlyWhatItMadeGoesWithIt) {
@@ -425,7 +425,7 @@ std::size_t filesIn(const fs::path& folder) {
   return static_cast<std::size_t>(std::distance(fs::directory_iterator(folder), fs::directory_iterator()));
 }
 
-TEST(BlackBoxFolder, TheNewestStayAndNobodysElse) {
+TEST(BlackBoxFolder, TheNewestStayAndFilesOfOthersAreLeft) {
   const Folder folder;
   const NodeNames names;
   const BlackBoxFolder boxes(folder.path);

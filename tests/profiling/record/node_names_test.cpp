@@ -1,4 +1,4 @@
-/// Nodes whose file goes and comes again are the same nodes, for whoever names them or adds them up.
+/// Nodes whose file goes and comes again are the same nodes, in names and in sums.
 
 #include "profiling/record/node_names.h"
 
@@ -61,7 +61,7 @@ TEST(NodeNames, AFileThatComesAgainBringsTheSameNodes) {
   ASSERT_NE(annexAgain, annex);
   ASSERT_NE(cabinAgain, cabin);
   EXPECT_EQ(show.names.firstLoad(annexAgain), annex);
-  EXPECT_EQ(show.names.firstLoad(cabinAgain), cabin) << "who asked for it is the same, too";
+  EXPECT_EQ(show.names.firstLoad(cabinAgain), cabin) << "the node that asked for it is the same, too";
   EXPECT_EQ(show.names.find({cabinAgain, 0})->path, "annex/cabin/bed");
   EXPECT_FALSE(show.names.find({cabin, 0})->unloaded) << "it is there again";
   EXPECT_EQ(show.names.find({cabinAgain, 0})->parent.load, annex);

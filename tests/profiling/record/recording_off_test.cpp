@@ -1,4 +1,4 @@
-/// Where nobody records, nothing is called: a probe has virtual functions only, so that without an object
+/// Without recording nothing is called: a probe has virtual functions only, so that without an object
 /// there is nothing to call, and what tests for it is compiled into the stages.
 
 #include <array>

@@ -6,10 +6,10 @@
 #include "profiling/regression/reports.h"
 #include "profiling/regression/spans/callgrind_record.h"
 #include "profiling/regression/spans/instruction_counter.h"
+#include "profiling/regression/spans/span_times.h"
 #include "profiling/regression/statistics/detection.h"
 #include "profiling/regression/statistics/instruction_comparison.h"
 #include "profiling/regression/statistics/noise_calibration.h"
-#include "profiling/regression/spans/span_times.h"
 #include "profiling/regression/statistics/time_comparison.h"
 #include "profiling/regression/suite_progress.h"
 
@@ -162,7 +162,7 @@ TEST(RegressionTimes, WithinTheToleranceIsNoAlarmAndFasterIsNoFailure) {
   EXPECT_TRUE(std::ranges::any_of(shifts, &StageShift::faster));
 }
 
-TEST(RegressionTimes, AShiftThatNoNodeExplainsIsSaidToBeNobodys) {
+TEST(RegressionTimes, AShiftThatNoNodeExplainsIsReportedAsUnexplained) {
   SpanRow small;
   small.path = "ball", small.stage = "app";
   EXPECT_EQ(culpritIn("app", {}, 10), "app");
@@ -370,7 +370,7 @@ TEST(RegressionInstructions, TheProcessorsCounterGivesEachNodeItsOwnFromTheThird
   EXPECT_EQ(counts.nodes.at("app").at("ball"), 50'000);
 }
 
-TEST(RegressionInstructions, WhoCannotCountByHardwareIsToldWhy) {
+TEST(RegressionInstructions, AMachineWithoutHardwareCountersReportsWhy) {
   EXPECT_NE(whyNotByHardware(ENOENT).find("no hardware counters"), std::string::npos);
   EXPECT_NE(whyNotByHardware(EACCES).find("perf_event_paranoid"), std::string::npos);
   std::string why;
@@ -382,7 +382,7 @@ TEST(RegressionInstructions, WhoCannotCountByHardwareIsToldWhy) {
   EXPECT_GT(counter->now(), before + 100'000);
 }
 
-TEST(RegressionInstructions, ABaselineSaysWhoCountedThem) {
+TEST(RegressionInstructions, ABaselineNamesTheirCounter) {
   BaselineCase kept;
   kept.instructions["app"] = 1, kept.countedBy = "hardware counters";
   const std::string file = testing::TempDir() + "counted.baseline.json";

@@ -229,7 +229,7 @@ TEST(FrameLog, OfNodesThatAreWatchedTheShortVisitsAreAddedUpByAccount) {
     const SpanScope app(&log, Span::App, frame, kNoWall);
     {
       const SpanScope round(&log, Span::Mail);
-      burn(std::chrono::microseconds(2500));  // whom to visit: nobody's
+      burn(std::chrono::microseconds(2500));  // the choice of nodes to visit: of no node
     }
     for (std::uint32_t i = 0; i < 1000; ++i) {
       {
@@ -302,7 +302,7 @@ TEST(ShowProfile, ASpanIsSharedAmongThoseItWasSpentOn) {
   EXPECT_DOUBLE_EQ(f.cull.covered(), 1);
 }
 
-TEST(ShowProfile, WhatOthersHadTheProcessorForIsNobodysTime) {
+TEST(ShowProfile, TimeOfOtherProgramsOnTheProcessorIsNoNodesTime) {
   ShowProfile profile;
   const auto frame = [&](std::uint64_t number, NodeRef node, double ms, double delayed) {
     SpanRecord app = record(Span::App, number, kNoWall, {}, ms + 1),
@@ -377,7 +377,7 @@ TEST(ShowProfile, WhatOneEyeDoesNotSeeIsMeasuredAndNothing) {
   profile.take({24, 0, 0, Span::LeftEye, 9, 0.1}, {});
   profile.take({24, 0, 1, Span::RightEye, 4, 0.1}, {});
   const ShowFigures f = figuresOf(profile, NodeNames(), {"front"}, kMesa);
-  EXPECT_EQ(f.framesNeeded, 0U) << "nobody waits for a turn";
+  EXPECT_EQ(f.framesNeeded, 0U) << "no node waits for a turn";
   EXPECT_TRUE(f.nodes[0].drawMeasured && f.nodes[1].drawMeasured);
   EXPECT_EQ(f.nodes[1].node, kStone);
   EXPECT_DOUBLE_EQ(f.nodes[1].walls[0].draw[1], 0);
@@ -495,7 +495,8 @@ TEST(ShowProfile, WhatWasDrawnIsNotNothingHoweverMuchTheSkyTook) {
   EXPECT_EQ(f.framesNeeded, 0U) << "both had their turn";
   EXPECT_TRUE(nlohmann::json::parse(toJson(f))["nodes"][1]["draw_ms"].is_null());
   EXPECT_NE(toText(f, 10).find("~ 1 nodes: too little"), std::string::npos) << toText(f, 10);
-  EXPECT_NE(toText(f, 10).find(" 0.0000       - "), std::string::npos) << "who is not visited has no p95";
+  EXPECT_NE(toText(f, 10).find(" 0.0000       - "), std::string::npos)
+      << "a node that is not visited has no p95";
   EXPECT_NEAR(f.alone.covered(), 1.15, 1e-12) << "the sky is drawn once";
 }
 
@@ -525,7 +526,7 @@ TEST(ShowProfile, WhatWasNotSampledIsNotNothing) {
   EXPECT_TRUE(rows.at(kBall)->walls[0].drawMeasured[0]);
   EXPECT_FALSE(rows.at(kStone)->walls[0].drawMeasured[0]);
   EXPECT_TRUE((rows.at({1, 2})->walls[0].drawMeasured[0])) << "what is not seen costs nothing to draw";
-  EXPECT_FALSE(rows.at(kBall)->walls[1].cullMeasured) << "nobody looked at that wall";
+  EXPECT_FALSE(rows.at(kBall)->walls[1].cullMeasured) << "that wall was not looked at";
   EXPECT_FALSE(rows.at(kBall)->drawMeasured);
   EXPECT_GT(f.framesNeeded, 1U);
 
@@ -645,7 +646,7 @@ TEST(FrameLog, DrawingIsSampledFromWhenSomebodyAsksForIt) {
   EXPECT_FALSE(log.wantsShares(16, 0));
   log.setSamples(true);
   EXPECT_EQ(log.drawSample(9, 0), DrawSample::Some);
-  EXPECT_EQ(log.drawSample(8, 0), DrawSample::None) << "nobody asked for whole eyes";
+  EXPECT_EQ(log.drawSample(8, 0), DrawSample::None) << "whole eyes were not asked for";
   EXPECT_TRUE(log.wantsShares(16, 0));
   FrameLog shares({}, {.samples = false, .shares = true, .from = 0});
   EXPECT_TRUE(shares.wantsShares(16, 0));

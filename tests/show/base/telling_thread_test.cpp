@@ -9,7 +9,7 @@
 namespace stadion {
 namespace {
 
-TEST(TellingThread, WhoTellsDoesNotWaitForWhoSaysAndEverythingIsSaid) {
+TEST(TellingThread, ACallerDoesNotWaitForTheWriterAndEverythingIsWritten) {
   std::mutex held;  // as a terminal may be
   std::vector<std::string> said;
   {
@@ -23,7 +23,7 @@ TEST(TellingThread, WhoTellsDoesNotWaitForWhoSaysAndEverythingIsSaid) {
   EXPECT_EQ(said, (std::vector<std::string>{"one", "two", "three"}));
 }
 
-TEST(TellingThread, WhatNobodyHearsIsKeptUpToALimit) {
+TEST(TellingThread, LinesWithoutAReaderAreKeptUpToALimit) {
   std::mutex held;
   std::size_t said = 0;
   {

@@ -1,4 +1,4 @@
-/// Who draws the walls: what is asked for, else what was measured on this machine, else the rule.
+/// How the walls are drawn: as asked for, else as measured on this machine, else by the rule.
 
 #include "show/player/drawing_plan.h"
 #include "tests/programs/program.h"
@@ -69,7 +69,7 @@ TEST(DrawingPlan, DoesWhatIsAskedForAndTakesTheRestFromWhatWasMeasured) {
   EXPECT_EQ(DrawingPlan(needs, calibrated()).setting(), kProcessesWithThreads);
 }
 
-TEST(DrawingPlan, DoesWhatIsAskedForEvenIfNobodyMeasuredThat) {
+TEST(DrawingPlan, DoesWhatIsAskedForEvenWithoutAMeasurement) {
   DrawingNeeds needs = four();
   needs.wishes = {true, 7, true};
   for (const KnownMachine& machine : {calibrated(), KnownMachine{2, {}}}) {

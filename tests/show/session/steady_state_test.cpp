@@ -124,7 +124,7 @@ TEST_F(ProgramSteadyState, DrawOfThingsOfEveryKindInBothLooks) {
   }
 }
 
-TEST_F(ProgramSteadyState, OfThePapersShowWhileNobodyKicks) {
+TEST_F(ProgramSteadyState, OfThePapersShowWhileNoFootKicks) {
   EXPECT_EQ(allocationsOfApp(std::string(STADION_SOURCE_DIR) + "/scripts/kick.evs", kStill, 400), 0u);
 }
 

@@ -23,8 +23,8 @@ using Clock = std::chrono::steady_clock;
 using std::chrono::milliseconds;
 
 constexpr double kRate = 60;  // [1/s]
-/// Between swaps, in periods: who misses one frame leaves two, who misses two leaves three. Where nothing has
-/// happened to anybody there is one, and hardly two.
+/// Between swaps, in periods: a wall that misses one frame leaves two, one that misses two leaves three. An
+/// undisturbed wall leaves one, and hardly two.
 constexpr double kMostPeriods = 2.5, kCalm = 1.8;
 constexpr std::uint64_t kGapFrames = 180;  // frames
 
