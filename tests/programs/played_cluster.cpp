@@ -31,6 +31,14 @@ std::set<std::string> hashesBelow(const std::filesystem::path& folder) {
   return lines;
 }
 
+std::map<std::string, std::string> picturesIn(const std::filesystem::path& folder) {
+  std::map<std::string, std::string> all;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(folder))
+    if (entry.path().extension() == ".png" && entry.path().filename() != "contact-sheet.png")
+      all[entry.path().filename()] = fileContent(entry.path());
+  return all;
+}
+
 std::map<std::uint64_t, std::int64_t> swapTimesOf(const std::filesystem::path& folder) {
   std::map<std::uint64_t, std::int64_t> times;
   std::ifstream in(folder / "swap-times.txt");

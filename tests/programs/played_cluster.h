@@ -27,6 +27,8 @@ std::string fourNodes(const TemporaryFolder& folder, const std::string& more = {
 Json summaryOf(const std::filesystem::path& folder);
 /// The lines of all nodes' picture-hashes.txt below the folder, or of one run's.
 std::set<std::string> hashesBelow(const std::filesystem::path& folder);
+/// Returns the content of each picture below the folder, by file name.
+std::map<std::string, std::string> picturesIn(const std::filesystem::path& folder);
 /// Frame by frame, when that run has shown it [ns].
 std::map<std::uint64_t, std::int64_t> swapTimesOf(const std::filesystem::path& folder);
 
