@@ -5,8 +5,8 @@
 #include "cli/commands.h"
 #include "cli/exit_code.h"
 #include "cli/options/plugin_option.h"
-#include "show/player/enclosing_show.h"
 #include "show/player/show_check.h"
+#include "show/player/show_of_part.h"
 
 #include <CLI/CLI.hpp>
 #include <cstdio>

@@ -7,14 +7,14 @@
 #include "cli/terminal.h"
 #include "engine/base/atomic_file.h"
 #include "engine/base/installed_files.h"
-#include "engine/plain_text/number_text.h"
 #include "engine/base/plain_file.h"
 #include "engine/display/wall_file.h"
+#include "engine/plain_text/number_text.h"
 #include "profiling/plan/diagram.h"
 #include "profiling/plan/report.h"
 #include "show/base/stop_signal.h"
 #include "show/measure/plan_run.h"
-#include "show/player/overwriting.h"
+#include "show/player/output_conflicts.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>

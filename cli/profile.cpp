@@ -12,7 +12,7 @@
 #include "show/base/stop_signal.h"
 #include "show/measure/fidelity.h"
 #include "show/measure/profile_run.h"
-#include "show/player/overwriting.h"
+#include "show/player/output_conflicts.h"
 
 #include <CLI/CLI.hpp>
 #include <algorithm>

@@ -11,7 +11,7 @@
 #include "show/base/stop_signal.h"
 #include "show/measure/soak_record.h"
 #include "show/measure/soak_visitor.h"
-#include "show/player/kept_parts.h"
+#include "show/player/reusable_resources.h"
 #include "show/recording/run_watch.h"
 #include "show/recording/show_recording.h"
 
@@ -69,7 +69,7 @@ private:
   SoakRecord& record_;
   GlProvider& provider_;
   const std::atomic<bool>& stop_;
-  std::map<std::string, KeptParts> kept_;  ///< by show, as from group to group
+  std::map<std::string, ReusableResources> kept_;  ///< by show, as from group to group
   // Of the present visit.
   std::string show_;
   Way way_ = Way::Pipelined;
@@ -114,7 +114,7 @@ bool Soak::visit(const std::string& show, Way way, std::uint64_t frames) try {
   o.mode = way == Way::Sequential ? "sequential" : "pipelined";
   o.assetRoots = {shareFolder() + "/assets"}, o.types = options_.types;
   Diagnostics findings;
-  KeptParts& kept = kept_[show];
+  ReusableResources& kept = kept_[show];
   kept.models.store().collect(~std::uint64_t{0});  // no frame shows it any more
   const auto player = o.settle(findings) ? Player::create(o, findings, tell, &stop_, &kept.models) : nullptr;
   const auto watch =

@@ -202,7 +202,7 @@ void addTrackerCommand(CLI::App& app, int& code) {
   command->add_option("--head-tracker", o->headTracker, "which one is on the glasses")->capture_default_str();
   command
       ->add_option("--eye-height", o->eyeHeight,
-                   "of who wears the glasses, in metres: measures where the eyes are from the sensor, too")
+                   "of the person who wears the glasses, in metres: measures where the eyes are from the sensor, too")
       ->check(numberFrom(0.5, 2.5));
   command->callback([o, &code] { code = trackerTool(*o); });
 }

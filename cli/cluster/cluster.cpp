@@ -6,7 +6,7 @@
 #include "cli/exit_code.h"
 #include "cli/options/run_options.h"
 #include "cli/terminal.h"
-#include "pipeline/cluster/lead.h"
+#include "pipeline/cluster/cluster_leader.h"
 #include "pipeline/record/journal.h"
 #include "pipeline/supervision/shared_progress.h"
 #include "show/cluster/cluster_nodes.h"
@@ -100,9 +100,10 @@ int playCluster(const ClusterOptions& o, const CLI::App& command) {
     nodes.add(cluster->nodes[i].name,
               programOf(arguments[i], i == cluster->lead ? progress.value().get() : nullptr),
               openJournal(o.run.settings.supervision.journal, cluster->nodes[i], findings));
-  // The leader may wait for a follower that lives and draws nothing (pipeline/cluster/lead.cpp).
-  nodes.watchLead(std::move(progress.value()), fromSeconds(o.run.settings.supervision.hangAfter +
-                                                           cluster::Lead::kStuck * cluster->deadline));
+  // The leader may wait for a follower that lives and draws nothing (pipeline/cluster/cluster_leader.cpp).
+  nodes.watchLead(
+      std::move(progress.value()),
+      fromSeconds(o.run.settings.supervision.hangAfter + cluster::ClusterLeader::kStuck * cluster->deadline));
   if (findings.hasErrors()) return tell(findings), kBadInput;
   const int code = nodes.play();
   std::fputs((o.run.json ? nodes.saidAsJson() : nodes.said()).c_str(), stdout);

@@ -1,7 +1,7 @@
 #include "cli/cluster/cluster_arguments.h"
 
 #include "cli/options/run_options.h"
-#include "show/cluster/cluster_part.h"
+#include "show/cluster/cluster_session.h"
 
 #include <CLI/CLI.hpp>
 
@@ -95,7 +95,7 @@ void checkArgumentsOfHost(std::vector<std::string> arguments, Diagnostics& findi
   if (!o.settle(findings)) return;
   refuseUnwritable(o.namedFiles(), findings);
   SessionSettings& s = o.settings;
-  ClusterPart::create(
+  ClusterSession::create(
       s.cluster, s.show, s.draw.layout, [](const std::string&) {}, findings);
 }
 

@@ -2,7 +2,7 @@
 
 #include "engine/plain_text/number_text.h"
 #include "show/output/output_folder.h"
-#include "show/player/overwriting.h"
+#include "show/player/output_conflicts.h"
 
 namespace stadion {
 namespace {

@@ -7,7 +7,7 @@
 #include "engine/base/atomic_file.h"
 #include "profiling/regression/reports.h"
 #include "show/base/stop_signal.h"
-#include "show/player/overwriting.h"
+#include "show/player/output_conflicts.h"
 #include "show/player/player.h"
 #include "show/regress/regress_case.h"
 #include "show/regress/regress_child.h"

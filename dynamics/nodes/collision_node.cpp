@@ -120,7 +120,7 @@ void CollisionNode::bring(Part& part, ObjectNode& object, bool isCollider, Nanos
   const Placements& placements = frame.scene.placements();
   part.pose = poseOf(placements.world(part.placement));
   if (!isCollider && !followsCollidees()) return addCollidee(part, object, frame.scene);
-  followFrom(part, frame.scene.courses().startOf(part.placement, placements), frame);
+  followFrom(part, frame.scene.poseTracks().startOf(part.placement, placements), frame);
   const Pose now = part.pose;
   if (moves(part)) part.pose = poseAt(part, time, Limit::After);
   isCollider ? addCollider(part, object, frame.scene) : addCollidee(part, object, frame.scene);
@@ -230,7 +230,7 @@ bool CollisionNode::follow(Part& part, FrameContext& frame, std::vector<Nanoseco
 /// The way of a part that was at `before` when the frame began.
 void CollisionNode::followFrom(Part& part, const Pose& before, FrameContext& frame) const {
   const Placements& placements = frame.scene.placements();
-  const Courses& courses = frame.scene.courses();
+  const PoseTracks& courses = frame.scene.poseTracks();
   // What has moved while this node was kept from running is put where it has come to.
   const Pose start = frame.rested ? courses.startOf(part.placement, placements) : before;
   part.course = courses.within(part.placement, start, frame.start(), frame.now.time, placements);
@@ -466,7 +466,8 @@ bool CollisionNode::resumeParts(Scene& scene) {
   // What moves was simulated up to now, or a few frames ago; what lasts longer does not count.
   const auto stands = [this](const Part& p) { return p.id == 0 || standsStill(world_.mode(p.id)); };
   const Nanoseconds behind = scene.now() - advancedTo_;
-  const bool mayBe = !on_ || standing().missed == Missed::Time || std::ranges::all_of(collidees_, stands);
+  const bool mayBe =
+      !on_ || scheduleState().missed == Missed::Time || std::ranges::all_of(collidees_, stands);
   if (behind < 0 || (behind > kMostBehind && !mayBe)) return false;
   comingOrGoing_.clear();
   for (std::vector<Part>* parts : {&colliders_, &collidees_})

@@ -102,7 +102,7 @@ FieldId DynamicsNode::fieldFor(NodeRef ref, Scene& scene) {
   if (!node) return 0;
   Field f;
   f.ref = ref, f.placement = node->placement(),
-  f.pose = scene.courses().startOf(f.placement, scene.placements());
+  f.pose = scene.poseTracks().startOf(f.placement, scene.placements());
   f.strength = node->strength();
   f.id = world_.addField({node->law(scene), f.pose, f.pose, node->duration()}, false);
   if (node->on()) world_.switchField(f.id, true, node->activated());
@@ -131,7 +131,7 @@ bool DynamicsNode::followFields(FrameContext& frame, std::vector<Nanoseconds>& c
     if (f.leaveAt <= frame.now.time) cuts.push_back(f.leaveAt), any = true;
     if (!node) continue;
     world_.setFieldLaw(f.id, node->law(frame.scene));
-    f.course = frame.scene.courses().within(f.placement, f.pose, frame.start(), frame.now.time,
+    f.course = frame.scene.poseTracks().within(f.placement, f.pose, frame.start(), frame.now.time,
                                             frame.scene.placements());
     if (!f.course.empty()) any = true;
     addCuts(f.course, cuts);
@@ -376,7 +376,7 @@ void DynamicsNode::publishWay(const Part& part, FrameContext& frame) {
   if (frame.start() < frame.scene.frameStart()) return;
   const Pose begins = poseOn(way, frame.start(), Limit::Before);
   const PoseKnot first{frame.start(), part.pose, false};
-  Course& course = frame.scene.courses().of(part.placement, first);
+  Course& course = frame.scene.poseTracks().of(part.placement, first);
   course.assign(1, first);
   const bool put = (begins.p - part.pose.p).norm() > 1e-9 * (1 + begins.p.norm()) ||
                    std::fabs(begins.q.dot(part.pose.q)) < 1 - 1e-12;

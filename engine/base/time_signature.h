@@ -15,7 +15,7 @@ constexpr Nanoseconds fromSeconds(double s) {
   return static_cast<Nanoseconds>(s * 1e9 + (s >= 0 ? 0.5 : -0.5));
 }
 
-/// A decision about overload: a degradation from a frame on (engine/core/load_control.h).
+/// A decision about overload: a degradation from a frame on (engine/core/cost_budget.h).
 struct LoadDecision {
   std::uint32_t load = 0,
                 position = 0;  ///< the node, by load number and position in its file; 0, 0 = the show

@@ -35,7 +35,7 @@ enum class Span : std::uint8_t {
   Input,     ///< devices and logs are asked
   Loading,   ///< files take effect or go
   Mail,      ///< the nodes to visit are found, with their messages
-  Crew,      ///< nodes that simulate side by side are waited for
+  Workers,   ///< nodes that simulate side by side are waited for
   Settle,    ///< what a node's cycle changed is taken up: its hash, the nodes that it wakes
   Publish,   ///< what changed, into the slot
   Sound,     ///< what is heard

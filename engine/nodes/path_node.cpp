@@ -66,13 +66,13 @@ void PathNode::trace(Nanoseconds to, FrameContext& frame) {
   if (!placed || to <= since_ || (putAt_ && !placements.watchedBelow(placed->placement()))) return;
   const PlacementId id = placed->placement(), up = placements.parent(id);
   const auto at = [&](Nanoseconds time, double seconds) {
-    const Pose X_WP = frame.scene.courses().at(up, time, placements);
+    const Pose X_WP = frame.scene.poseTracks().at(up, time, placements);
     return poseOf(withScale(X_WP, placements.world(up)) * toAffine(poseAt(seconds)));
   };
   const Pose begin = at(since_, toSeconds(elapsed_));
   const bool goesOn = putAt_ == since_;
   Course& way =
-      frame.scene.courses().of(id, {frame.start(), goesOn ? begin : poseOf(placements.world(id)), false});
+      frame.scene.poseTracks().of(id, {frame.start(), goesOn ? begin : poseOf(placements.world(id)), false});
   const Nanoseconds pass = std::max<Nanoseconds>(length(), 1);
   // What it has missed it makes up for, without the turns; where it began again it is put.
   if (since_ < frame.start()) {
@@ -112,7 +112,7 @@ void PathNode::jump(Nanoseconds when, FrameContext& frame) {
   const Placements& placements = frame.scene.placements();
   Course* way = nullptr;
   if (placements.watchedBelow(placed->placement()))
-    way = &frame.scene.courses().of(placed->placement(),
+    way = &frame.scene.poseTracks().of(placed->placement(),
                                     {frame.start(), poseOf(placements.world(placed->placement())), false});
   putTarget(frame.scene);
   if (way) way->push_back({when, poseOf(placements.world(placed->placement())), true});
@@ -143,7 +143,7 @@ void PathNode::restUntil(Nanoseconds time) {
 bool PathNode::resume(Scene& scene) {
   const Nanoseconds now = scene.now();
   if (elapsed_ < 0 || elapsed_ > length() || since_ < 0 || since_ > now) return false;
-  const bool repeats = loop_ && switch_.on() && standing().missed != Missed::Time;
+  const bool repeats = loop_ && switch_.on() && scheduleState().missed != Missed::Time;
   return !repeats || (now - since_) / std::max<Nanoseconds>(length(), 1) <= kMostPasses;
 }
 

@@ -169,12 +169,12 @@ void SwayNode::traceOne(std::size_t k, Nanoseconds to, FrameContext& frame) cons
     MemberPlace place;
     putAll(momentAt(elapsed_ + (time - since_)), k, {&place, 1});
     const Affine X_PN = place.affine();
-    return poseOf(withScale(frame.scene.courses().at(up, time, placements), placements.world(up)) * X_PN);
+    return poseOf(withScale(frame.scene.poseTracks().at(up, time, placements), placements.world(up)) * X_PN);
   };
   const Pose begin = at(since_);
   const bool goesOn = putAt_ == since_;
   Course& way =
-      frame.scene.courses().of(id, {frame.start(), goesOn ? begin : poseOf(placements.world(id)), false});
+      frame.scene.poseTracks().of(id, {frame.start(), goesOn ? begin : poseOf(placements.world(id)), false});
   // What they have missed they make up for, without the turns.
   if (since_ < frame.start()) return way.push_back({to, at(to), to == frame.start()});
   if (!goesOn) way.push_back({since_, begin, true});
@@ -191,7 +191,7 @@ void SwayNode::jump(Nanoseconds when, FrameContext& frame) {
   std::vector<std::pair<std::size_t, Course*>> watched;
   for (std::size_t k = 0; k < nodes_.size(); ++k)
     if (nodes_[k] && !nodes_[k]->moved() && placements.watchedBelow(placements_[k]))
-      watched.emplace_back(k, &frame.scene.courses().of(placements_[k], {frame.start(), pose(k), false}));
+      watched.emplace_back(k, &frame.scene.poseTracks().of(placements_[k], {frame.start(), pose(k), false}));
   leaveTargets(frame.scene);
   for (const auto& [k, way] : watched) way->push_back({when, pose(k), true});
 }

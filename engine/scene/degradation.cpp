@@ -84,7 +84,7 @@ void Degradation::relieve(NodeRef ref, const Relief& before, const Relief& now) 
   const Load* l = std::as_const(tree_).load(ref.load);
   Node* node = l ? l->nodes[ref.position].get() : nullptr;
   if (!node) return;
-  if (hasPace(*node)) node->standing().rests = now.rests, node->standing().pace = now.pace;
+  if (hasPace(*node)) node->scheduleState().rests = now.rests, node->scheduleState().pace = now.pace;
   const PlacedNode* placed = node->placed();
   if (!placed || placed->placement() == kNoPlacement) return;
   if (before.hidden != now.hidden) placements_.setShown(placed->placement(), !now.hidden, Hider::Relief);
@@ -93,7 +93,7 @@ void Degradation::relieve(NodeRef ref, const Relief& before, const Relief& now) 
 
 /// Nodes that share a pace take turns. A node that follows a tracker is never put off.
 bool Degradation::isPutOff(Node& node) const {
-  const Node::Standing& s = node.standing();
+  const Node::ScheduleState& s = node.scheduleState();
   if (!s.rests && s.pace == 0) return false;
   if (const PlacedNode* placed = node.placed(); placed && placed->attached()) return false;
   return s.rests || (time_.frame + slotOf(node.self().position)) % (std::uint64_t{1} << s.pace) != 0;
@@ -101,7 +101,7 @@ bool Degradation::isPutOff(Node& node) const {
 
 bool Degradation::putOff(Node& node) {
   if (!isPutOff(node)) return false;
-  Node::Standing& s = node.standing();
+  Node::ScheduleState& s = node.scheduleState();
   const Node::Missed missed = s.rests ? Node::Missed::Time : Node::Missed::Frames;
   // A node that is a function of time needs to know only of time that does not count.
   if (missed <= s.missed || !(s.rests || takesSteps(node))) return true;
@@ -112,7 +112,7 @@ bool Degradation::putOff(Node& node) {
 
 Degradation::Turn Degradation::turnOf(Node& node, const TimeSignature& now) {
   Turn turn{now, false};
-  const Node::Missed missed = std::exchange(node.standing().missed, Node::Missed::Nothing);
+  const Node::Missed missed = std::exchange(node.scheduleState().missed, Node::Missed::Nothing);
   if (missed == Node::Missed::Nothing) return turn;
   const auto at = paced_.find(node.self());
   turn.rested = missed == Node::Missed::Time;
@@ -144,7 +144,7 @@ bool Degradation::consistent() const {
   for (const auto& [number, l] : tree_.loads())
     for (const std::uint32_t position : l->enterOrder) {
       const Node& node = *l->nodes[position];
-      if (node.standing().missed == Node::Missed::Nothing) continue;
+      if (node.scheduleState().missed == Node::Missed::Nothing) continue;
       const auto paced = paced_.find(node.self());
       if (paced == paced_.end() || paced->second.since < 0 || paced->second.since > time_.now) return false;
     }

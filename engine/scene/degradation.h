@@ -1,7 +1,7 @@
 #pragma once
 /// Applies the degradation of nodes that cost too much: they run less often, simplify their meshes or hide.
 ///
-/// Decisions are made elsewhere (engine/core/load_control.h). They arrive with the time signature of a frame
+/// Decisions are made elsewhere (engine/core/cost_budget.h). They arrive with the time signature of a frame
 /// and take effect at its start. A decision about a node also holds for all nodes below it.
 ///
 /// Ownership  borrows its collaborators.
@@ -9,7 +9,7 @@
 /// Errors     decisions that name no such node or level are ignored: a log may belong to another version of
 ///            the script.
 
-#include "engine/core/load_control.h"
+#include "engine/core/cost_budget.h"
 #include "engine/scene/instances.h"
 #include "engine/scene/placements.h"
 #include "engine/scene/scene_time.h"

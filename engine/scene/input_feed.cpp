@@ -48,7 +48,7 @@ void InputFeed::toWorld(Course& course, Nanoseconds start, Nanoseconds end) {
   Course &rig = rigCourse_, &ridden = ridden_;
   rig.clear(), ridden.clear();
   if (!rigs_.empty()) {
-    rig = courses_.within(rigs_.back().placement, rigStart_, start, end, placements_);
+    rig = poseTracks_.within(rigs_.back().placement, rigStart_, start, end, placements_);
   } else if (X_WR.p != rigStart_.p || X_WR.q.coeffs() != rigStart_.q.coeffs()) {
     rig.push_back({start, rigStart_, false}), rig.push_back({end, X_WR, false});
   }

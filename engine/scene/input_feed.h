@@ -9,9 +9,9 @@
 ///            its standard height.
 
 #include "engine/input/input_sample.h"
-#include "engine/scene/courses.h"
 #include "engine/scene/node.h"
 #include "engine/scene/placements.h"
+#include "engine/scene/pose_tracks.h"
 #include "engine/scene/scene_time.h"
 
 #include <string>
@@ -21,8 +21,8 @@ namespace stadion {
 
 class InputFeed {
 public:
-  InputFeed(const Placements& placements, const Courses& courses, const SceneTime& time)
-      : placements_(placements), courses_(courses), time_(time) {}
+  InputFeed(const Placements& placements, const PoseTracks& courses, const SceneTime& time)
+      : placements_(placements), poseTracks_(courses), time_(time) {}
 
   // For nodes.
 
@@ -74,7 +74,7 @@ private:
   void toWorld(Course& course, Nanoseconds start, Nanoseconds end);
 
   const Placements& placements_;
-  const Courses& courses_;
+  const PoseTracks& poseTracks_;
   const SceneTime& time_;
   std::vector<Rig> rigs_;  ///< the last one is in use
   Pose freeRig_;           ///< X_WR of a show without a rig node

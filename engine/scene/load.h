@@ -10,7 +10,7 @@
 /// Errors     of the file are reported when it is prepared.
 
 #include "engine/base/diagnostic.h"
-#include "engine/core/load_control.h"
+#include "engine/core/cost_budget.h"
 #include "engine/published/records.h"
 #include "engine/scene/node.h"
 

@@ -74,7 +74,7 @@ public:
   /// What the node has missed since its last cycle: nothing, frames that it makes up for, or time as well.
   enum class Missed : std::uint8_t { Nothing, Frames, Time };
   /// What the scene notes about an installed node. Only the scene's parts use it.
-  struct Standing {
+  struct ScheduleState {
     std::uint64_t hash = 0;  ///< its part of the state hash
     bool busy = false;
     bool touched = false;     ///< its state has changed since `hash` was computed
@@ -83,8 +83,8 @@ public:
     std::uint16_t level = 0;  ///< within its rank: a node comes after those that it looks at
     Missed missed{};
   };
-  Standing& standing() { return standing_; }
-  const Standing& standing() const { return standing_; }
+  ScheduleState& scheduleState() { return scheduleState_; }
+  const ScheduleState& scheduleState() const { return scheduleState_; }
   void addNotification(Notification n) { notifications_.push_back(std::move(n)); }
 
   /// Enters the scene: resolves names, adds placements and instances. Called once, when the load is
@@ -151,7 +151,7 @@ private:
 
   const NodeType* type_;
   NodeRef self_;
-  Standing standing_;
+  ScheduleState scheduleState_;
   std::string name_;
   std::vector<Notification> notifications_;
   std::vector<Raised> raised_;

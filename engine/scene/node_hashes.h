@@ -22,17 +22,17 @@ class NodeHashes {
 public:
   /// Marks a node whose state changed outside its own cycle; settle() hashes it again.
   void touch(Node& node) {
-    if (std::exchange(node.standing().touched, true)) return;
+    if (std::exchange(node.scheduleState().touched, true)) return;
     touched_.push_back(&node);
   }
   /// Hashes the node again.
   void update(Node& node) {
     const std::uint64_t now = hashOf(node);
-    sum_ += now - std::exchange(node.standing().hash, now);
-    node.standing().touched = false;
+    sum_ += now - std::exchange(node.scheduleState().hash, now);
+    node.scheduleState().touched = false;
   }
   /// Takes the node out of the sum.
-  void remove(Node& node) { sum_ -= std::exchange(node.standing().hash, 0); }
+  void remove(Node& node) { sum_ -= std::exchange(node.scheduleState().hash, 0); }
   /// Drops the marks of a load's nodes. Call it before they are destroyed.
   void forget(std::uint32_t load) {
     std::erase_if(touched_, [&](const Node* node) { return node->self().load == load; });
@@ -40,7 +40,7 @@ public:
   /// Hashes all marked nodes again.
   void settle(FrameProbe* probe) {
     for (Node* node : touched_) {
-      if (!node->standing().touched) continue;  // its own cycle came after the touch
+      if (!node->scheduleState().touched) continue;  // its own cycle came after the touch
       const SpanScope span(probe, Span::Settle, node->self());
       update(*node);
     }

@@ -77,7 +77,7 @@ void NodeSchedule::findLevels(const Scene& scene) {
   bool changed = false;
   for (const NodeRef ref : loadWatchers_)
     if (Node* node = tree_.find(ref))
-      changed |= std::exchange(node->standing().level, levelOf(ref)) != levelOf(ref);
+      changed |= std::exchange(node->scheduleState().level, levelOf(ref)) != levelOf(ref);
   if (changed) queue_.reorder();
 }
 

@@ -102,7 +102,7 @@ void PlacedNode::resetAt(Nanoseconds when, FrameContext& frame) {
 
 /// Its course in this frame, begun where it is if nothing has been said of it yet.
 Course& PlacedNode::course(FrameContext& frame) const {
-  return frame.scene.courses().of(placement_,
+  return frame.scene.poseTracks().of(placement_,
                                   {frame.start(), poseOf(frame.scene.placements().world(placement_)), false});
 }
 

@@ -10,10 +10,10 @@ namespace stadion {
 
 Scene::Scene(SceneLoader& loader, MeshStore& meshes, std::size_t threads)
     : loader_(loader), tree_(*this), requests_(loader), instances_(placements_, meshes, time_),
-      lights_(placements_, tree_, loader), sounds_(placements_), feed_(placements_, courses_, time_),
+      lights_(placements_, tree_, loader), sounds_(placements_), feed_(placements_, poseTracks_, time_),
       degradation_(tree_, placements_, instances_, time_), schedule_(tree_, placements_, degradation_),
-      impacts_(schedule_), publisher_(placements_, instances_, lights_, degradation_, feed_), crew_(threads) {
-}
+      impacts_(schedule_), publisher_(placements_, instances_, lights_, degradation_, feed_),
+      workers_(threads) {}
 
 // No node leaves: the scene is no longer looked at, and if a file broke off while it was installed, some of
 // its nodes have not entered.
@@ -40,7 +40,7 @@ void Scene::advance(const TimeSignature& now, const InputSample& input, ChangeSe
   counters_ = {};
   events_.clear();
   time_ = {now.frame, now.time, now.time - now.step};
-  courses_.clear();
+  poseTracks_.clear();
   impacts_.beginFrame();
   applyLoads(now, probe);
   degradation_.apply(now);
@@ -135,8 +135,8 @@ void Scene::visit(const TimeSignature& now, const InputSample& input, FrameProbe
 
 void Scene::computeTogether(FrameProbe* probe) {
   if (batch_.size() == 1) return batch_[0].node->compute(probe);
-  const SpanScope span(probe, Span::Crew);
-  crew_.run(batch_.size(), [&](std::size_t i) { batch_[i].node->compute(probe); });
+  const SpanScope span(probe, Span::Workers);
+  workers_.run(batch_.size(), [&](std::size_t i) { batch_[i].node->compute(probe); });
 }
 
 /// Takes the next nodes of the round that do not look at each other's results, and begins their cycles. False
@@ -171,7 +171,7 @@ void Scene::rejoinParent(const Detached& d, const FrameContext& frame) {
   auto* node = dynamic_cast<PlacedNode*>(find(d.node));
   if (!node) return;
   Affine X_WP = placements_.world(d.parent);
-  const Course course = courses_.within(d.parent, d.X_WP, frame.start(), frame.now.time, placements_);
+  const Course course = poseTracks_.within(d.parent, d.X_WP, frame.start(), frame.now.time, placements_);
   if (!course.empty()) X_WP = withScale(poseOn(course, d.when, Limit::After), X_WP);
   node->rejoin(*this, X_WP);
 }

@@ -21,7 +21,7 @@
 /// Threads    App only. While nodes compute side by side, nothing else is in here.
 /// Errors     those of a show's files go to the loader; lookups of what is not loaded return null.
 
-#include "engine/base/crew.h"
+#include "engine/base/worker_pool.h"
 #include "engine/scene/degradation.h"
 #include "engine/scene/impact_watch.h"
 #include "engine/scene/input_feed.h"
@@ -92,7 +92,7 @@ public:
   NodeSchedule& schedule() { return schedule_; }
   Placements& placements() { return placements_; }
   const Placements& placements() const { return placements_; }
-  Courses& courses() { return courses_; }
+  PoseTracks& poseTracks() { return poseTracks_; }
   const Degradation& degradation() const { return degradation_; }
   InputFeed& feed() { return feed_; }
   const InputFeed& feed() const { return feed_; }
@@ -164,7 +164,7 @@ private:
   SceneLoader& loader_;
   SceneTime time_;
   Placements placements_;
-  Courses courses_;
+  PoseTracks poseTracks_;
   SceneTree tree_;
   LoadRequests requests_;
   Instances instances_;
@@ -177,7 +177,7 @@ private:
   Publisher publisher_;
   NodeHashes hashes_;
   MessageQueue messages_;
-  Crew crew_;
+  WorkerPool workers_;
   std::vector<Cycle> batch_;  ///< nodes whose cycles run side by side
   FrameCounters counters_;
   std::vector<EventRecord> events_;

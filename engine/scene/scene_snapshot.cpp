@@ -157,7 +157,7 @@ void SceneSnapshot::visitNodes(StateFields& f) {
 }
 
 void SceneSnapshot::visitNode(StateFields& f, Node& node) {
-  Node::Standing& s = node.standing();
+  Node::ScheduleState& s = node.scheduleState();
   f("rests", s.rests), f("pace", s.pace), f("missed", s.missed), f("level", s.level);
   if (f.restores() && s.pace > levelsOf(Concession::Half)) return f.fail();
   node.state(f);

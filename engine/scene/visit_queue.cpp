@@ -18,8 +18,8 @@ void sortOut(std::vector<VisitQueue::Entry>& entries) {
 }  // namespace
 
 void VisitQueue::setBusy(Node& node, bool busy) {
-  if (node.standing().busy == busy) return;
-  node.standing().busy = busy;
+  if (node.scheduleState().busy == busy) return;
+  node.scheduleState().busy = busy;
   if (busy)
     joining_.push_back(entryOf(node));
   else
@@ -32,7 +32,7 @@ void VisitQueue::settle() {
     joining_.clear();
     sortOut(busy_);
   }
-  if (left_) std::erase_if(busy_, [](const Entry& e) { return !e.node->standing().busy; });
+  if (left_) std::erase_if(busy_, [](const Entry& e) { return !e.node->scheduleState().busy; });
   left_ = false;
 }
 

@@ -23,7 +23,7 @@ struct Visit {
   NodeRef node;
   auto operator<=>(const Visit&) const = default;
 
-  static Visit of(const Node& node) { return {node.rank(), node.standing().level, node.self()}; }
+  static Visit of(const Node& node) { return {node.rank(), node.scheduleState().level, node.self()}; }
 };
 
 class VisitQueue {

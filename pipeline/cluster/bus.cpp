@@ -1,7 +1,7 @@
 #include "pipeline/cluster/bus.h"
 
 #include "pipeline/cluster/loopback_sockets.h"
-#include "pipeline/platform/promptness.h"
+#include "pipeline/platform/scoped_realtime_priority.h"
 
 #include <dds/dds.h>
 #include <fmt/format.h>
@@ -123,7 +123,7 @@ Result<std::unique_ptr<Bus>> Bus::open(const ClusterFile& o, BusListener& listen
   };
   std::unique_ptr<Bus> bus(new Bus);
   bus->listener_ = &listener;
-  const Promptness prompt(Promptness::For::ThoseItStarts);  // Cyclone's own
+  const ScopedRealtimePriority prompt(ScopedRealtimePriority::For::ThoseItStarts);  // Cyclone's own
   const LoopbackSockets sockets;
   bus->domain_ = dds_create_domain(o.domain, configurationOf(o).c_str());
   if (bus->domain_ < 0) return wrong(reasonOf(bus->domain_));

@@ -2,7 +2,7 @@
 
 #include "engine/plain_text/text_line.h"
 #include "pipeline/cluster/terms.h"
-#include "pipeline/platform/promptness.h"
+#include "pipeline/platform/scoped_realtime_priority.h"
 
 #include <fmt/format.h>
 
@@ -90,7 +90,7 @@ void Follower::announceProgress() {
 void Follower::giveIfAsked() {
   if (!bus_ || !kept_ || session_.giver != options_.node || session_.resumes != kept_->parcel.session) return;
   if (std::exchange(given_, session_.number) == session_.number) return;
-  SceneParcel parcel = kept_->parcel;
+  SceneTransfer parcel = kept_->parcel;
   parcel.to = parcel.session = session_.number;
   giving_.emplace_back([this, parcel = std::move(parcel)] { send(*bus_, parcel); });
 }
@@ -127,7 +127,7 @@ std::optional<Joining> Follower::joinSession(std::unique_lock<std::mutex>& lock)
     return over_ || (session_.number != 0 && session_.giver == kNoNode && !session_.over);
   };
   if (!await(lock, (lead + ", the leader").c_str(), known) || over_) return {};
-  const Agreement theirs = read(session_.terms);
+  const CompatibilityKey theirs = read(session_.terms);
   if (const std::string why = refusal(theirs, options_.terms, lead); !why.empty()) {
     options_.tell(why);
     refused_ = true;
@@ -154,7 +154,7 @@ std::optional<Joining> Follower::joinSession(std::unique_lock<std::mutex>& lock)
   if (!await(lock, ("the scene's state from " + lead).c_str(), has) || hasEnded()) return {};
   const auto kept = std::make_shared<const KeptScene>(KeptScene{incoming_.take(), show_, framesShown_});
   kept_ = kept;
-  const SceneParcel& parcel = kept->parcel;
+  const SceneTransfer& parcel = kept->parcel;
   obeyed_ = parcel.serial, plays_ = true;
   joining.after.frame = parcel.frame, joining.after.time = parcel.time;
   std::erase_if(orders_, [&](const HeardOrder& o) { return o.numbers.serial <= obeyed_; });
@@ -172,7 +172,7 @@ void Follower::awaitDouble(std::unique_lock<std::mutex>& lock) {
 }
 
 std::optional<FrameOrder> Follower::next() {
-  const Promptness prompt;  // others wait while it holds the lock
+  const ScopedRealtimePriority prompt;  // others wait while it holds the lock
   std::unique_lock lock(mutex_);
   if (orders_.empty() && told_ != Phase::Ready) announce(Phase::Ready);
   const std::string& lead = options_.cluster.nodes[options_.cluster.lead].name;
@@ -216,7 +216,7 @@ bool Follower::explain(std::unique_lock<std::mutex>& lock) {
   };
   if (!await(lock, "the scene of the leader, to compare ours with it", has) || hasEnded() || late)
     return true;
-  const SceneParcel theirs = incoming_.take();
+  const SceneTransfer theirs = incoming_.take();
   const std::optional<Differs> differs = compare_ ? compare_(theirs.scene) : std::nullopt;
   Difference told{};
   told.node = static_cast<std::uint8_t>(options_.node), told.session = joined_, told.frame = frame_;
@@ -233,7 +233,7 @@ bool Follower::explain(std::unique_lock<std::mutex>& lock) {
 }
 
 bool Follower::mayShow(const TimeSignature& now) {
-  const Promptness prompt;
+  const ScopedRealtimePriority prompt;
   std::unique_lock lock(mutex_);
   if (shows_.empty()) return false;
   const auto [serial, member] = shows_.front();
@@ -255,13 +255,13 @@ bool Follower::mayShow(const TimeSignature& now) {
 }
 
 void Follower::simulated(std::uint64_t frame, std::uint64_t digest) {
-  const Promptness prompt;  // others wait while it holds the lock
+  const ScopedRealtimePriority prompt;  // others wait while it holds the lock
   const std::lock_guard lock(mutex_);
   ++tally_.compared;
   bus_->tell(SceneHash{static_cast<std::uint8_t>(options_.node), joined_, frame, digest});
 }
 
-Tally Follower::tally() const {
+ClusterStats Follower::tally() const {
   const std::lock_guard lock(mutex_);
   return tally_;
 }
@@ -384,7 +384,7 @@ std::shared_ptr<const KeptScene> Follower::kept() const {
 
 void Follower::keep(const TimeSignature& last, SavedScene scene) {
   KeptScene kept;
-  SceneParcel& parcel = kept.parcel;
+  SceneTransfer& parcel = kept.parcel;
   parcel.frame = last.frame, parcel.time = last.time, parcel.scene = std::move(scene);
   const std::lock_guard lock(mutex_);
   parcel.session = joined_, parcel.serial = obeyed_, kept.show = show_;

@@ -11,12 +11,12 @@
 ///          threads of their own.
 
 #include "engine/input/input_device.h"
-#include "pipeline/cluster/agreement.h"
 #include "pipeline/cluster/bus.h"
 #include "pipeline/cluster/cluster_file.h"
+#include "pipeline/cluster/cluster_stats.h"
+#include "pipeline/cluster/compatibility_key.h"
 #include "pipeline/cluster/orders.h"
-#include "pipeline/cluster/scene_parcel.h"
-#include "pipeline/cluster/tally.h"
+#include "pipeline/cluster/scene_transfer.h"
 
 #include <condition_variable>
 #include <deque>
@@ -32,7 +32,7 @@ namespace stadion::cluster {
 struct FollowerOptions {
   ClusterFile cluster;
   std::size_t node = 0;
-  Agreement terms;
+  CompatibilityKey terms;
   std::function<void(const std::string&)> tell;
   std::function<bool()> stop;               ///< the wait is no longer wanted
   std::function<bool()> leave{};            ///< no further order is to be applied
@@ -91,7 +91,7 @@ public:
   void keep(const TimeSignature& last, SavedScene scene);
   /// Returns the kept scene; null if there is none, or if it differs from the others' scene.
   std::shared_ptr<const KeptScene> kept() const;
-  Tally tally() const;
+  ClusterStats tally() const;
   void finish();
 
   bool leads() const override { return false; }
@@ -128,7 +128,7 @@ private:
   std::condition_variable changed_;
   Session session_{};         ///< number 0: there is none
   std::uint64_t joined_ = 0;  ///< the session that we play
-  std::uint64_t show_ = 0;    ///< Agreement::show() of that
+  std::uint64_t show_ = 0;    ///< CompatibilityKey::show() of that
   std::deque<HeardOrder> orders_;
   IncomingScene incoming_;        ///< from the leader
   std::uint64_t frame_ = 0;       ///< applied last
@@ -156,7 +156,7 @@ private:
   InputSample sample_;
   bool sampled_ = false;
   std::unique_ptr<InputDevice> input_;
-  Tally tally_;
+  ClusterStats tally_;
   std::unique_ptr<Bus> bus_;
 };
 

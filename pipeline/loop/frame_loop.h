@@ -7,8 +7,8 @@
 /// by frame.
 
 #include "engine/base/time_signature.h"
+#include "engine/core/cost_budget.h"
 #include "engine/core/frame_probe.h"
-#include "engine/core/load_control.h"
 #include "engine/input/run_decisions.h"
 #include "pipeline/frame/frame_times.h"
 #include "pipeline/frame/playback.h"

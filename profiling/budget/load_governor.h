@@ -10,7 +10,7 @@
 ///
 /// Threads  SpanReader's on the log's thread; decide() and see() on App's; reports from any.
 
-#include "engine/core/load_control.h"
+#include "engine/core/cost_budget.h"
 #include "profiling/budget/node_costs.h"
 #include "profiling/budget/stress_filter.h"
 #include "profiling/record/frame_facts.h"

@@ -14,7 +14,7 @@
 /// Units    milliseconds, frames. It has no clock, and knows only its input.
 /// Threads  plain values; one thread at a time.
 
-#include "engine/core/load_control.h"
+#include "engine/core/cost_budget.h"
 
 #include <array>
 #include <optional>

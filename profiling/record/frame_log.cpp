@@ -167,7 +167,7 @@ void FrameLog::began(Span what, NodeRef node) {
   }
   SpanTrack& t = track();
   if (what == Span::Settle) t.count();
-  if (what == Span::Crew) crew_.store(true, std::memory_order_relaxed);
+  if (what == Span::Workers) crew_.store(true, std::memory_order_relaxed);
   const std::uint64_t frame = t.frame();
   t.began(what, frame != kNoFrame ? frame : appFrame_.load(std::memory_order_relaxed), t.wall(), node);
 }
@@ -191,7 +191,7 @@ void FrameLog::ended(Span what) {
     if (what == Span::Mail && !std::exchange(called_, true)) track().beginLightly();
     return;
   }
-  if (what == Span::Crew) crew_.store(false, std::memory_order_relaxed);
+  if (what == Span::Workers) crew_.store(false, std::memory_order_relaxed);
   SpanTrack& t = track();
   if (light && what == Span::App) tellShortVisits();
   t.ended();

@@ -245,13 +245,13 @@ private:
     app.stage = "app";
     const double helped = appScale_ * profile_.helped() / wholeFrames_;
     app.measured =
-        appScale_ * profile_.wholeApp() / wholeFrames_ + helped - std::min(sum(Span::Crew), helped);
+        appScale_ * profile_.wholeApp() / wholeFrames_ + helped - std::min(sum(Span::Workers), helped);
     double published = 0;
     for (const NodeRow& row : out_.nodes) app.nodes += row.app, published += row.publish;
-    for (const Span s : {Span::Loading, Span::Mail, Span::Crew, Span::Sound, Span::Watching})
+    for (const Span s : {Span::Loading, Span::Mail, Span::Workers, Span::Sound, Span::Watching})
       app.named += sum(s);
     app.named += std::max(0.0, sum(Span::Publish) - published);
-    app.named -= std::min(sum(Span::Crew), helped);
+    app.named -= std::min(sum(Span::Workers), helped);
 
     Explained& cull = out_.cull;
     cull.stage = "cull", cull.measured = sum(Span::Cull);

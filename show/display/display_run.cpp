@@ -47,7 +47,7 @@ void DisplayRun::fitPictures(std::vector<WallViews>& walls) const {
   }
 }
 
-FrameLoopOutcome DisplayRun::play(FrameLoop& loop, LiveDesk& desk) {
+FrameLoopOutcome DisplayRun::play(FrameLoop& loop, OperatorConsole& desk) {
   FrameLoopOutcome outcome;
   std::vector<EyePictures> pictures;
   TimeSignature now;
@@ -70,7 +70,7 @@ FrameLoopOutcome DisplayRun::play(FrameLoop& loop, LiveDesk& desk) {
   return outcome;
 }
 
-bool DisplayRun::takeKeys(LiveDesk& desk) {
+bool DisplayRun::takeKeys(OperatorConsole& desk) {
   for (const Key key : displays_->poll())
     if (const auto order = windowOrderOf(key)) desk.queue().post(*order);
   const auto lost = displays_->lost();

@@ -5,7 +5,7 @@
 /// Threads  main.
 
 #include "pipeline/loop/picture_mailbox.h"
-#include "show/console/live_desk.h"
+#include "show/console/operator_console.h"
 #include "show/display/wall_displays.h"
 
 #include <atomic>
@@ -24,9 +24,9 @@ public:
   void fitPictures(std::vector<WallViews>& walls) const;
   /// Plays the loop to its end. Keys pressed in the windows are the operator's (docs/operator.md); Escape
   /// ends the run.
-  FrameLoopOutcome play(FrameLoop& loop, LiveDesk& desk);
+  FrameLoopOutcome play(FrameLoop& loop, OperatorConsole& desk);
   /// Keys pressed since the last call become commands. False if the display was lost: then the run fails.
-  bool takeKeys(LiveDesk& desk);
+  bool takeKeys(OperatorConsole& desk);
   /// Why nothing can be shown any more; nothing while it can.
   std::optional<std::string> lost() const { return displays_->lost(); }
 

@@ -2,14 +2,14 @@
 
 #include "dynamics/nodes/body_maker.h"
 #include "show/base/standard_nodes.h"
-#include "show/player/enclosing_show.h"
+#include "show/player/show_of_part.h"
 
 #include "dynamics/nodes/dyn_object_node.h"
 #include "engine/asset/import.h"
 #include "engine/build/builder.h"
+#include "engine/plain_text/suggestion.h"
 #include "engine/script/script.h"
 #include "engine/script/script_texts.h"
-#include "engine/plain_text/suggestion.h"
 
 #include <filesystem>
 #include <fmt/format.h>

@@ -1,7 +1,7 @@
 #include "show/recording/run_watch.h"
 
 #include "engine/base/atomic_file.h"
-#include "engine/core/load_control.h"
+#include "engine/core/cost_budget.h"
 #include "engine/core/state_hash.h"
 
 #include <algorithm>

@@ -68,7 +68,7 @@ bool OpenSession::open(Diagnostics& findings) {
   if (journal_) reporter_.keepIn(*journal_), state_.journal = journal_.get();
   parts_ = makeSessionParts(state_, findings);
   if (findings.hasErrors() || !openDrawing(findings)) return false;
-  console_ = LiveDesk::open({s.show, s.play, s.console}, reporter_, findings);
+  console_ = OperatorConsole::open({s.show, s.play, s.console}, reporter_, findings);
   if (!console_) return false;
   state_.console = console_.get();
   player_ = openShow(findings);
@@ -131,7 +131,7 @@ std::unique_ptr<Player> OpenSession::createPlayer(const ShowOptions& show, Diagn
 /// is to end.
 std::unique_ptr<Player> OpenSession::openShow(Diagnostics& findings) {
   ShowOptions show = state_.settings.show;
-  ClusterPart* const cluster = state_.cluster;
+  ClusterSession* const cluster = state_.cluster;
   if (cluster && !cluster->join(show, findings)) return nullptr;
   if (state_.supervised && state_.supervised->state()) show.state = state_.supervised->state();
   if (!show.state) return createPlayer(show, findings);
@@ -176,8 +176,7 @@ void OpenSession::closeShow(NextShow next, Diagnostics& findings) {
 bool OpenSession::waitForScript() {
   constexpr std::chrono::milliseconds kLookAgain{250};
   reporter_.say("the script has errors; the next group's show begins once it is saved without them");
-  ScriptWatch files(state_.settings.show.script, state_.settings.show.assetRoots,
-                    state_.settings.show.types);
+  ScriptWatch files(state_.settings.show.script, state_.settings.show.assetRoots, state_.settings.show.types);
   for (;;) {
     if (state_.stop || !state_.takeKeys()) return false;
     for (const OperatorCommand& c : console_->queue().take()) {

@@ -53,7 +53,7 @@ private:
   SessionState state_;
   std::unique_ptr<GlProvider> provider_;
   std::optional<DrawingPlan> drawing_;
-  std::unique_ptr<LiveDesk> console_;
+  std::unique_ptr<OperatorConsole> console_;
   std::unique_ptr<Player> player_;
   std::vector<std::unique_ptr<SessionPart>> parts_;  ///< closed before the player
 };

@@ -6,8 +6,8 @@
 /// list in session_parts.cpp.
 
 #include "show/base/reporter.h"
-#include "show/cluster/cluster_part.h"
-#include "show/console/live_desk.h"
+#include "show/cluster/cluster_session.h"
+#include "show/console/operator_console.h"
 #include "show/output/output_folder.h"
 #include "show/recording/run_watch.h"
 #include "show/session/session_end.h"
@@ -29,9 +29,9 @@ struct SessionState {
 
   RunJournal* journal = nullptr;
   SupervisedPart* supervised = nullptr;
-  ClusterPart* cluster = nullptr;
+  ClusterSession* cluster = nullptr;
   OutputFolder* folder = nullptr;
-  LiveDesk* console = nullptr;
+  OperatorConsole* console = nullptr;
   Player* player = nullptr;
   RunWatch* watch = nullptr;
   const DrawingPlan* drawing = nullptr;

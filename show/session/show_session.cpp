@@ -38,7 +38,7 @@ const Player& ShowSession::player() const {
 }
 
 bool ShowSession::follows() const {
-  const ClusterPart* cluster = session_->state().cluster;
+  const ClusterSession* cluster = session_->state().cluster;
   return cluster && !cluster->leads();
 }
 

@@ -52,7 +52,7 @@ void SupervisedPart::beginAgain(const Diagnostics& found) {
        " (have its files changed?): it begins again");
 }
 
-void SupervisedPart::goOn(FrameLoopOptions& loop, LiveDesk& desk, RunWatch& watch) {
+void SupervisedPart::goOn(FrameLoopOptions& loop, OperatorConsole& desk, RunWatch& watch) {
   if (!keeps_) return;
   step_ = fromSeconds(1 / loop.rate);
   desk.changed = [this](const OperatorState& state) { obeyed(state); };

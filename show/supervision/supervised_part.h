@@ -7,7 +7,7 @@
 /// Threads  main, but for simulated(), which is App's, and shown(), which is the Draw thread's that swaps.
 
 #include "pipeline/supervision/shared_progress.h"
-#include "show/console/live_desk.h"
+#include "show/console/operator_console.h"
 #include "show/recording/run_watch.h"
 #include "show/supervision/supervision_settings.h"
 
@@ -30,7 +30,7 @@ public:
   /// The snapshot could not be restored, for the reasons found: the show restarts.
   void beginAgain(const Diagnostics& found);
   /// The first show of this process: where it continues, and what the operator had decided. Reports it.
-  void goOn(FrameLoopOptions& loop, LiveDesk& desk, RunWatch& watch);
+  void goOn(FrameLoopOptions& loop, OperatorConsole& desk, RunWatch& watch);
 
   void enter(SharedProgress::Phase phase) { progress_->enter(phase); }
   /// The next group's show begins.

@@ -7,7 +7,7 @@
 #include "engine/display/unfolding.h"
 #include "pipeline/frame/playback.h"
 #include "profiling/record/live_budget.h"
-#include "show/console/live_desk.h"
+#include "show/console/operator_console.h"
 #include "show/recording/run_watch.h"
 #include "show/recording/show_recording.h"
 #include "show/session/session_settings.h"
@@ -33,9 +33,9 @@ struct ShowSurroundings {
   const SessionSettings& settings;
   GlProvider& provider;
   PictureSink& sink;
-  LiveDesk& desk;
+  OperatorConsole& desk;
   /// From one show of a script to the next; shows that are there at the same time and play have one each.
-  std::shared_ptr<KeptParts> kept;
+  std::shared_ptr<ReusableResources> kept;
   InputDevice* visitor = nullptr;        ///< null: the input log plays
   std::vector<SheetPlace> pictureSizes;  ///< by wall, where neither --size nor the wall file says
   SheetPlace overviewSize;
@@ -62,7 +62,7 @@ public:
   void stop();
 
   const Player& player() const { return *player_; }
-  std::shared_ptr<KeptParts> kept() const { return around_.kept; }
+  std::shared_ptr<ReusableResources> kept() const { return around_.kept; }
   Overview& overview() { return *overview_; }
   RunWatch& watch() { return *watch_; }
   ShowPlace place() const;

@@ -47,9 +47,9 @@ std::unique_ptr<ViewSession> ViewSession::open(ViewSettings settings, Reporter& 
   s.windows_ = ViewWindows::open(s.settings_, s.walls_, findings);
   if (!s.windows_ || !s.openDrawing(findings)) return nullptr;
   s.hud_.budgetShown = s.settings_.hud;
-  s.desk_ = LiveDesk::open({played.show, played.play, played.console}, s.hudReporter_, findings);
+  s.desk_ = OperatorConsole::open({played.show, played.play, played.console}, s.hudReporter_, findings);
   if (!s.desk_) return nullptr;
-  s.show_ = PlayingShow::open(s.surroundings(std::make_shared<KeptParts>()), findings);
+  s.show_ = PlayingShow::open(s.surroundings(std::make_shared<ReusableResources>()), findings);
   if (!s.show_ || !s.desk_->begin(s.show_->player(), findings)) return nullptr;
   return session;
 }
@@ -68,7 +68,7 @@ bool ViewSession::openDrawing(Diagnostics& findings) {
   return true;
 }
 
-ShowSurroundings ViewSession::surroundings(std::shared_ptr<KeptParts> kept) {
+ShowSurroundings ViewSession::surroundings(std::shared_ptr<ReusableResources> kept) {
   const bool live = settings_.session.show.input == "none";
   return {settings_.session,
           *provider_,
@@ -271,7 +271,7 @@ void ViewSession::beginReload(const std::string& why) {
   if (reload_) return;
   say(fmt::format("reading {} again: {}", settings_.session.show.script, why));
   files_.settle();
-  ShowSurroundings around = surroundings(std::make_shared<KeptParts>());
+  ShowSurroundings around = surroundings(std::make_shared<ReusableResources>());
   around.recorded = over_;
   reload_ = std::make_unique<ShowReload>(std::move(around));
 }

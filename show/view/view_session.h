@@ -69,7 +69,7 @@ private:
         files_(settings_.session.show.script, settings_.session.show.assetRoots,
                settings_.session.show.types) {}
   bool openDrawing(Diagnostics& findings);
-  ShowSurroundings surroundings(std::shared_ptr<KeptParts> kept);
+  ShowSurroundings surroundings(std::shared_ptr<ReusableResources> kept);
 
   void takeEvents();
   void take(std::size_t window, const WindowEvent& event);
@@ -108,7 +108,7 @@ private:
   PictureMailbox mailbox_;
   ViewHud hud_;
   HudReporter hudReporter_{reporter_, hud_};
-  std::unique_ptr<LiveDesk> desk_;
+  std::unique_ptr<OperatorConsole> desk_;
   OverviewPlace overview_;
   ScriptWatch files_;
   std::unique_ptr<PlayingShow> show_;

@@ -7,7 +7,7 @@ namespace {
 
 class ClusterMemberPart final : public SessionPart {
 public:
-  ClusterMemberPart(SessionState& session, std::unique_ptr<ClusterPart> cluster)
+  ClusterMemberPart(SessionState& session, std::unique_ptr<ClusterSession> cluster)
       : session_(session), cluster_(std::move(cluster)) {
     session.cluster = cluster_.get();
   }
@@ -47,7 +47,7 @@ private:
   }
 
   SessionState& session_;
-  std::unique_ptr<ClusterPart> cluster_;
+  std::unique_ptr<ClusterSession> cluster_;
 };
 
 }  // namespace
@@ -55,7 +55,7 @@ private:
 std::unique_ptr<SessionPart> makeClusterMemberPart(SessionState& session, Diagnostics& findings) {
   SessionSettings& s = session.settings;
   auto cluster =
-      ClusterPart::create(s.cluster, s.show, s.draw.layout, session.reporter.sayFunction(), findings);
+      ClusterSession::create(s.cluster, s.show, s.draw.layout, session.reporter.sayFunction(), findings);
   if (!cluster) return nullptr;
   s.console.elsewhere = !cluster->leads();
   if (!cluster->hasWalls()) s.draw.provider.reset(), s.record.sheets = s.record.video = false;

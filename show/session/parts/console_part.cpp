@@ -10,7 +10,7 @@ public:
   explicit ConsolePart(SessionState& session) : session_(session) {}
 
   bool opened(Diagnostics& findings) override {
-    LiveDesk& console = *session_.console;
+    OperatorConsole& console = *session_.console;
     if (!std::exchange(begun_, true) && !console.begin(*session_.player, findings)) return false;
     console.beginGroup(*session_.player, *session_.watch);
     return true;

@@ -17,10 +17,10 @@ using namespace show_nodes;
 
 TEST(ThreadsCrew, EveryPieceIsDoneOnce) {
   for (const std::size_t threads : {1, 2, 5}) {
-    Crew crew(threads);
+    WorkerPool pool(threads);
     for (std::size_t count = 0; count < 40; ++count) {
       std::vector<std::atomic<int>> done(count);
-      crew.run(count, [&](std::size_t i) { ++done[i]; });
+      pool.run(count, [&](std::size_t i) { ++done[i]; });
       for (const auto& d : done) EXPECT_EQ(d, 1);
     }
   }
@@ -28,14 +28,14 @@ TEST(ThreadsCrew, EveryPieceIsDoneOnce) {
 
 TEST(ThreadsCrew, WhatAPieceThrowsIsThrownWhenAllAreDone) {
   for (const std::size_t threads : {1, 4}) {
-    Crew crew(threads);
+    WorkerPool pool(threads);
     std::atomic<int> done = 0;
     const auto piece = [&](std::size_t i) {
       ++done;
       if (i % 3 == 1) throw std::runtime_error(std::to_string(i));
     };
     try {
-      crew.run(10, piece);
+      pool.run(10, piece);
       ADD_FAILURE() << "nothing was thrown";
     } catch (const std::runtime_error& e) {
       EXPECT_STREQ(e.what(), "1");
@@ -59,9 +59,9 @@ void closeAddressSpace() {
 TEST(ProgramCrew, WithoutRoomForItsThreadsTheSameIsDone) {
   const auto work = [] {
     closeAddressSpace();
-    Crew crew(64);
+    WorkerPool pool(64);
     std::atomic<int> done = 0;
-    crew.run(100, [&](std::size_t) { ++done; });
+    pool.run(100, [&](std::size_t) { ++done; });
     std::_Exit(done == 100 ? 0 : 1);
   };
   EXPECT_EXIT(work(), testing::ExitedWithCode(0), "");

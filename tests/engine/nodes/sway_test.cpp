@@ -328,7 +328,7 @@ protected:
     if (watched_ && frame.now.step > 0)
       for (int part = 0; part <= 7; ++part) {
         const Nanoseconds t = frame.start() + frame.now.step * part / 7;
-        const Vec3 p = frame.scene.courses().at(id, t, frame.scene.placements()).p;
+        const Vec3 p = frame.scene.poseTracks().at(id, t, frame.scene.placements()).p;
         worst = std::max(worst, (p - expected(1, toSeconds(t)).translation()).norm());
       }
     if (!std::exchange(watched_, true)) frame.scene.schedule().watch(id, self());

@@ -1,6 +1,6 @@
 #include "engine/input/scripted_input.h"
+#include "pipeline/cluster/cluster_leader.h"
 #include "pipeline/cluster/follower.h"
-#include "pipeline/cluster/lead.h"
 #include "tests/fuzz/packets.h"
 
 #include <cmath>
@@ -99,7 +99,7 @@ private:
   bool issued_ = false;
   ScriptedInput inner_;
   InputSample input_;
-  std::unique_ptr<Lead> lead_ = Lead::unconnected(
+  std::unique_ptr<ClusterLeader> lead_ = ClusterLeader::unconnected(
       {room(), {1}, std::chrono::seconds(0), [](const std::string&) {}, [] { return true; }}, 1);
   std::unique_ptr<Follower> follower_ =
       Follower::unconnected({room(), 1, {1}, [](const std::string&) {}, [] { return true; }}, 1);

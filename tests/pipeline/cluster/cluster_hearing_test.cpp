@@ -1,8 +1,8 @@
 /// What machines of a cluster make of what no machine of a cluster says.
 
 #include "engine/input/scripted_input.h"
+#include "pipeline/cluster/cluster_leader.h"
 #include "pipeline/cluster/follower.h"
-#include "pipeline/cluster/lead.h"
 
 #include <gtest/gtest.h>
 
@@ -138,13 +138,13 @@ Presence said(std::uint8_t node, std::uint64_t incarnation, std::uint64_t count,
 }
 
 /// Of the show that these lead.
-const std::uint64_t kShow = Agreement{1}.show();
+const std::uint64_t kShow = CompatibilityKey{1}.show();
 constexpr std::uint64_t kSession = 100;
 
 /// One that gives up after two minutes: a test in which it waits at all takes as long.
-std::unique_ptr<Lead> lead() {
+std::unique_ptr<ClusterLeader> lead() {
   using Clock = std::chrono::steady_clock;
-  return Lead::unconnected(
+  return ClusterLeader::unconnected(
       {room(),
        {1},
        std::chrono::seconds(0),
@@ -154,13 +154,13 @@ std::unique_ptr<Lead> lead() {
 }
 
 /// A leader that waits for no other host.
-std::unique_ptr<Lead> leadThatTells(std::vector<std::string>& told) {
-  return Lead::unconnected({room(),
-                            {1},
-                            std::chrono::seconds(0),
-                            [&told](const std::string& what) { told.push_back(what); },
-                            [] { return true; }},
-                           kSession);
+std::unique_ptr<ClusterLeader> leadThatTells(std::vector<std::string>& told) {
+  return ClusterLeader::unconnected({room(),
+                                     {1},
+                                     std::chrono::seconds(0),
+                                     [&told](const std::string& what) { told.push_back(what); },
+                                     [] { return true; }},
+                                    kSession);
 }
 
 TEST(ClusterHearing, TheLeaderDoesNotWaitForAHostLostInTheLastFrame) {
@@ -267,12 +267,12 @@ TEST(ClusterHearing, AHostGoneBeforeTheNextGroupIsNotWaitedFor) {
   // Where it should wait, it is given a second; where it should not, so long that a busy machine is no
   // excuse.
   const auto waits = [](std::chrono::seconds patience, std::uint32_t expected, bool isThere, bool hurry) {
-    LeadOptions options{room(), {1}, patience, [](const std::string&) {}, [] { return false; }};
+    LeaderOptions options{room(), {1}, patience, [](const std::string&) {}, [] { return false; }};
     options.expected = expected;
-    const auto l = Lead::unconnected(options, kSession);
+    const auto l = ClusterLeader::unconnected(options, kSession);
     if (isThere) l->hear(said(1, 9, 1, 0, 0, 0, false, kShow));
     const auto begin = Clock::now();
-    l->begin(60, [&](bool) { return hurry ? Patience::Ends : Patience::Lasts; });
+    l->begin(60, [&](bool) { return hurry ? WaitDecision::Ends : WaitDecision::Lasts; });
     return Clock::now() - begin >= patience;
   };
   constexpr std::chrono::seconds kShort(1), kLong(120);
@@ -302,22 +302,22 @@ TEST(ClusterHearing, OnlyAHostTakenIntoTheShowHasPlayed) {
 TEST(ClusterHearing, AWaitIsAnsweredOnlyAfterItsReport) {
   std::vector<bool> told;
   bool said = false;
-  const auto l = Lead::unconnected(
+  const auto l = ClusterLeader::unconnected(
       {room(), {1}, std::chrono::seconds(60), [&](const std::string&) { said = true; }, [] { return false; }},
       kSession);
   l->begin(60, [&](bool t) {
     EXPECT_EQ(t, said);
     told.push_back(t);
-    return t ? Patience::Ends : Patience::Lasts;
+    return t ? WaitDecision::Ends : WaitDecision::Lasts;
   });
   EXPECT_TRUE(told.size() > 1 && !told.front() && told.back());
   EXPECT_TRUE(l->hasBegun());
 }
 
 TEST(ClusterHearing, ALeaderThatGivesUpWaitingHasBegunNothing) {
-  const auto l = Lead::unconnected(
+  const auto l = ClusterLeader::unconnected(
       {room(), {1}, std::chrono::seconds(60), [](const std::string&) {}, [] { return false; }}, kSession);
-  EXPECT_FALSE(l->begin(60, [](bool) { return Patience::GivesUp; }));
+  EXPECT_FALSE(l->begin(60, [](bool) { return WaitDecision::GivesUp; }));
   EXPECT_FALSE(l->hasBegun());
 }
 
@@ -333,9 +333,9 @@ TEST(ClusterHearing, OfAnotherClusterInTheSameNetworkItIsSaidThatThereIsOne) {
   std::string told;
   const auto tell = [&](const std::string& what) { told = what; };
   const auto stop = [] { return true; };
-  Agreement ours;
+  CompatibilityKey ours;
   ours.cluster = 5;
-  const auto l = Lead::unconnected({room(), ours, std::chrono::seconds(0), tell, stop}, kSession);
+  const auto l = ClusterLeader::unconnected({room(), ours, std::chrono::seconds(0), tell, stop}, kSession);
   Session theirs = session(60, true);
   theirs.terms.cluster = 6;
   l->hear(theirs);
@@ -393,30 +393,33 @@ TEST(ClusterHearing, AHostBesideAMemberOfItsNameIsNoneUntilItAsks) {
 }
 
 TEST(ClusterHearing, WhatMustBeAlikeIsNamedWhereItIsNot) {
-  const Agreement lead{1, 2, 3, 4, "--look full"};
-  Agreement ours = lead;
+  const CompatibilityKey lead{1, 2, 3, 4, "--look full"};
+  CompatibilityKey ours = lead;
   EXPECT_EQ(refusal(lead, ours, "front"), "");
   EXPECT_EQ(remark(lead, ours, "front"), "");
   ours.pictures = "--look plain";
   EXPECT_EQ(remark(lead, ours, "front"),
             "front plays with --look full, we with --look plain: the walls will not look alike");
   EXPECT_EQ(refusal(lead, ours, "front"), "");
-  const auto with = [&](std::uint64_t Agreement::*what, std::uint64_t value) {
-    Agreement other = lead;
+  const auto with = [&](std::uint64_t CompatibilityKey::*what, std::uint64_t value) {
+    CompatibilityKey other = lead;
     other.*what = value;
     return refusal(lead, other, "front");
   };
-  EXPECT_EQ(with(&Agreement::script, 9), "front plays another script; put the same file on all machines");
-  EXPECT_EQ(with(&Agreement::cluster, 9),
+  EXPECT_EQ(with(&CompatibilityKey::script, 9),
+            "front plays another script; put the same file on all machines");
+  EXPECT_EQ(with(&CompatibilityKey::cluster, 9),
             "front has another cluster file; put the same file on all machines");
-  EXPECT_EQ(with(&Agreement::walls, 9), "front has another wall file; put the same file on all machines");
-  EXPECT_EQ(with(&Agreement::input, 0), "front plays another input log; put the same file on all machines");
-  Agreement extended = lead;
+  EXPECT_EQ(with(&CompatibilityKey::walls, 9),
+            "front has another wall file; put the same file on all machines");
+  EXPECT_EQ(with(&CompatibilityKey::input, 0),
+            "front plays another input log; put the same file on all machines");
+  CompatibilityKey extended = lead;
   extended.plugins = "spring 1.0 (12ab)";
   EXPECT_EQ(refusal(lead, extended, "front"), "front plays with no plugins, we with the plugins spring 1.0 "
                                               "(12ab); load the same plugins on all machines");
   EXPECT_EQ(refusal(extended, extended, "front"), "");
-  Agreement live = lead;
+  CompatibilityKey live = lead;
   live.input = 0;
   EXPECT_EQ(refusal(live, lead, "front"), "") << "a follower plays no log of its own then";
 }
@@ -582,12 +585,12 @@ TEST(ClusterHearing, AnEarlierShowThatIsOverIsNoReasonToLeaveTheNextOne) {
 
 TEST(ClusterHearing, WhatAnotherMachineSaysIsNoCommandToATerminal) {
   std::string told;
-  const auto lead = Lead::unconnected({room(),
-                                       {1},
-                                       std::chrono::seconds(0),
-                                       [&](const std::string& what) { told = what; },
-                                       [] { return true; }},
-                                      1);
+  const auto lead = ClusterLeader::unconnected({room(),
+                                                {1},
+                                                std::chrono::seconds(0),
+                                                [&](const std::string& what) { told = what; },
+                                                [] { return true; }},
+                                               1);
   std::string where = "ball\x1b[2J", longText(5000, 'x'), there = "1";
   Difference d{};
   d.node = 1, d.session = 1, d.frame = 3, d.found = true;

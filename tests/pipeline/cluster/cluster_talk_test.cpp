@@ -3,8 +3,8 @@
 
 #include "engine/core/state_hash.h"
 #include "engine/input/scripted_input.h"
+#include "pipeline/cluster/cluster_leader.h"
 #include "pipeline/cluster/follower.h"
-#include "pipeline/cluster/lead.h"
 #include "pipeline/cluster/loopback_sockets.h"
 
 #include <gtest/gtest.h>
@@ -113,7 +113,7 @@ protected:
   }
   void openLead() {
     lead_.reset();
-    auto lead = Lead::open({room(), {1}, patience_, told_.teller(), [] { return false; }});
+    auto lead = ClusterLeader::open({room(), {1}, patience_, told_.teller(), [] { return false; }});
     ASSERT_TRUE(lead) << lead.error().message;
     lead_ = std::move(lead.value());
     lead_->saveWith([this] { return SavedScene{0, scene_.save()}; });
@@ -163,7 +163,7 @@ protected:
   ScriptedInput visitor_;
   NumberScene scene_;
   Told told_;
-  std::unique_ptr<Lead> lead_;
+  std::unique_ptr<ClusterLeader> lead_;
   std::vector<pid_t> machines_;
 
 private:

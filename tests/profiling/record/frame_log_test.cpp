@@ -251,7 +251,7 @@ TEST(FrameLog, WhatNodesSimulateSideBySideIsEachOnesOwnOnAppsThreadToo) {
   for (std::uint64_t frame = 0; frame < 20; ++frame) {
     const SpanScope app(&log, Span::App, frame, kNoWall);
     {
-      const SpanScope crew(&log, Span::Crew);
+      const SpanScope crew(&log, Span::Workers);
       const SpanScope simulate(&log, Span::Simulate, NodeRef{1, 7});
       burn(std::chrono::microseconds(400));
     }

@@ -1,7 +1,7 @@
 /// What a live run gave up because something took too long is in its log, and a replay of it goes the same
 /// way, frame by frame, in every mode.
 
-#include "engine/core/load_control.h"
+#include "engine/core/cost_budget.h"
 #include "engine/input/input_recorder.h"
 #include "tests/programs/program.h"
 #include "tests/show/player/played_show.h"

@@ -1,4 +1,4 @@
-#include "show/player/enclosing_show.h"
+#include "show/player/show_of_part.h"
 
 #include "engine/asset/roots.h"
 #include "engine/script/script.h"

@@ -19,13 +19,13 @@
 
 namespace stadion {
 
-class Crew {
+class WorkerPool {
 public:
   /// `threads` includes the caller: with 1 there are no others.
-  explicit Crew(std::size_t threads);
-  ~Crew();
-  Crew(const Crew&) = delete;
-  Crew& operator=(const Crew&) = delete;
+  explicit WorkerPool(std::size_t threads);
+  ~WorkerPool();
+  WorkerPool(const WorkerPool&) = delete;
+  WorkerPool& operator=(const WorkerPool&) = delete;
 
   /// Calls piece(0) ... piece(count - 1).
   void run(std::size_t count, const std::function<void(std::size_t)>& piece);

@@ -1,4 +1,4 @@
-#include "show/player/overwriting.h"
+#include "show/player/output_conflicts.h"
 
 #include "show/player/player.h"
 #include "show/player/script_assets.h"

@@ -213,7 +213,7 @@ protected:
   }
   void simulate(FrameContext& frame) override {
     const Placements& placements = frame.scene.placements();
-    way = frame.scene.courses().within(at_.placement(), before_, frame.start(), frame.now.time, placements);
+    way = frame.scene.poseTracks().within(at_.placement(), before_, frame.start(), frame.now.time, placements);
     before_ = poseOf(placements.world(at_.placement()));
   }
 

@@ -4,12 +4,12 @@
 /// Threads  main, but for simulated(), which is App's.
 
 #include "engine/scene/scene_snapshot.h"
+#include "pipeline/cluster/cluster_leader.h"
 #include "pipeline/cluster/follower.h"
-#include "pipeline/cluster/lead.h"
 #include "pipeline/record/run_summary.h"
-#include "show/base/telling_thread.h"
+#include "show/base/async_log_writer.h"
 #include "show/cluster/cluster_settings.h"
-#include "show/console/live_desk.h"
+#include "show/console/operator_console.h"
 
 #include <functional>
 #include <memory>
@@ -21,13 +21,14 @@ namespace stadion {
 
 class Scene;
 
-class ClusterPart {
+class ClusterSession {
 public:
   /// Reads the cluster file and completes `show` by it: the walls, and which of them are drawn here. `show`
   /// must outlive it. Null if the settings name no cluster, or with the reason in the findings.
-  static std::unique_ptr<ClusterPart> create(const ClusterSettings& settings, ShowOptions& show,
-                                             StereoLayout layout, std::function<void(const std::string&)> say,
-                                             Diagnostics& findings);
+  static std::unique_ptr<ClusterSession> create(const ClusterSettings& settings, ShowOptions& show,
+                                                StereoLayout layout,
+                                                std::function<void(const std::string&)> say,
+                                                Diagnostics& findings);
 
   /// False: this machine has no walls. Then it takes the frames of another one's wall, and draws nothing.
   bool hasWalls() const { return !file_.nodes[node_].walls.empty(); }
@@ -53,7 +54,7 @@ public:
              Diagnostics& findings);
   /// Adds the orders of the other machines, and the operator's decisions about a show that goes on. After
   /// begin().
-  void addTo(FrameLoopOptions& loop, LiveDesk& desk);
+  void addTo(FrameLoopOptions& loop, OperatorConsole& desk);
   /// What the show's parts sample: the same on all machines. After begin().
   InputDevice* inputOf(Player& player);
   void simulated(const TimeSignature& now);
@@ -73,8 +74,8 @@ public:
   ClusterSummary summary() const;
 
 private:
-  ClusterPart(const ShowOptions& show, StereoLayout layout, ClusterFile file, std::size_t node,
-              std::function<void(const std::string&)> say)
+  ClusterSession(const ShowOptions& show, StereoLayout layout, ClusterFile file, std::size_t node,
+                 std::function<void(const std::string&)> say)
       : show_(show), layout_(layout), file_(std::move(file)), node_(node), teller_(std::move(say)) {}
   void tell(const std::string& what);
   bool openLead(Diagnostics& findings);
@@ -88,7 +89,7 @@ private:
   StereoLayout layout_;
   ClusterFile file_;
   std::size_t node_;
-  TellingThread teller_;
+  AsyncLogWriter teller_;
   std::optional<std::uint64_t>
       planted_;  ///< the frame after which a bit is changed, to see whether that is found
   Player* player_ = nullptr;
@@ -97,7 +98,7 @@ private:
   std::optional<TimeSignature> after_;     ///< the show goes on after that
   std::optional<OperatorState> operator_;  ///< and what had been decided about it
   TimeSignature last_;                     ///< simulated
-  std::unique_ptr<cluster::Lead> lead_;
+  std::unique_ptr<cluster::ClusterLeader> lead_;
   std::unique_ptr<cluster::Follower> follower_;
   std::shared_ptr<const cluster::KeptScene> kept_;  ///< of the show that the follower before played
 };

@@ -9,7 +9,7 @@
 
 namespace stadion::cluster {
 
-struct Tally {
+struct ClusterStats {
   std::uint64_t orders = 0, orderBytes = 0, mostOrderBytes = 0;
   /// Waits of frames for which all others waited for this host: from the end of its drawing to the permission
   /// to show [ms].

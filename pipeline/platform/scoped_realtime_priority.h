@@ -14,7 +14,7 @@
 namespace stadion {
 
 /// Applies to the calling thread during its lifetime. The same thread must destroy it.
-class Promptness {
+class ScopedRealtimePriority {
 public:
   enum class For {
     This,
@@ -22,10 +22,10 @@ public:
   };  ///< ThoseItStarts: threads started meanwhile, for their whole
       ///< lives
 
-  explicit Promptness(For threads = For::This);
-  ~Promptness();
-  Promptness(const Promptness&) = delete;
-  Promptness& operator=(const Promptness&) = delete;
+  explicit ScopedRealtimePriority(For threads = For::This);
+  ~ScopedRealtimePriority();
+  ScopedRealtimePriority(const ScopedRealtimePriority&) = delete;
+  ScopedRealtimePriority& operator=(const ScopedRealtimePriority&) = delete;
 
 private:
   bool handedDown_, changed_ = false;

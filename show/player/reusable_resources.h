@@ -9,7 +9,7 @@
 
 namespace stadion {
 
-struct KeptParts {
+struct ReusableResources {
   ImportedMeshes models;
   WallContexts contexts;  ///< they use the models, and go first
 };

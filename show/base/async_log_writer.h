@@ -13,12 +13,12 @@
 
 namespace stadion {
 
-class TellingThread {
+class AsyncLogWriter {
 public:
-  explicit TellingThread(std::function<void(const std::string&)> say);
-  ~TellingThread();
-  TellingThread(const TellingThread&) = delete;
-  TellingThread& operator=(const TellingThread&) = delete;
+  explicit AsyncLogWriter(std::function<void(const std::string&)> say);
+  ~AsyncLogWriter();
+  AsyncLogWriter(const AsyncLogWriter&) = delete;
+  AsyncLogWriter& operator=(const AsyncLogWriter&) = delete;
 
   /// While lines cannot be written, no more than the first thousand are kept.
   void tell(std::string line);

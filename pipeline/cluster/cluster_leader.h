@@ -11,12 +11,12 @@
 ///          App thread; mayShow() on the Draw thread that arrived last; the rest on the network's.
 
 #include "engine/input/input_device.h"
-#include "pipeline/cluster/agreement.h"
 #include "pipeline/cluster/bus.h"
 #include "pipeline/cluster/cluster_file.h"
+#include "pipeline/cluster/cluster_stats.h"
+#include "pipeline/cluster/compatibility_key.h"
 #include "pipeline/cluster/orders.h"
-#include "pipeline/cluster/scene_parcel.h"
-#include "pipeline/cluster/tally.h"
+#include "pipeline/cluster/scene_transfer.h"
 
 #include <chrono>
 #include <condition_variable>
@@ -29,9 +29,9 @@
 
 namespace stadion::cluster {
 
-struct LeadOptions {
+struct LeaderOptions {
   ClusterFile cluster;
-  Agreement terms;
+  CompatibilityKey terms;
   std::chrono::seconds patience{};  ///< limit for nodes that have not come; then the show begins without them
   std::function<void(const std::string&)> tell;
   std::function<bool()> stop;  ///< the wait is no longer wanted
@@ -42,12 +42,12 @@ struct LeadOptions {
 };
 
 /// The operator's choice about nodes that have not come.
-enum class Patience {
+enum class WaitDecision {
   Lasts,
   Ends,     ///< the show is to begin without them
   GivesUp,  ///< it is not to begin
 };
-using OperatorsPatience = std::function<Patience(bool told)>;
+using OperatorDecision = std::function<WaitDecision(bool told)>;
 
 /// A show that the other nodes play already.
 struct ShowUnderWay {
@@ -58,15 +58,15 @@ struct ShowUnderWay {
   Presentation shown{};                                    ///< how that frame was shown
 };
 
-class Lead final : public FrameOrders, public BusListener {
+class ClusterLeader final : public FrameOrders, public BusListener {
 public:
   /// Number of deadlines after which a node that lives but draws nothing is left out.
   static constexpr double kStuck = 10;
 
-  static Result<std::unique_ptr<Lead>> open(LeadOptions options);
+  static Result<std::unique_ptr<ClusterLeader>> open(LeaderOptions options);
   /// Returns a leader without a network, which receives only what hear() is given and sends no scene.
-  static std::unique_ptr<Lead> unconnected(LeadOptions options, std::uint64_t session);
-  ~Lead() override;
+  static std::unique_ptr<ClusterLeader> unconnected(LeaderOptions options, std::uint64_t session);
+  ~ClusterLeader() override;
 
   /// Looks for a show that the other nodes play since its leader crashed, and has one of them send its scene.
   /// Returns nothing if there is none: the show begins. Takes at most two seconds if nodes are missing.
@@ -76,7 +76,7 @@ public:
   /// repeatedly for the operator's choice, with whether he has heard which nodes are missing. `rate` in 1/s.
   /// Returns false if the operator gives up: nothing has begun.
   bool begin(
-      double rate, const OperatorsPatience& operators = [](bool) { return Patience::Lasts; });
+      double rate, const OperatorDecision& operators = [](bool) { return WaitDecision::Lasts; });
   /// The nodes that played with us at the end or shortly before, one bit each. Call it after finish().
   std::uint32_t played() const;
   bool hasBegun() const;
@@ -88,7 +88,7 @@ public:
   /// Returns true if the scene is compared after that frame, by its digest().
   bool compares(std::uint64_t frame) const { return frame % options_.cluster.hashEvery == 0; }
   void simulated(std::uint64_t frame, std::uint64_t digest);
-  Tally tally() const;
+  ClusterStats tally() const;
   /// Returns true if another program leads this cluster already: ours must end.
   bool hasDouble() const;
   /// Waits until all nodes have received everything. With `over`, also ends the show for all.
@@ -117,7 +117,7 @@ private:
     std::uint64_t session = 0;      ///< the session that it is in; 0: none
     std::uint64_t plays = 0;        ///< the session of its scene; 0: it has none
     std::uint64_t serial = 0;       ///< of the last order that its scene has applied
-    std::uint64_t show = 0;         ///< Agreement::show() of that session
+    std::uint64_t show = 0;         ///< CompatibilityKey::show() of that session
     Phase phase = Phase::Waiting;
     bool member = false, asks = false;
     bool differs = false;  ///< its scene, and the node has not joined again since
@@ -134,7 +134,7 @@ private:
     std::optional<Clock::time_point> drawnHere{};
   };
 
-  Lead(LeadOptions options, std::uint64_t session);
+  ClusterLeader(LeaderOptions options, std::uint64_t session);
   std::optional<std::size_t> newestOf(std::uint32_t nodes) const;
   void send(const InputSample* input);
   void answerRequests();
@@ -148,7 +148,7 @@ private:
   bool waits() const { return !double_ && !options_.stop(); }
   const std::string& nameOf(std::size_t node) const { return options_.cluster.nodes[node].name; }
 
-  LeadOptions options_;
+  LeaderOptions options_;
   Session session_{};
   mutable std::mutex mutex_;
   std::condition_variable changed_;
@@ -164,13 +164,13 @@ private:
   std::uint8_t latest_ = 0;                                     ///< the node that has drawn last
   std::deque<std::pair<std::uint64_t, std::uint64_t>> hashes_;  ///< ours: frame, hash
   std::vector<SceneHash> early_;                                ///< of frames that we have not simulated yet
-  std::deque<SceneParcel> parcels_;
+  std::deque<SceneTransfer> parcels_;
   IncomingScene incoming_;  ///< from the node that sends us the show
   bool ending_ = false, double_ = false;
   std::function<SavedScene()> save_;
   std::unique_ptr<SampledInput> input_;
   WrittenOrder written_;
-  Tally tally_;
+  ClusterStats tally_;
   std::unique_ptr<Bus> bus_;
   std::thread sender_;
 };

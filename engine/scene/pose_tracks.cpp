@@ -1,4 +1,4 @@
-#include "engine/scene/courses.h"
+#include "engine/scene/pose_tracks.h"
 
 #include "engine/maths/functions.h"
 
@@ -18,12 +18,12 @@ bool near(const Pose& a, const Pose& b) {
 
 }  // namespace
 
-void Courses::clear() {
+void PoseTracks::clear() {
   for (std::uint32_t i = 0; i < used_; ++i) at_[pool_[i].id] = 0;
   used_ = 0;
 }
 
-Course& Courses::of(PlacementId id, const PoseKnot& first) {
+Course& PoseTracks::of(PlacementId id, const PoseKnot& first) {
   if (at_.size() <= id) at_.resize(id + std::size_t{1});
   if (at_[id] != 0) return pool_[at_[id] - 1].course;
   if (used_ == pool_.size()) pool_.emplace_back();
@@ -34,14 +34,14 @@ Course& Courses::of(PlacementId id, const PoseKnot& first) {
   return known.course;
 }
 
-const Courses::Known* Courses::above(PlacementId id, const Placements& placements) const {
+const PoseTracks::Known* PoseTracks::above(PlacementId id, const Placements& placements) const {
   if (used_ == 0) return nullptr;
   for (; id != kNoPlacement; id = placements.carrier(id))
     if (id < at_.size() && at_[id] != 0) return &pool_[at_[id] - 1];
   return nullptr;
 }
 
-Pose Courses::at(PlacementId id, Nanoseconds time, const Placements& placements) const {
+Pose PoseTracks::at(PlacementId id, Nanoseconds time, const Placements& placements) const {
   const Pose now = poseOf(placements.world(id));
   const Known* carrier = above(id, placements);
   if (!carrier) return now;
@@ -49,14 +49,14 @@ Pose Courses::at(PlacementId id, Nanoseconds time, const Placements& placements)
   return poseOn(way, time, Limit::After) * (way.back().X.inverse() * now);
 }
 
-Pose Courses::startOf(PlacementId id, const Placements& placements) const {
+Pose PoseTracks::startOf(PlacementId id, const Placements& placements) const {
   const Pose now = poseOf(placements.world(id));
   const Known* carrier = above(id, placements);
   return carrier ? carrier->course.front().X * (carrier->course.back().X.inverse() * now) : now;
 }
 
-Course Courses::within(PlacementId id, const Pose& before, Nanoseconds start, Nanoseconds end,
-                       const Placements& placements) const {
+Course PoseTracks::within(PlacementId id, const Pose& before, Nanoseconds start, Nanoseconds end,
+                          const Placements& placements) const {
   const Pose now = poseOf(placements.world(id));
   const Known* carrier = above(id, placements);
   const bool carried = carrier && moves(carrier->course);

@@ -1,4 +1,4 @@
-#include "pipeline/platform/promptness.h"
+#include "pipeline/platform/scoped_realtime_priority.h"
 
 #include <sched.h>
 #include <sys/syscall.h>
@@ -25,7 +25,7 @@ bool set(const Attributes& attributes) {
 
 }  // namespace
 
-Promptness::Promptness(For threads) : handedDown_(threads == For::ThoseItStarts) {
+ScopedRealtimePriority::ScopedRealtimePriority(For threads) : handedDown_(threads == For::ThoseItStarts) {
   Attributes now;
   if (syscall(SYS_sched_getattr, 0, &now, sizeof now, 0) != 0 || now.policy != SCHED_OTHER) return;
   nice_ = now.nice;
@@ -35,7 +35,7 @@ Promptness::Promptness(For threads) : handedDown_(threads == For::ThoseItStarts)
   changed_ = set(realTime) || set(shortTurns);
 }
 
-Promptness::~Promptness() {
+ScopedRealtimePriority::~ScopedRealtimePriority() {
   if (!changed_) return;
   Attributes usual;
   usual.nice = nice_, usual.flags = handedDown_ ? 0 : kResetOnFork;  // only root may undo it

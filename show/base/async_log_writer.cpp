@@ -1,4 +1,4 @@
-#include "show/base/telling_thread.h"
+#include "show/base/async_log_writer.h"
 
 #include <utility>
 
@@ -9,10 +9,10 @@ constexpr std::size_t kMostLines = 1000;
 
 }  // namespace
 
-TellingThread::TellingThread(std::function<void(const std::string&)> say)
+AsyncLogWriter::AsyncLogWriter(std::function<void(const std::string&)> say)
     : say_(std::move(say)), thread_([this] { work(); }) {}
 
-TellingThread::~TellingThread() {
+AsyncLogWriter::~AsyncLogWriter() {
   {
     const std::lock_guard lock(mutex_);
     ending_ = true;
@@ -21,7 +21,7 @@ TellingThread::~TellingThread() {
   thread_.join();
 }
 
-void TellingThread::tell(std::string line) {
+void AsyncLogWriter::tell(std::string line) {
   {
     const std::lock_guard lock(mutex_);
     if (lines_.size() < kMostLines) lines_.push_back(std::move(line));
@@ -29,7 +29,7 @@ void TellingThread::tell(std::string line) {
   changed_.notify_all();
 }
 
-void TellingThread::work() {
+void AsyncLogWriter::work() {
   std::unique_lock lock(mutex_);
   for (;;) {
     changed_.wait(lock, [this] { return ending_ || !lines_.empty(); });

@@ -1,7 +1,7 @@
-#include "pipeline/cluster/agreement.h"
+#include "pipeline/cluster/compatibility_key.h"
 
-#include "engine/plain_text/text_line.h"
 #include "engine/core/state_hash.h"
+#include "engine/plain_text/text_line.h"
 #include "pipeline/cluster/terms.h"
 
 #include <fmt/format.h>
@@ -10,7 +10,7 @@
 
 namespace stadion::cluster {
 
-std::uint64_t Agreement::show() const {
+std::uint64_t CompatibilityKey::show() const {
   StateHash hash;
   hash.add(script), hash.add(input);
   return hash.value();
@@ -27,20 +27,24 @@ std::uint64_t hashOf(const ClusterFile& file) {
   return hash.value();
 }
 
-stadion_wire_Agreement written(const Agreement& a) {
+stadion_wire_Agreement written(const CompatibilityKey& a) {
   stadion_wire_Agreement w{a.script, a.input, a.cluster, a.walls, {}, {}};
   a.plugins.copy(w.plugins, sizeof(w.plugins) - 1);
   a.pictures.copy(w.pictures, sizeof(w.pictures) - 1);
   return w;
 }
 
-Agreement read(const stadion_wire_Agreement& w) {
-  return {w.script, w.input, w.cluster, w.walls,
+CompatibilityKey read(const stadion_wire_Agreement& w) {
+  return {w.script,
+          w.input,
+          w.cluster,
+          w.walls,
           std::string(w.pictures, strnlen(w.pictures, sizeof(w.pictures))),
           std::string(w.plugins, strnlen(w.plugins, sizeof(w.plugins)))};
 }
 
-std::string refusal(const Agreement& lead, const Agreement& ours, const std::string& nameOfLead) {
+std::string refusal(const CompatibilityKey& lead, const CompatibilityKey& ours,
+                    const std::string& nameOfLead) {
   const char* what = lead.script != ours.script                    ? "plays another script"
                      : lead.cluster != ours.cluster                ? "has another cluster file"
                      : lead.walls != ours.walls                    ? "has another wall file"
@@ -55,7 +59,8 @@ std::string refusal(const Agreement& lead, const Agreement& ours, const std::str
                      words(lead.plugins), words(ours.plugins));
 }
 
-std::string remark(const Agreement& lead, const Agreement& ours, const std::string& nameOfLead) {
+std::string remark(const CompatibilityKey& lead, const CompatibilityKey& ours,
+                   const std::string& nameOfLead) {
   if (lead.pictures == ours.pictures) return {};
   return fmt::format("{} plays with {}, we with {}: the walls will not look alike", nameOfLead,
                      printable(lead.pictures, kMostTold), ours.pictures);

@@ -1,4 +1,4 @@
-#include "show/cluster/cluster_part.h"
+#include "show/cluster/cluster_session.h"
 
 #include "engine/base/installed_files.h"
 #include "engine/base/plain_file.h"
@@ -37,9 +37,9 @@ std::uint64_t hashOfFile(const std::string& file) {
 }
 
 /// (Files that scripts name are found out by the scenes' digests.)
-cluster::Agreement termsOf(const ShowOptions& show, StereoLayout layout, const ClusterFile& file) {
+cluster::CompatibilityKey termsOf(const ShowOptions& show, StereoLayout layout, const ClusterFile& file) {
   const std::string log = inputLogOf(show.script, show.input);
-  cluster::Agreement terms;
+  cluster::CompatibilityKey terms;
   terms.script = hashOfFile(show.script);
   terms.input = log.empty() ? 0 : hashOfFile(log);
   terms.cluster = cluster::hashOf(file), terms.walls = hashOfFile(wallFileOf(file.walls));
@@ -57,10 +57,10 @@ cluster::Agreement termsOf(const ShowOptions& show, StereoLayout layout, const C
 
 }  // namespace
 
-std::unique_ptr<ClusterPart> ClusterPart::create(const ClusterSettings& o, ShowOptions& show,
-                                                 StereoLayout layout,
-                                                 std::function<void(const std::string&)> say,
-                                                 Diagnostics& findings) {
+std::unique_ptr<ClusterSession> ClusterSession::create(const ClusterSettings& o, ShowOptions& show,
+                                                       StereoLayout layout,
+                                                       std::function<void(const std::string&)> say,
+                                                       Diagnostics& findings) {
   if (o.file.empty()) return nullptr;
   auto file = loadCluster(o.file, findings);
   if (!file) return nullptr;
@@ -81,28 +81,29 @@ std::unique_ptr<ClusterPart> ClusterPart::create(const ClusterSettings& o, ShowO
   show.walls = file->walls;
   show.onlyWalls = file->nodes[*node].walls;
   if (show.onlyWalls.empty()) show.onlyWalls = {walls->walls.front().wall.name};
-  std::unique_ptr<ClusterPart> part(new ClusterPart(show, layout, std::move(*file), *node, std::move(say)));
+  std::unique_ptr<ClusterSession> part(
+      new ClusterSession(show, layout, std::move(*file), *node, std::move(say)));
   if (o.plantDifference > 0) part->planted_ = o.plantDifference;
   return part;
 }
 
-void ClusterPart::tell(const std::string& what) {
+void ClusterSession::tell(const std::string& what) {
   teller_.tell(fmt::format("cluster, {}: {}", file_.nodes[node_].name, what));
 }
 
 // What the terms are is looked up each time: a script may have been saved since the show before.
-bool ClusterPart::openLead(Diagnostics& findings) {
-  cluster::LeadOptions options{file_, termsOf(show_, layout_, file_), kPatience,
-                               [this](const std::string& what) { tell(what); }, isGivenUp};
+bool ClusterSession::openLead(Diagnostics& findings) {
+  cluster::LeaderOptions options{file_, termsOf(show_, layout_, file_), kPatience,
+                                 [this](const std::string& what) { tell(what); }, isGivenUp};
   if (lead_) options.above = lead_->session(), options.expected = lead_->played();
   lead_.reset();
-  auto opened = cluster::Lead::open(std::move(options));
+  auto opened = cluster::ClusterLeader::open(std::move(options));
   if (!opened) return findings.add(opened.error()), false;
   lead_ = std::move(opened.value());
   return true;
 }
 
-bool ClusterPart::join(ShowOptions& show, Diagnostics& findings) {
+bool ClusterSession::join(ShowOptions& show, Diagnostics& findings) {
   if (!leads()) return follow(show, findings);
   if (!openLead(findings)) return false;
   const auto underWay = lead_->takeOver();
@@ -116,7 +117,7 @@ bool ClusterPart::join(ShowOptions& show, Diagnostics& findings) {
   return true;
 }
 
-bool ClusterPart::follow(ShowOptions& show, Diagnostics& findings) {
+bool ClusterSession::follow(ShowOptions& show, Diagnostics& findings) {
   over_ = follower_ && follower_->isOver();
   if (over_) return false;
   const std::uint64_t played = follower_ ? follower_->session() : 0;
@@ -138,7 +139,7 @@ bool ClusterPart::follow(ShowOptions& show, Diagnostics& findings) {
 }
 
 /// Which files differ is not known here.
-void ClusterPart::refuseFiles(Diagnostics& findings) {
+void ClusterSession::refuseFiles(Diagnostics& findings) {
   otherFiles_ = true;
   findings.error(
       {},
@@ -147,7 +148,7 @@ void ClusterPart::refuseFiles(Diagnostics& findings) {
           file_.nodes[file_.lead].name));
 }
 
-bool ClusterPart::beginAnew(const Diagnostics& found, Diagnostics& findings) {
+bool ClusterSession::beginAnew(const Diagnostics& found, Diagnostics& findings) {
   const auto why = std::ranges::find(found.all(), Severity::Error, &Diagnostic::severity);
   tell("the scripts or models of the show that the others play are others than ours: it begins anew" +
        (why == found.all().end() ? "" : " (" + why->message + ")"));
@@ -155,8 +156,8 @@ bool ClusterPart::beginAnew(const Diagnostics& found, Diagnostics& findings) {
   return openLead(findings);
 }
 
-bool ClusterPart::begin(Player& player, const OperatorQueue& asked, const std::function<bool()>& takeKeys,
-                        Diagnostics& findings) {
+bool ClusterSession::begin(Player& player, const OperatorQueue& asked, const std::function<bool()>& takeKeys,
+                           Diagnostics& findings) {
   player_ = &player;
   if (!leads()) {
     follower_->compareWith([this](const cluster::SavedScene& there) { return differenceTo(there); });
@@ -167,23 +168,24 @@ bool ClusterPart::begin(Player& player, const OperatorQueue& asked, const std::f
     after_.reset(), goesOn_ = false;
   }
   lead_->saveWith([this] { return saved(); });
-  // Start counts once the operator knows for whom the show waits: before, it is meant for all.
+  // Start counts once the operator knows which hosts the show waits for: before, it is meant for all.
   std::size_t before = 0;
   const bool begun = lead_->begin(player.rate(), [&](bool told) {
-    if (!takeKeys()) return cluster::Patience::GivesUp;
+    if (!takeKeys()) return cluster::WaitDecision::GivesUp;
     const std::size_t starts = asked.count(OperatorAction::Start);
     if (!told) before = starts;
     const bool hurries = starts > before || asked.count(OperatorAction::End) > 0;
-    return hurries ? cluster::Patience::Ends : cluster::Patience::Lasts;
+    return hurries ? cluster::WaitDecision::Ends : cluster::WaitDecision::Lasts;
   });
   return begun && !lead_->hasDouble();
 }
 
-cluster::SavedScene ClusterPart::saved() const {
+cluster::SavedScene ClusterSession::saved() const {
   return {SceneSnapshot::filesOf(player_->scene()), SceneSnapshot(player_->scene()).save()};
 }
 
-std::optional<cluster::Follower::Differs> ClusterPart::differenceTo(const cluster::SavedScene& there) const {
+std::optional<cluster::Follower::Differs>
+ClusterSession::differenceTo(const cluster::SavedScene& there) const {
   if (const std::uint64_t ours = SceneSnapshot::filesOf(player_->scene()); ours != there.files)
     return cluster::Follower::Differs{"the scene, files", fmt::format("{:016x}", ours),
                                       fmt::format("{:016x}", there.files)};
@@ -197,17 +199,17 @@ std::optional<cluster::Follower::Differs> ClusterPart::differenceTo(const cluste
   return cluster::Follower::Differs{where + ", " + d->field, d->here, d->there};
 }
 
-void ClusterPart::addTo(FrameLoopOptions& loop, LiveDesk& desk) {
+void ClusterSession::addTo(FrameLoopOptions& loop, OperatorConsole& desk) {
   loop.orders = lead_ ? static_cast<FrameOrders*>(lead_.get()) : follower_.get();
   loop.after = after_;
   if (const auto decided = std::exchange(operator_, {})) desk.resume(*decided);
 }
 
-InputDevice* ClusterPart::inputOf(Player& player) {
+InputDevice* ClusterSession::inputOf(Player& player) {
   return lead_ ? &lead_->input(player.input()) : &follower_->input();
 }
 
-void ClusterPart::simulated(const TimeSignature& now) {
+void ClusterSession::simulated(const TimeSignature& now) {
   const std::uint64_t frame = now.frame;
   last_ = now;
   if (lead_ && lead_->compares(frame)) lead_->simulated(frame, SceneSnapshot(player_->scene()).digest());
@@ -217,7 +219,7 @@ void ClusterPart::simulated(const TimeSignature& now) {
 }
 
 /// The last bit of a body's path, if there is one.
-void ClusterPart::plantDifference() {
+void ClusterSession::plantDifference() {
   class OneBit final : public StateFields {
     void number(std::uint64_t& bits, Form form) override {
       if (done_ || form != Form::Real || name_ != "c" || bits == 0) return;
@@ -229,11 +231,11 @@ void ClusterPart::plantDifference() {
   player_->scene().tree().forEachNode([&](const Node& node) { const_cast<Node&>(node).state(bit); });
 }
 
-bool ClusterPart::hasDouble() const {
+bool ClusterSession::hasDouble() const {
   return (lead_ && lead_->hasDouble()) || (follower_ && follower_->hasDouble());
 }
 
-void ClusterPart::finish(bool over) {
+void ClusterSession::finish(bool over) {
   if (lead_) lead_->finish(over);
   if (!follower_) return;
   if (follower_->keepsScene()) follower_->keep(last_, saved());
@@ -241,8 +243,8 @@ void ClusterPart::finish(bool over) {
   follower_->finish();
 }
 
-ClusterSummary ClusterPart::summary() const {
-  const cluster::Tally t = lead_ ? lead_->tally() : follower_->tally();
+ClusterSummary ClusterSession::summary() const {
+  const cluster::ClusterStats t = lead_ ? lead_->tally() : follower_->tally();
   ClusterSummary s;
   s.node = file_.nodes[node_].name, s.nodes = file_.nodes.size(), s.leads = leads();
   s.orders = t.orders;

@@ -1,4 +1,4 @@
-#include "pipeline/platform/promptness.h"
+#include "pipeline/platform/scoped_realtime_priority.h"
 
 #include <gtest/gtest.h>
 
@@ -22,11 +22,11 @@ void onAThread(void (*work)()) {
   std::thread(work).join();
 }
 
-TEST(Promptness, LastsAsLongAsItsObject) {
+TEST(ScopedRealtimePriority, LastsAsLongAsItsObject) {
   onAThread([] {
     const std::uint64_t turn = turnOfThisThread();
     {
-      const Promptness prompt;
+      const ScopedRealtimePriority prompt;
       const bool realTime = sched_getscheduler(0) == (SCHED_RR | SCHED_RESET_ON_FORK);
       EXPECT_TRUE(realTime || turn == 0 || turnOfThisThread() < turn);
     }
@@ -35,27 +35,27 @@ TEST(Promptness, LastsAsLongAsItsObject) {
   });
 }
 
-TEST(Promptness, IsNotHandedDown) {
+TEST(ScopedRealtimePriority, IsNotHandedDown) {
   onAThread([] {
-    const Promptness prompt;
+    const ScopedRealtimePriority prompt;
     onAThread([] { EXPECT_EQ(sched_getscheduler(0), SCHED_OTHER); });
   });
 }
 
-TEST(Promptness, IsHandedDownWhereThatIsAskedFor) {
+TEST(ScopedRealtimePriority, IsHandedDownWhereThatIsAskedFor) {
   onAThread([] {
-    const Promptness prompt(Promptness::For::ThoseItStarts);
+    const ScopedRealtimePriority prompt(ScopedRealtimePriority::For::ThoseItStarts);
     static int policy;
     policy = sched_getscheduler(0);
     onAThread([] { EXPECT_EQ(sched_getscheduler(0), policy); });
   });
 }
 
-TEST(Promptness, LeavesAnotherPolicy) {
+TEST(ScopedRealtimePriority, LeavesAnotherPolicy) {
   onAThread([] {
     const sched_param none{};
     ASSERT_EQ(sched_setscheduler(0, SCHED_BATCH, &none), 0);
-    { const Promptness prompt; }
+    { const ScopedRealtimePriority prompt; }
     EXPECT_EQ(sched_getscheduler(0), SCHED_BATCH);
   });
 }

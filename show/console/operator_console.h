@@ -9,7 +9,7 @@
 #include "show/base/reporter.h"
 #include "show/console/operator_keys.h"
 #include "show/console/operator_settings.h"
-#include "show/player/kept_parts.h"
+#include "show/player/reusable_resources.h"
 #include "show/recording/run_watch.h"
 
 #include <atomic>
@@ -18,7 +18,7 @@
 
 namespace stadion {
 
-class LiveDesk {
+class OperatorConsole {
 public:
   struct Settings {
     const ShowOptions& show;
@@ -27,11 +27,12 @@ public:
   };
 
   /// Opens trackers. Null, with the reason in the findings, if they cannot be opened.
-  static std::unique_ptr<LiveDesk> open(const Settings& settings, Reporter& reporter, Diagnostics& findings);
-  ~LiveDesk();
+  static std::unique_ptr<OperatorConsole> open(const Settings& settings, Reporter& reporter,
+                                               Diagnostics& findings);
+  ~OperatorConsole();
 
   /// What a live run keeps from group to group; null: this run is for one group.
-  KeptParts* kept() { return live_ ? &kept_ : nullptr; }
+  ReusableResources* kept() { return live_ ? &kept_ : nullptr; }
 
   /// The first show is open: opens sounds, keys and the OSC port. False, with the reason in the findings, if
   /// one cannot be opened.
@@ -61,7 +62,7 @@ public:
   double uptime() const;  ///< since it was opened [s]
 
 private:
-  LiveDesk(const Settings& settings, Reporter& reporter)
+  OperatorConsole(const Settings& settings, Reporter& reporter)
       : settings_(settings), reporter_(reporter), live_(!settings.play.everyFrame) {}
   void say(const std::string& line) const { reporter_.say(line); }
   void writeDown(std::uint64_t frame, const OperatorCommand& command, RunWatch& watch) const;
@@ -77,7 +78,7 @@ private:
   Clock::time_point asked_{};  ///< when the present group was asked for
   Clock::time_point ready_{};  ///< its show could begin
   bool groupIsNew_ = false;
-  KeptParts kept_;
+  ReusableResources kept_;
   AssetRoots roots_;
   std::unique_ptr<TrackerDevice> trackers_;
   std::unique_ptr<OperatorDesk> desk_;

@@ -1,4 +1,4 @@
-#include "show/console/live_desk.h"
+#include "show/console/operator_console.h"
 
 #include <fmt/format.h>
 
@@ -21,9 +21,9 @@ double seconds(std::chrono::steady_clock::duration d) {
 
 }  // namespace
 
-std::unique_ptr<LiveDesk> LiveDesk::open(const Settings& settings, Reporter& reporter,
-                                         Diagnostics& findings) {
-  std::unique_ptr<LiveDesk> desk(new LiveDesk(settings, reporter));
+std::unique_ptr<OperatorConsole> OperatorConsole::open(const Settings& settings, Reporter& reporter,
+                                                       Diagnostics& findings) {
+  std::unique_ptr<OperatorConsole> desk(new OperatorConsole(settings, reporter));
   if (settings.console.trackers.device.empty() || settings.console.elsewhere) return desk;
   desk->trackers_ = TrackerDevice::open(settings.console.trackers, reporter.sayFunction(), findings);
   if (!desk->trackers_) return nullptr;
@@ -31,9 +31,9 @@ std::unique_ptr<LiveDesk> LiveDesk::open(const Settings& settings, Reporter& rep
   return desk;
 }
 
-LiveDesk::~LiveDesk() = default;
+OperatorConsole::~OperatorConsole() = default;
 
-bool LiveDesk::begin(const Player& player, Diagnostics& findings) {
+bool OperatorConsole::begin(const Player& player, Diagnostics& findings) {
   const auto& [show, play, console] = settings_;
   desk_ = std::make_unique<OperatorDesk>(console.wait, player.walls().eyeSeparation);
   const FrameLoopOptions loop = play.loopOptions(player);
@@ -61,7 +61,7 @@ bool LiveDesk::begin(const Player& player, Diagnostics& findings) {
   return true;
 }
 
-void LiveDesk::beginGroup(Player& player, RunWatch& watch) {
+void OperatorConsole::beginGroup(Player& player, RunWatch& watch) {
   ready_ = Clock::now();
   if (std::exchange(groupIsNew_, false)) desk_->awaitPicture();
   if (trackers_) player.takeInputFrom(trackers_->trackers());
@@ -81,7 +81,7 @@ void LiveDesk::beginGroup(Player& player, RunWatch& watch) {
   if (desk_->state().waiting) say("waiting for start");
 }
 
-void LiveDesk::resume(const OperatorState& decided) {
+void OperatorConsole::resume(const OperatorState& decided) {
   const auto order = [&](OperatorAction action, double value) { queue().post({action, value, false}); };
   if (state().waiting && !decided.waiting) queue().post({OperatorAction::Start, {}, false});
   if (decided.paused) order(OperatorAction::Pause, 1);
@@ -93,7 +93,7 @@ void LiveDesk::resume(const OperatorState& decided) {
 }
 
 // What came of it, whatever it was before.
-void LiveDesk::writeDown(std::uint64_t frame, const OperatorCommand& command, RunWatch& watch) const {
+void OperatorConsole::writeDown(std::uint64_t frame, const OperatorCommand& command, RunWatch& watch) const {
   const OperatorState& s = desk_->state();
   const double value = command.action == OperatorAction::Black      ? s.shown.black
                        : command.action == OperatorAction::SwapEyes ? s.shown.swapEyes
@@ -102,13 +102,13 @@ void LiveDesk::writeDown(std::uint64_t frame, const OperatorCommand& command, Ru
   watch.order(frame, {command.action, value, false});
 }
 
-void LiveDesk::pictureSeen() {
+void OperatorConsole::pictureSeen() {
   if (!desk_->pictureSeen()) return;
   say(fmt::format("group {} begins: reset in {:.2f} s, first picture after {:.2f} s; up {}", groups(),
                   seconds(ready_ - asked_), seconds(Clock::now() - asked_), clockText(uptime())));
 }
 
-void LiveDesk::endGroup(const RunWatch& watch) {
+void OperatorConsole::endGroup(const RunWatch& watch) {
   std::string told = fmt::format("group {} ends at {:.3f} s", groups(), toSeconds(watch.time()));
   const char* before = ": ";
   for (const MeasuredDistance& m : watch.measured())
@@ -121,21 +121,21 @@ void LiveDesk::endGroup(const RunWatch& watch) {
   silence();
 }
 
-void LiveDesk::silence() {
+void OperatorConsole::silence() {
   if (!sounds_) return;
   SoundScape nothing;
   sounds_->hear(nothing, {});
   sounds_->settle();
 }
 
-std::string LiveDesk::fileOfGroup(const std::string& file) const {
+std::string OperatorConsole::fileOfGroup(const std::string& file) const {
   if (file.empty() || !desk_ || groups() == 1) return file;
   std::filesystem::path path = file;
   const std::string ending = path.extension();
   return path.replace_extension().string() + fmt::format("-{}", groups()) + ending;
 }
 
-void LiveDesk::addTo(ShowParts& parts, FrameLoopOptions& loop) {
+void OperatorConsole::addTo(ShowParts& parts, FrameLoopOptions& loop) {
   parts.sounds = sounds_.get();
   parts.tell = reporter_.sayFunction();
   parts.desk = loop.desk = desk_.get();
@@ -146,11 +146,11 @@ void LiveDesk::addTo(ShowParts& parts, FrameLoopOptions& loop) {
   };
 }
 
-double LiveDesk::uptime() const {
+double OperatorConsole::uptime() const {
   return seconds(Clock::now() - opened_);
 }
 
-void LiveDesk::tell(const OperatorCommand& command, Nanoseconds showTime) const {
+void OperatorConsole::tell(const OperatorCommand& command, Nanoseconds showTime) const {
   const OperatorState& s = desk_->state();
   const Nanoseconds stands = std::max(showTime, desk_->playback().standsFrom());
   const auto onOff = [](bool on) { return on ? " on" : " off"; };

@@ -18,7 +18,7 @@ struct SavedScene {
   std::vector<std::uint8_t> bytes;  ///< SceneSnapshot::save()
 };
 
-struct SceneParcel {
+struct SceneTransfer {
   std::uint64_t to = 0;                   ///< an incarnation, or the leader's session
   std::uint64_t session = 0, serial = 0;  ///< the state is the scene after that order
   std::uint64_t frame = 0;                ///< simulated last
@@ -31,13 +31,13 @@ struct SceneParcel {
 /// A scene that a host keeps ready while it plays no show, so that a crashed leader does not lose it.
 /// `parcel` names its session and its last order.
 struct KeptScene {
-  SceneParcel parcel;
-  std::uint64_t show = 0;         ///< Agreement::show() of that session
+  SceneTransfer parcel;
+  std::uint64_t show = 0;         ///< CompatibilityKey::show() of that session
   std::uint64_t framesShown = 0;  ///< Follower::framesShown_ then
 };
 
 /// May take long, because the scene is large.
-void send(Bus& bus, const SceneParcel& parcel);
+void send(Bus& bus, const SceneTransfer& parcel);
 
 /// A scene that is being received.
 class IncomingScene {
@@ -47,12 +47,12 @@ public:
   bool complete() const { return complete_; }
   std::uint64_t received() const { return received_; }  ///< [byte]
   /// Returns a scene only if it is complete. Afterwards there is none.
-  SceneParcel take();
+  SceneTransfer take();
   std::uint64_t session() const { return parcel_.session; }
   std::uint64_t serial() const { return parcel_.serial; }
 
 private:
-  SceneParcel parcel_;
+  SceneTransfer parcel_;
   std::uint64_t size_ = 0, received_ = 0;  ///< [byte]
   bool complete_ = false;
 };

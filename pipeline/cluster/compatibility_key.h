@@ -12,7 +12,7 @@
 
 namespace stadion::cluster {
 
-struct Agreement {
+struct CompatibilityKey {
   std::uint64_t script = 0;   ///< hash of its text
   std::uint64_t input = 0;    ///< hash of the input log; 0: no log is played
   std::uint64_t cluster = 0;  ///< hashOf() the cluster file
@@ -27,13 +27,14 @@ struct Agreement {
 /// Hashes what the file says for all hosts. The interface is left out: each host has its own.
 std::uint64_t hashOf(const ClusterFile& file);
 
-stadion_wire_Agreement written(const Agreement& agreement);
-Agreement read(const stadion_wire_Agreement& agreement);
+stadion_wire_Agreement written(const CompatibilityKey& agreement);
+CompatibilityKey read(const stadion_wire_Agreement& agreement);
 
 /// Returns why `ours` cannot follow `lead`; empty if it can. Only the leader plays an input log.
-std::string refusal(const Agreement& lead, const Agreement& ours, const std::string& nameOfLead);
+std::string refusal(const CompatibilityKey& lead, const CompatibilityKey& ours,
+                    const std::string& nameOfLead);
 /// Returns the settings that will look different; empty if there are none.
-std::string remark(const Agreement& lead, const Agreement& ours, const std::string& nameOfLead);
+std::string remark(const CompatibilityKey& lead, const CompatibilityKey& ours, const std::string& nameOfLead);
 
 /// Returns the message to log if a host of another cluster is heard in our network.
 std::string inTheWay(const ClusterFile& ours);

@@ -1,4 +1,4 @@
-#include "pipeline/cluster/scene_parcel.h"
+#include "pipeline/cluster/scene_transfer.h"
 
 #include "pipeline/cluster/orders.h"
 
@@ -13,7 +13,7 @@ constexpr std::uint64_t kMostState = 4ULL << 30;  ///< [byte]
 
 }  // namespace
 
-void send(Bus& bus, const SceneParcel& parcel) {
+void send(Bus& bus, const SceneTransfer& parcel) {
   bus.waitForReaders();
   StatePart part{};
   part.to = parcel.to, part.session = parcel.session, part.serial = parcel.serial;
@@ -56,7 +56,7 @@ void IncomingScene::add(const StatePart& part) {
   complete_ = received_ == part.size;
 }
 
-SceneParcel IncomingScene::take() {
+SceneTransfer IncomingScene::take() {
   complete_ = false, received_ = 0;
   return std::exchange(parcel_, {});
 }

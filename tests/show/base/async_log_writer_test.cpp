@@ -1,4 +1,4 @@
-#include "show/base/telling_thread.h"
+#include "show/base/async_log_writer.h"
 
 #include <gtest/gtest.h>
 
@@ -9,11 +9,11 @@
 namespace stadion {
 namespace {
 
-TEST(TellingThread, ACallerDoesNotWaitForTheWriterAndEverythingIsWritten) {
+TEST(AsyncLogWriter, ACallerDoesNotWaitForTheWriterAndEverythingIsWritten) {
   std::mutex held;  // as a terminal may be
   std::vector<std::string> said;
   {
-    TellingThread teller([&](const std::string& line) {
+    AsyncLogWriter teller([&](const std::string& line) {
       const std::lock_guard lock(held);
       said.push_back(line);
     });
@@ -23,11 +23,11 @@ TEST(TellingThread, ACallerDoesNotWaitForTheWriterAndEverythingIsWritten) {
   EXPECT_EQ(said, (std::vector<std::string>{"one", "two", "three"}));
 }
 
-TEST(TellingThread, LinesWithoutAReaderAreKeptUpToALimit) {
+TEST(AsyncLogWriter, LinesWithoutAReaderAreKeptUpToALimit) {
   std::mutex held;
   std::size_t said = 0;
   {
-    TellingThread teller([&](const std::string&) {
+    AsyncLogWriter teller([&](const std::string&) {
       const std::lock_guard lock(held);
       ++said;
     });

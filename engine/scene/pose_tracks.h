@@ -15,7 +15,7 @@
 
 namespace stadion {
 
-class Courses {
+class PoseTracks {
 public:
   void clear();
   /// The placement's course in this frame; a new one begins with `first`. The reference is valid until

@@ -1,8 +1,8 @@
-#include "pipeline/cluster/lead.h"
+#include "pipeline/cluster/cluster_leader.h"
 
 #include "engine/plain_text/text_line.h"
 #include "pipeline/cluster/terms.h"
-#include "pipeline/platform/promptness.h"
+#include "pipeline/platform/scoped_realtime_priority.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -27,9 +27,9 @@ std::uint32_t bit(std::size_t node) {
 }  // namespace
 
 /// The show's input, which is sent to all nodes.
-class Lead::SampledInput final : public InputDevice {
+class ClusterLeader::SampledInput final : public InputDevice {
 public:
-  SampledInput(InputDevice& inner, Lead& lead) : inner_(inner), lead_(lead) {}
+  SampledInput(InputDevice& inner, ClusterLeader& lead) : inner_(inner), lead_(lead) {}
   void sampleAt(Nanoseconds showTime, InputSample& sample) override {
     inner_.sampleAt(showTime, sample);
     lead_.send(&sample);
@@ -48,17 +48,17 @@ public:
 
 private:
   InputDevice& inner_;
-  Lead& lead_;
+  ClusterLeader& lead_;
 };
 
-Lead::Lead(LeadOptions options, std::uint64_t session)
+ClusterLeader::ClusterLeader(LeaderOptions options, std::uint64_t session)
     : options_(std::move(options)), followers_(options_.cluster.nodes.size()), words_(followers_.size()) {
   session_.number = std::max(session, options_.above + 1), session_.terms = written(options_.terms),
   session_.giver = kNoNode;
 }
 
-Result<std::unique_ptr<Lead>> Lead::open(LeadOptions options) {
-  std::unique_ptr<Lead> lead(new Lead(std::move(options), anyNumber()));
+Result<std::unique_ptr<ClusterLeader>> ClusterLeader::open(LeaderOptions options) {
+  std::unique_ptr<ClusterLeader> lead(new ClusterLeader(std::move(options), anyNumber()));
   auto bus = Bus::open(lead->options_.cluster, *lead);
   if (!bus) return bus.error();
   lead->bus_ = std::move(bus.value());
@@ -67,13 +67,13 @@ Result<std::unique_ptr<Lead>> Lead::open(LeadOptions options) {
   return lead;
 }
 
-std::unique_ptr<Lead> Lead::unconnected(LeadOptions options, std::uint64_t session) {
-  std::unique_ptr<Lead> lead(new Lead(std::move(options), session));
+std::unique_ptr<ClusterLeader> ClusterLeader::unconnected(LeaderOptions options, std::uint64_t session) {
+  std::unique_ptr<ClusterLeader> lead(new ClusterLeader(std::move(options), session));
   lead->bus_ = Bus::none();
   return lead;
 }
 
-Lead::~Lead() {
+ClusterLeader::~ClusterLeader() {
   {
     const std::lock_guard lock(mutex_);
     ending_ = true;
@@ -83,13 +83,13 @@ Lead::~Lead() {
   if (bus_) bus_->close();  // stops all calls, which still use bus_
 }
 
-InputDevice& Lead::input(InputDevice& inner) {
+InputDevice& ClusterLeader::input(InputDevice& inner) {
   input_ = std::make_unique<SampledInput>(inner, *this);
   return *input_;
 }
 
 // Expects the lock. Returns which of those nodes has come farthest in this show.
-std::optional<std::size_t> Lead::newestOf(std::uint32_t nodes) const {
+std::optional<std::size_t> ClusterLeader::newestOf(std::uint32_t nodes) const {
   std::optional<std::size_t> best;
   const auto at = [this](std::size_t node) {
     return std::pair(followers_[node].plays, followers_[node].serial);
@@ -104,7 +104,7 @@ std::optional<std::size_t> Lead::newestOf(std::uint32_t nodes) const {
 
 // Another leader is discovered no later than its followers. Until then we stay silent: its followers would
 // take us for the leader that they have lost. Meanwhile they announce how far they have come.
-std::optional<ShowUnderWay> Lead::takeOver() {
+std::optional<ShowUnderWay> ClusterLeader::takeOver() {
   std::unique_lock lock(mutex_);
   const auto wait = [&](Clock::time_point until, const auto& ready) {
     while (!ready() && Clock::now() < until && waits()) changed_.wait_for(lock, kLook);
@@ -125,7 +125,7 @@ std::optional<ShowUnderWay> Lead::takeOver() {
     bus_->tell(session_);
     wait(Clock::now() + kGiving, [&] { return incoming_.complete() || f.plays == 0; });
     if (!incoming_.complete()) continue;
-    SceneParcel parcel = incoming_.take();
+    SceneTransfer parcel = incoming_.take();
     if (!isTime(parcel.time)) continue;
     session_.giver = kNoNode;
     pending_.signature.frame = parcel.frame, pending_.signature.time = parcel.time;
@@ -142,23 +142,23 @@ std::optional<ShowUnderWay> Lead::takeOver() {
   return {};
 }
 
-Tally Lead::tally() const {
+ClusterStats ClusterLeader::tally() const {
   const std::lock_guard lock(mutex_);
   return tally_;
 }
 
-std::uint64_t Lead::session() const {
+std::uint64_t ClusterLeader::session() const {
   const std::lock_guard lock(mutex_);
   return session_.number;
 }
 
-bool Lead::hasBegun() const {
+bool ClusterLeader::hasBegun() const {
   const std::lock_guard lock(mutex_);
   return session_.begun;
 }
 
 // Expects the lock.
-std::vector<std::string> Lead::missing() const {
+std::vector<std::string> ClusterLeader::missing() const {
   std::vector<std::string> names;
   for (std::size_t i = 0; i < followers_.size(); ++i) {
     if (i == options_.cluster.lead || followers_[i].phase == Phase::Ready) continue;
@@ -167,12 +167,12 @@ std::vector<std::string> Lead::missing() const {
   return names;
 }
 
-std::uint32_t Lead::played() const {
+std::uint32_t ClusterLeader::played() const {
   const std::lock_guard lock(mutex_);
   return played_;
 }
 
-bool Lead::begin(double rate, const OperatorsPatience& operators) {
+bool ClusterLeader::begin(double rate, const OperatorDecision& operators) {
   std::unique_lock lock(mutex_);
   if (double_) return true;
   session_.rate = rate;
@@ -180,9 +180,9 @@ bool Lead::begin(double rate, const OperatorsPatience& operators) {
   const auto start = Clock::now();
   const std::chrono::seconds patience = session_.resumes != 0 ? kReturn : options_.patience;
   for (bool told = false; !missing().empty() && Clock::now() < start + patience && waits();) {
-    const Patience his = operators(told);
-    if (his == Patience::GivesUp) return false;
-    if (his == Patience::Ends) break;
+    const WaitDecision his = operators(told);
+    if (his == WaitDecision::GivesUp) return false;
+    if (his == WaitDecision::Ends) break;
     if (!told && Clock::now() > start + kLong) {
       told = true;
       options_.tell(fmt::format("waiting for {}, {} s at most; Start begins without",
@@ -203,7 +203,7 @@ bool Lead::begin(double rate, const OperatorsPatience& operators) {
 }
 
 // The order goes out with its input, which App takes next.
-void Lead::issue(FrameOrder& order) {
+void ClusterLeader::issue(FrameOrder& order) {
   answerRequests();
   const std::lock_guard lock(mutex_);
   order.last = order.last || stop_ || double_;
@@ -211,8 +211,8 @@ void Lead::issue(FrameOrder& order) {
   awaitsInput_ = true;
 }
 
-void Lead::send(const InputSample* input) {
-  const Promptness prompt;  // others wait while it holds the lock
+void ClusterLeader::send(const InputSample* input) {
+  const ScopedRealtimePriority prompt;  // others wait while it holds the lock
   const std::lock_guard lock(mutex_);
   if (!awaitsInput_) return;
   awaitsInput_ = false;
@@ -228,9 +228,9 @@ void Lead::send(const InputSample* input) {
 }
 
 // Runs between two frames: the scene is as it was after the previous order.
-void Lead::answerRequests() {
+void ClusterLeader::answerRequests() {
   std::vector<std::uint64_t> asking;
-  SceneParcel parcel;
+  SceneTransfer parcel;
   {
     const std::lock_guard lock(mutex_);
     parcel.session = session_.number, parcel.serial = serial_;
@@ -254,13 +254,13 @@ void Lead::answerRequests() {
 }
 
 // Runs on a thread of its own, because a state may be large.
-void Lead::sendParcels() {
+void ClusterLeader::sendParcels() {
   for (std::unique_lock lock(mutex_); !ending_;) {
     if (parcels_.empty()) {
       changed_.wait(lock);
       continue;
     }
-    const SceneParcel parcel = std::move(parcels_.front());
+    const SceneTransfer parcel = std::move(parcels_.front());
     parcels_.pop_front();
     lock.unlock();
     cluster::send(*bus_, parcel);
@@ -268,8 +268,8 @@ void Lead::sendParcels() {
   }
 }
 
-bool Lead::mayShow(const TimeSignature&) {
-  const Promptness prompt;
+bool ClusterLeader::mayShow(const TimeSignature&) {
+  const ScopedRealtimePriority prompt;
   std::unique_lock lock(mutex_);
   const std::uint64_t serial = ++shown_;
   const auto at = std::ranges::find(rounds_, serial, &Round::serial);
@@ -288,7 +288,7 @@ bool Lead::mayShow(const TimeSignature&) {
 }
 
 // Expects the lock. A node that lives but does not draw what all others have drawn would hold them forever.
-void Lead::leaveOutStuckFollowers() {
+void ClusterLeader::leaveOutStuckFollowers() {
   if (rounds_.empty() || !rounds_.front().drawnHere) return;
   const double seconds = std::chrono::duration<double>(Clock::now() - *rounds_.front().drawnHere).count();
   if (seconds < kStuck * options_.cluster.deadline) return;
@@ -299,7 +299,7 @@ void Lead::leaveOutStuckFollowers() {
 }
 
 // Expects the lock. Lets all nodes show what all have drawn.
-void Lead::release() {
+void ClusterLeader::release() {
   bool released = false;
   while (!rounds_.empty() && rounds_.front().awaited == 0 && rounds_.front().drawnHere) {
     go_ = rounds_.front().serial, session_.shown = rounds_.front().frame + 1;
@@ -311,7 +311,7 @@ void Lead::release() {
   changed_.notify_all();
 }
 
-void Lead::hear(const Session& other) {
+void ClusterLeader::hear(const Session& other) {
   {
     const std::lock_guard lock(mutex_);
     if (other.over || other.number == session_.number || double_) return;
@@ -329,12 +329,12 @@ void Lead::hear(const Session& other) {
   changed_.notify_all();
 }
 
-bool Lead::hasDouble() const {
+bool ClusterLeader::hasDouble() const {
   const std::lock_guard lock(mutex_);
   return double_;
 }
 
-void Lead::hear(const Presence& p) {
+void ClusterLeader::hear(const Presence& p) {
   std::unique_lock lock(mutex_);
   if (p.node >= followers_.size() || p.node == options_.cluster.lead) return;
   if (p.cluster != options_.terms.cluster) return;  // another check tells it that its cluster file differs
@@ -366,7 +366,7 @@ void Lead::hear(const Presence& p) {
   changed_.notify_all();
 }
 
-void Lead::hear(const Drawn& d) {
+void ClusterLeader::hear(const Drawn& d) {
   const std::lock_guard lock(mutex_);
   if (d.session != session_.number || d.node >= followers_.size()) return;
   const auto at = std::ranges::find(rounds_, d.serial, &Round::serial);
@@ -379,7 +379,7 @@ void Lead::hear(const Drawn& d) {
   release();
 }
 
-void Lead::hear(const StatePart& part) {
+void ClusterLeader::hear(const StatePart& part) {
   {
     const std::lock_guard lock(mutex_);
     if (part.to == session_.number) incoming_.add(part);
@@ -387,7 +387,7 @@ void Lead::hear(const StatePart& part) {
   changed_.notify_all();
 }
 
-void Lead::left(std::uint8_t node, std::uint64_t incarnation) {
+void ClusterLeader::left(std::uint8_t node, std::uint64_t incarnation) {
   const std::lock_guard lock(mutex_);
   if (node >= followers_.size() || node == options_.cluster.lead) return;
   if (followers_[node].incarnation != incarnation) return;  // another program is this node now
@@ -399,21 +399,21 @@ void Lead::left(std::uint8_t node, std::uint64_t incarnation) {
 }
 
 // Expects the lock.
-void Lead::leaveOut(std::size_t node, const std::string& why) {
+void ClusterLeader::leaveOut(std::size_t node, const std::string& why) {
   ++tally_.leftOut;
   options_.tell(fmt::format("{} {}; the others go on", nameOf(node), why));
   letGo(node);
 }
 
 // Expects the lock. Stops waiting for the node.
-void Lead::letGo(std::size_t node) {
+void ClusterLeader::letGo(std::size_t node) {
   if (std::exchange(followers_[node].member, false)) words_[node].gone = Clock::now();
   for (Round& round : rounds_) round.awaited &= ~bit(node);
   release();
 }
 
-void Lead::simulated(std::uint64_t frame, std::uint64_t digest) {
-  const Promptness prompt;  // others wait while it holds the lock
+void ClusterLeader::simulated(std::uint64_t frame, std::uint64_t digest) {
+  const ScopedRealtimePriority prompt;  // others wait while it holds the lock
   const std::lock_guard lock(mutex_);
   hashes_.emplace_back(frame, digest);
   if (hashes_.size() > kHashesKept) hashes_.pop_front();
@@ -422,7 +422,7 @@ void Lead::simulated(std::uint64_t frame, std::uint64_t digest) {
   std::erase_if(early_, [&](const SceneHash& h) { return h.frame <= frame; });
 }
 
-void Lead::hear(const SceneHash& h) {
+void ClusterLeader::hear(const SceneHash& h) {
   const std::lock_guard lock(mutex_);
   if (h.session != session_.number || h.node >= followers_.size()) return;
   const auto ours = std::ranges::find(hashes_, h.frame, &std::pair<std::uint64_t, std::uint64_t>::first);
@@ -433,7 +433,7 @@ void Lead::hear(const SceneHash& h) {
 }
 
 // Expects the lock.
-void Lead::compare(std::size_t node, std::uint64_t frame, std::uint64_t hash) {
+void ClusterLeader::compare(std::size_t node, std::uint64_t frame, std::uint64_t hash) {
   const auto ours = std::ranges::find(hashes_, frame, &std::pair<std::uint64_t, std::uint64_t>::first);
   ++tally_.compared;
   if (ours == hashes_.end() || ours->second == hash) return;
@@ -445,7 +445,7 @@ void Lead::compare(std::size_t node, std::uint64_t frame, std::uint64_t hash) {
                   nameOf(node), frame, hash, ours->second));
 }
 
-void Lead::hear(const Difference& d) {
+void ClusterLeader::hear(const Difference& d) {
   const std::lock_guard lock(mutex_);
   if (d.session != session_.number || d.node >= followers_.size()) return;
   if (d.found)
@@ -460,7 +460,7 @@ void Lead::hear(const Difference& d) {
 }
 
 // The end must not be received before the last orders.
-void Lead::finish(bool over) {
+void ClusterLeader::finish(bool over) {
   bus_->flush();
   {
     const std::lock_guard lock(mutex_);

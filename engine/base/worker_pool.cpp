@@ -1,4 +1,4 @@
-#include "engine/base/crew.h"
+#include "engine/base/worker_pool.h"
 
 #include <algorithm>
 #include <exception>
@@ -14,7 +14,7 @@ constexpr std::chrono::nanoseconds kWaking{50'000};
 }  // namespace
 
 // With fewer threads than requested, or none, the result is the same.
-Crew::Crew(std::size_t threads) {
+WorkerPool::WorkerPool(std::size_t threads) {
   try {
     for (std::size_t i = 1; i < threads; ++i) threads_.emplace_back([this] { help(); });
   } catch (const std::exception&) {
@@ -22,7 +22,7 @@ Crew::Crew(std::size_t threads) {
   }
 }
 
-Crew::~Crew() {
+WorkerPool::~WorkerPool() {
   {
     const std::lock_guard lock(mutex_);
     leaving_ = true;
@@ -31,7 +31,7 @@ Crew::~Crew() {
   for (std::thread& t : threads_) t.join();
 }
 
-void Crew::run(std::size_t count, const std::function<void(std::size_t)>& piece) {
+void WorkerPool::run(std::size_t count, const std::function<void(std::size_t)>& piece) {
   thrown_.assign(count, nullptr);
   {
     const std::lock_guard lock(mutex_);
@@ -50,11 +50,11 @@ void Crew::run(std::size_t count, const std::function<void(std::size_t)>& piece)
     if (e) std::rethrow_exception(e);
 }
 
-void Crew::callHelp(std::size_t count) {
+void WorkerPool::callHelp(std::size_t count) {
   for (std::size_t i = 1; i < count && i <= threads_.size(); ++i) begin_.notify_one();
 }
 
-void Crew::help() {
+void WorkerPool::help() {
   std::uint64_t seen = 0;
   std::unique_lock lock(mutex_);
   for (;;) {
@@ -69,7 +69,7 @@ void Crew::help() {
   }
 }
 
-void Crew::takePieces() {
+void WorkerPool::takePieces() {
   const Clock::time_point began = Clock::now();
   for (std::size_t i = next_++; i < count_; i = next_++) try {
       (*piece_)(i);
