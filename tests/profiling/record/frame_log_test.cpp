@@ -5,8 +5,11 @@
 
 #include <algorithm>
 #include <gtest/gtest.h>
+#include <map>
 #include <memory>
 #include <set>
+#include <thread>
+#include <vector>
 
 namespace stadion {
 namespace {

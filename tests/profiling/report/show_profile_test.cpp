@@ -1,10 +1,11 @@
-/// Where a frame's time goes: spans of several threads, added up by node and stage.
+/// The figures of a profile: a frame's time, added up by node and stage.
 
 #include "engine/plain_text/csv_field.h"
 #include "profiling/report/show_figures.h"
 
 #include <algorithm>
 #include <gtest/gtest.h>
+#include <map>
 #include <nlohmann/json.hpp>
 
 namespace stadion {
