@@ -9,8 +9,6 @@
 namespace stadion {
 namespace {
 
-constexpr double kSlop = 1e-5;             ///< overlap that is left alone [m]
-constexpr double kPushOut = 0.2;           ///< speed limit of the correction of deeper overlap [m/s]
 constexpr double kApproach = 1e-4;         ///< approaches up to this end with the step's own forces [m/s]
 constexpr double kRestitutionSpeed = 0.1;  ///< slower approaches inside lasting contact do not bounce [m/s]
 constexpr double kQuietSpeed = 2e-3;       ///< of surface points [m/s]
@@ -22,85 +20,11 @@ constexpr double kRolls = 0.01;            ///< slip of what rolls, relative to 
 constexpr double kHeld = 0.05;             ///< of its spin, what rolls no more may have left
 constexpr double kNearlyStill = 5e-3;      ///< faster than this nothing is held by rolling resistance [m/s]
 constexpr double kUnmoved = 1e-9;          ///< slower than this is not at all [m/s]
-constexpr double kBalanced = 1e-7;         ///< accelerations below this are rounding [m/s2]
-constexpr double kProbe = 1e-4;            ///< step in which accelerations are measured [s]
 constexpr double kMostTurn = 0.05;         ///< angle by which a solid turns in a step [rad]
 constexpr double kMostParts = 32;          ///< of a step in which the lowest point of a rim runs far
-constexpr double kFarthest = 1;            ///< how long a glide is foreseen at most [s]
-constexpr double kShortestGlide = 1e-7;    ///< and at least [s]
 constexpr double kGive = 1;                ///< share of what presses that a hand or a lift yields
-constexpr double kOneFace = 0.9999;        ///< cosine of normals that are one face's
 constexpr double kShort = 1e-3;            ///< a floor missed by less is reached, nearly [m/s]
 constexpr double kLanding = 1e-5;          ///< shortest step towards a touch [s]
-
-/// How a body lies during a step, from its velocities at both ends.
-struct Turned {
-  Vec3 p;
-  Mat3 R;  ///< turn since the start
-};
-
-Turned turned(const Mobile& start, const Mobile& end, double share, double h) {
-  const double s = share * h;
-  const Vec3 w = s * (start.omega + 0.5 * share * (end.omega - start.omega));
-  return {start.p + s * (start.v + 0.5 * share * (end.v - start.v)),
-          w.isZero(0) ? Mat3(Mat3::Identity()) : det::expRotation(w).toRotationMatrix()};
-}
-
-/// Where the point of the carrier is that touches when the carrier has turned by R; `down` leads from it to
-/// the other side, at the start and now.
-Vec3 carried(const Vec3& arm, const Rounding& r, const Mat3& R, const Vec3& down, const Vec3& downNow) {
-  if (r.radius == 0) return R * arm;
-  return R * (arm - r.offset(down, r.axis)) + r.offset(downNow, R * r.axis);
-}
-
-/// Arms and basis of a contact when its sides lie like this.
-void place(const Mobile& a0, const Mobile& b0, const Gap& gap, Carrier carrier, const Rounding& rounding,
-           const Turned& a, const Turned& b, Mat3& basis, Vec3& armA, Vec3& armB) {
-  basis = basisAround(gap.normal);
-  armA = gap.point - a0.p, armB = gap.point - b0.p;
-  if (carrier == Carrier::B) {
-    basis = a.R * basis;
-    armB = carried(armB, rounding, b.R, gap.normal, basis.col(0));
-    armA = b.p + armB - a.p;
-  } else {
-    if (carrier == Carrier::A) {
-      basis = b.R * basis;
-      armA = carried(armA, rounding, a.R, -gap.normal, -basis.col(0));
-    }
-    armB = a.p + armA - b.p;
-  }
-}
-
-/// The same for a flat contact, at the end and in the middle of the step, and its slip before it.
-template <class Flat>
-void placeFlat(const Flat& f, const std::vector<Mobile>& start, const std::vector<Mobile>& guess, double h,
-               SolverContact& c) {
-  const Mobile &a = start[c.a], &b = start[c.b];
-  SolverContact before = c;
-  f.place(a, b, Mat3::Identity(), Mat3::Identity(), a.p, b.p, before.rows, before.armA, before.armB);
-  const Vec3 u0 = before.velocity(start);
-  c.spin = u0[0], c.slip = u0.tail<2>();
-  const Turned am = turned(a, guess[c.a], 0.5, h), bm = turned(b, guess[c.b], 0.5, h),
-               ae = turned(a, guess[c.a], 1, h), be = turned(b, guess[c.b], 1, h);
-  f.place(a, b, am.R, bm.R, am.p, bm.p, c.push, c.pushA, c.pushB);
-  f.place(a, b, ae.R, be.R, ae.p, be.p, c.rows, c.armA, c.armB);
-}
-
-double pushOut(double gap) {
-  return std::min(kPushOut, std::max(0.0, -gap - kSlop) * 20);
-}
-
-/// The speed at which overlap is taken back [m/s]. Points of one face go at one speed, the mean of theirs: if
-/// each had its own, three of them would contradict the fourth.
-double pushOutOf(const std::vector<FoundContact>& found, std::size_t i) {
-  const FoundContact& f = found[i];
-  double sum = 0, many = 0;
-  if (!(pushOut(f.gap.distance) > 0)) return 0;
-  for (const FoundContact& o : found)
-    if (o.a == f.a && o.b == f.b && o.gap.normal.dot(f.gap.normal) > kOneFace)
-      if (const double speed = pushOut(o.gap.distance); speed > 0) sum += speed, many += 1;
-  return sum / many;
-}
 
 bool staysWedged(const ContactIsland& s) {
   return s.wedged && std::ranges::any_of(s.found, [&](const FoundContact& f) {
@@ -235,7 +159,7 @@ void IslandStep::stopApproaches(ContactIsland& s) const {
   std::vector<SolverContact> hits;
   std::vector<std::int32_t> hitOf(s.found.size(), -1);
   for (const FoundContact& f : s.found) {
-    if (f.gap.distance > kSlop) continue;
+    if (f.gap.distance > kIslandSlop) continue;
     hitOf[static_cast<std::size_t>(&f - s.found.data())] = static_cast<std::int32_t>(hits.size());
     SolverContact c = f.contact;
     const Mobile &a = s.start[c.a], &b = s.start[c.b];
@@ -262,153 +186,6 @@ void IslandStep::stopApproaches(ContactIsland& s) const {
   const std::vector<Mobile> before = s.start;
   solveIsland(s, s.start, hits, Effort::Moving);
   if (!s.carried) boundWork(s.set.size(), before, s.start, {}, 0);
-}
-
-/// Velocities after h seconds: forces act in the middle of the step, contact points obey at its end. A first
-/// pass foresees how the bodies turn, a second one counts.
-bool IslandStep::solveStep(ContactIsland& s, double tau, double h, Effort effort) const {
-  std::vector<Mobile> guess = s.start;
-  std::vector<Vec3>& pull = s.pull;
-  pull.resize(s.set.size());
-  for (std::size_t i = 0; i < s.set.size(); ++i) {
-    pull[i] = fields_.accelerationAt(*s.set[i], guess[i].p, guess[i].v, tau);
-    guess[i].v += h * pull[i];
-  }
-  std::vector<SolverContact> step;
-  const std::size_t points = s.found.size();
-  step.reserve(points + s.flats.size());
-  const auto begins = [&](SolverContact c, std::uint64_t key, const Vec3& n) {
-    c.impulse.setZero();
-    for (const Pressed& p : s.set[c.a]->contact.presses)
-      if (p.key == key) c.impulse = std::min(h, p.step) * (basisAround(n).transpose() * p.force);
-    if (c.patch >= 0) c.impulse.tail<2>().setZero();  // its area's now
-    step.push_back(c);
-  };
-  for (const FoundContact& f : s.found) begins(f.contact, f.key, f.gap.normal);
-  for (const FlatPatch& f : s.flats) begins(f.contact, f.key, f.flat.plane.n);
-  bool holds = false;
-  for (int pass = 0; pass < 2; ++pass) {
-    s.end = s.start;
-    for (std::size_t i = 0; i < s.set.size(); ++i) {
-      const RigidBody& b = *s.set[i];
-      Mobile& m = s.end[i];
-      const Turned at = turned(s.start[i], guess[i], 1, h);
-      if (pass > 0 && !fields_.uniformFor(b)) {
-        const Turned mid = turned(s.start[i], guess[i], 0.5, h);
-        pull[i] = fields_.accelerationAt(b, mid.p, 0.5 * (s.start[i].v + guess[i].v), tau + 0.5 * h);
-      }
-      m.v += h * pull[i];
-      if (b.damping > 0) m.v *= det::exp(-b.damping * h);
-      if (!m.omega.isZero(0) || pass > 0) {  // its angular momentum stays, its inertia turns with it
-        const Mat3 turnedInverse = at.R * m.inverseInertia * at.R.transpose();
-        if (!b.isBall() && !m.omega.isZero(0))
-          m.omega = turnedInverse * s.start[i].inverseInertia.inverse() * m.omega;
-        m.inverseInertia = turnedInverse;
-      }
-    }
-    for (std::size_t i = points; i < step.size(); ++i) {
-      SolverContact& c = step[i];
-      placeFlat(s.flats[i - points], s.start, guess, h, c);
-      if (pass > 0) {
-        const Vec3 u0(c.spin, c.slip.x(), c.slip.y());
-        c.slides = u0.norm() > 2 * (c.velocity(guess) - u0).norm();
-      }
-    }
-    for (std::size_t i = 0; i < points; ++i) {
-      const FoundContact& f = s.found[i];
-      SolverContact& c = step[i];
-      const Mobile &a = s.start[c.a], &b = s.start[c.b], &a1 = guess[c.a], &b1 = guess[c.b];
-      place(a, b, f.gap, f.carrier, f.rounding, turned(a, a1, 0.5, h), turned(b, b1, 0.5, h), c.push, c.pushA,
-            c.pushB);
-      place(a, b, f.gap, f.carrier, f.rounding, turned(a, a1, 1, h), turned(b, b1, 1, h), c.rows, c.armA,
-            c.armB);
-      SolverContact before = c;
-      before.placeAt(f.gap.point, f.gap.normal, a.p, b.p);
-      const Vec3 u0 = before.velocity(s.start);
-      if (f.gap.distance > kSlop) {
-        // The mean velocity of the step closes the gap and no more. Among several bodies what comes faster
-        // sinks in a little rather than being thrown back from all sides at once, which could bring energy.
-        c.floor = std::min(-2 * f.gap.distance / h - u0[0], s.set.size() > 1 ? kPushOut : 1e300);
-      } else {
-        c.floor = pushOutOf(s.found, i);
-      }
-      c.slip = u0.tail<2>();
-      if (pass > 0) {
-        const Vec2 u1 = c.velocity(guess).tail<2>();
-        c.slides = c.slip.norm() > 2 * (u1 - c.slip).norm();
-      }
-    }
-    s.free = s.end;
-    holds = solveIsland(s, s.end, step, effort);
-    bool turns = false;
-    for (std::size_t i = 0; i < s.set.size(); ++i)
-      turns = turns || std::max(s.start[i].omega.norm(), s.end[i].omega.norm()) * s.set[i]->reach > 1e-8 ||
-              !fields_.uniformFor(*s.set[i]);
-    for (std::size_t i = 0; i < step.size() && !turns; ++i) {
-      const Vec2 u0 = step[i].slip, u1 = step[i].velocity(s.end).tail<2>();
-      turns = std::fabs(u0.x() * u1.y() - u0.y() * u1.x()) > 1e-9 * u0.squaredNorm() + 1e-16;
-    }
-    if (!turns) break;
-    guess = s.end;
-    for (std::size_t i = 0; i < guess.size(); ++i) guess[i].p = s.start[i].p;
-  }
-  for (std::size_t i = 0; i < points; ++i) s.found[i].contact = step[i];
-  for (std::size_t i = points; i < step.size(); ++i) s.flats[i - points].contact = step[i];
-  return holds;
-}
-
-/// Bodies that do not turn, on faces that they do not leave, keep their accelerations until a slip ends: how
-/// long that lasts, 0 if not even for this step, infinite if all are at rest for good.
-double IslandStep::glide(ContactIsland& s, double tau, double h) {
-  if (s.carried) return 0;
-  for (std::size_t i = 0; i < s.set.size(); ++i) {
-    const RigidBody& b = *s.set[i];
-    if (s.start[i].omega.norm() * b.reach > kUnmoved || b.damping > 0) return 0;
-  }
-  for (const FoundContact& f : s.found)
-    if (f.gap.distance < -kSlop) return 0;  // it is being pushed out
-  const double probe = std::min(h, kProbe);
-  if (!solveStep(s, tau, probe, Effort::AtRest)) return 0;
-  double most = kFarthest, fastest = 0, strongest = 0;
-  std::vector<Party> way;  // of faces that the points come to
-  for (std::size_t i = 0; i < s.set.size(); ++i) {
-    const RigidBody& b = *s.set[i];
-    const Vec3 a = (s.end[i].v - s.start[i].v) / probe;
-    const double alpha = (s.end[i].omega - s.start[i].omega).norm() / probe * b.reach;
-    if (alpha > kBalanced) return 0;
-    fastest = std::max(fastest, s.start[i].v.norm()), strongest = std::max(strongest, a.norm());
-    if (!fields_.uniformFor(b) && (s.start[i].v.norm() > kUnmoved || a.norm() > kBalanced)) return 0;
-  }
-  if (fastest <= kUnmoved && strongest <= kBalanced)  // what changes may stir them in this very frame
-    return std::ranges::any_of(s.set, [&](const RigidBody* b) { return fields_.feelsChange(*b); }) ? 0
-                                                                                                   : 1e300;
-  for (const FoundContact& f : s.found) {
-    const SolverContact& c = f.contact;
-    const Vec3 n = f.gap.normal, u = s.start[c.a].v - s.start[c.b].v,
-               a = (s.end[c.a].v - s.end[c.b].v - u) / probe;
-    const double un = u.dot(n), an = a.dot(n);
-    if (un < -kUnmoved || an < -kBalanced) return 0;  // what nears it may hit it
-    if (un > kUnmoved || an > kBalanced || c.impulse[0] <= 0) continue;
-    const Vec3 ut = u - un * n, at = a - an * n;
-    const double speed = ut.norm(), change = at.norm();
-    if (speed <= kUnmoved && change <= kBalanced) continue;
-    if (ut.cross(at).norm() > 1e-9 * speed * (change + 1)) return 0;  // the slip turns
-    if (ut.dot(at) < 0 && c.friction > 0) most = std::min(most, speed / change);
-    // Faces must go on carrying the same points.
-    if (f.b.isBody || f.carrier != Carrier::A) return 0;
-    most = std::min(most,
-                    surfaces_.timeCarried(*s.set[c.a], f.b.id, f.gap, f.contact.friction, ut, at, most, way));
-    if (!(most > kShortestGlide)) return 0;
-  }
-  if (!(most > kShortestGlide)) return 0;
-  for (std::size_t i = 0; i < s.set.size(); ++i) {
-    s.start[i].omega.setZero(), s.end[i].omega.setZero();
-    s.end[i].v = s.start[i].v + (s.end[i].v - s.start[i].v) / probe * most;
-  }
-  for (FoundContact& f : s.found) f.contact.impulse *= most / probe;
-  s.way = std::move(way);
-  for (FlatPatch& f : s.flats) f.contact.impulse *= most / probe;
-  return most;
 }
 
 /// What lies on its rims, and is kept from rocking on them by rolling resistance, is solved for once more
@@ -458,7 +235,7 @@ void IslandStep::concludeFreely(RigidBody& b, const Mobile& start, double tau) {
 bool IslandStep::settleOnFace(RigidBody& b, const FoundContact& only, double tau) {
   const Collider* c = only.b.isBody ? nullptr : objects_.collider(only.b.id);
   Support face;
-  if (!c || std::fabs(only.gap.distance) > 2 * kSlop ||
+  if (!c || std::fabs(only.gap.distance) > 2 * kIslandSlop ||
       std::fabs(b.velocity(tau).dot(only.gap.normal)) > 1e-3 || !supportFor(b, *c, only.gap, face) ||
       face.ends(b.position(tau), b.velocity(tau)) || inFold(b, *c, face, tau))
     return false;
@@ -546,7 +323,7 @@ double IslandStep::stepOf(const ContactIsland& s, double tau, double h) const {
   for (const RigidBody* b : s.set) h = std::min(h, std::max(fields_.knownFor(*b, tau), kShortestStep));
   const double shortest = s.set.size() > 1 ? h / 8 : kLanding;
   for (const FoundContact& f : s.found) {
-    if (f.gap.distance <= kSlop) continue;
+    if (f.gap.distance <= kIslandSlop) continue;
     const Mobile &a = s.start[f.contact.a], &b = s.start[f.contact.b];
     const double closing =
         f.gap.normal.dot(b.v + b.omega.cross(f.gap.point - b.p) - a.v - a.omega.cross(f.gap.point - a.p));
@@ -573,7 +350,7 @@ void IslandStep::advance(ContactIsland& s, double tau, double h) {
   begin(s, tau);
   stopApproaches(s);
   const double last = glide(s, tau, h);
-  if (last > 1e299) {
+  if (last == kForGood) {
     for (std::size_t i = 0; i < s.set.size(); ++i) s.start[i].v.setZero(), s.start[i].omega.setZero();
     s.end = s.start;
     conclude(s, tau, h);

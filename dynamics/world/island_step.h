@@ -10,6 +10,8 @@
 
 namespace stadion {
 
+inline constexpr double kIslandSlop = 1e-5;  ///< overlap that an island leaves alone [m]
+
 /// Two flat faces on each other. The points that carry them leave friction to their area.
 struct FlatPatch {
   SolverContact contact;
@@ -49,6 +51,8 @@ public:
   void advance(ContactIsland& island, double tau, double h);
 
 private:
+  static constexpr double kForGood = 1e300;  ///< a glide without end [s]
+
   void begin(ContactIsland& island, double tau) const;
   void findFlats(ContactIsland& island, double tau) const;
   std::vector<Side> surfaceUnder(const FoundContact& f) const;
@@ -57,7 +61,12 @@ private:
                    Effort effort) const;
   void stopApproaches(ContactIsland& island) const;
   bool solveStep(ContactIsland& island, double tau, double h, Effort effort) const;
+  void moveFreely(ContactIsland& island, const std::vector<Mobile>& guess, double tau, double h,
+                  bool first) const;
   double glide(ContactIsland& island, double tau, double h);
+  double glideOf(const ContactIsland& island, double probe, std::vector<Party>& way);
+  double glideAt(const ContactIsland& island, const FoundContact& f, double probe, double most,
+                 std::vector<Party>& way);
   double stepOf(const ContactIsland& island, double tau, double h) const;
   void holdRims(ContactIsland& island, const std::vector<Mobile>& solved) const;
   void conclude(ContactIsland& island, double tau, double h);
