@@ -26,26 +26,28 @@ std::uint64_t joined(std::uint32_t high, std::uint32_t low) {
 }  // namespace
 
 void DrawOrder::sortOpaque(std::vector<DrawnRecord>& things) {
-  keys_.clear();
-  for (const DrawnRecord& d : things)
-    keys_.push_back({joined(d.mesh, d.level << kRankBits | rankOf(d.views)), bitsOf(d.distance),
-                     static_cast<std::uint32_t>(keys_.size())});
+  keys_.resize(things.size());
+  for (std::uint32_t i = 0; i < things.size(); ++i) {
+    const DrawnRecord& d = things[i];
+    keys_[i] = {joined(d.mesh, d.level << kRankBits | rankOf(d.views)), bitsOf(d.distance), i};
+  }
   arrange(things);
 }
 
 void DrawOrder::sortTransparent(std::vector<DrawnRecord>& things) {
-  keys_.clear();
-  for (const DrawnRecord& d : things)
-    keys_.push_back({joined(d.record->owner.load, d.record->owner.position), d.mesh,
-                     static_cast<std::uint32_t>(keys_.size())});
+  keys_.resize(things.size());
+  for (std::uint32_t i = 0; i < things.size(); ++i) {
+    const DrawnRecord& d = things[i];
+    keys_[i] = {joined(d.record->owner.load, d.record->owner.position), d.mesh, i};
+  }
   arrange(things);
 }
 
 void DrawOrder::arrange(std::vector<DrawnRecord>& things) {
   sortKeys();
   sortAlike(things);
-  moved_.clear();
-  for (const Key& key : keys_) moved_.push_back(things[key.thing]);
+  moved_.resize(things.size());
+  for (std::size_t i = 0; i < keys_.size(); ++i) moved_[i] = things[keys_[i].thing];
   things.swap(moved_);
 }
 

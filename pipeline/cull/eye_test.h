@@ -12,6 +12,9 @@
 
 #include "pipeline/draw_list/draw_list.h"
 
+#include <array>
+#include <bit>
+#include <cmath>
 #include <cstdint>
 
 namespace stadion {
@@ -42,8 +45,8 @@ private:
 
     bool mayTouch(const std::array<float, 3>& c, float reach) const {
       const FourFloats inside = x * c[0] + (y * c[1] + (z * c[2] + offset)) + reach;
-      const auto out = inside < 0.0f;
-      return (out[0] | out[1] | out[2] | out[3]) == 0;
+      const auto outside = std::bit_cast<std::array<std::uint64_t, 2>>(inside < 0.0f);
+      return (outside[0] | outside[1]) == 0;
     }
   };
   struct Lens {
@@ -51,7 +54,7 @@ private:
     std::array<double, 2> scale{}, shift{};  ///< pixels: scale x / depth + shift
   };
 
-  static float size(float x) { return x < 0 ? -x : x; }
+  static float size(float x) { return std::fabs(x); }
   std::uint8_t withoutThoseBetweenPixels(std::uint8_t seen, const std::array<float, 3>& centre,
                                          float radius) const;
   bool coversAMiddle(const Lens& lens, const std::array<float, 3>& centre, float radius) const;
