@@ -1,5 +1,6 @@
 #include "dynamics/nodes/field_node.h"
 
+#include "dynamics/nodes/dyn_object_node.h"
 #include "dynamics/nodes/shape_store.h"
 #include "engine/build/lint.h"
 #include "engine/build/node_request.h"
@@ -41,8 +42,18 @@ const std::vector<FieldNode::Change>& FieldNode::changes(std::uint64_t frame) co
 
 void FieldNode::onEnter(Scene& scene) {
   PlacedNode::onEnter(scene);
+  if (centredOnMass_) moveToCentreOfMass(scene);
   since_ = scene.now();
   if (switch_.on() && duration_ > 0) scene.schedule().wakeAt(since_ + duration_, self());
+}
+
+void FieldNode::moveToCentreOfMass(Scene& scene) {
+  const auto* body = dynamic_cast<const DynObjectNode*>(scene.find(attributes().parent));
+  if (!body) return;
+  const FittedShape& fit = *body->fit();
+  Affine X_BF = attributes().X_PN;
+  X_BF.pretranslate(body->body().massOf(fit).centre.cwiseQuotient(fit.scale));
+  becomeHome(scene, scene.placements().world(body->placement()) * X_BF);
 }
 
 void FieldNode::change(bool on, Nanoseconds when, FrameContext& frame) {
@@ -59,9 +70,18 @@ void FieldNode::change(bool on, Nanoseconds when, FrameContext& frame) {
 void FieldNode::receive(const Message& m, FrameContext& frame) {
   PlacedNode::receive(m, frame);
   const Nanoseconds when = frame.effective(m);
-  // A duration that ran out before this command came first.
-  if (switch_.on() && duration_ > 0 && since_ + duration_ <= when) switch_.set(false);
-  if (switch_.obey(m)) change(switch_.on(), when, frame);
+  expire(when);  // before the command
+  const bool before = switch_.on();
+  if (!switch_.obey(m)) return;
+  if (switch_.on() != before) raise(before ? Event("disabled") : Event("enabled"), when);
+  change(switch_.on(), when, frame);
+}
+
+/// Ends an activation whose duration is over by then. The world ends it by itself, at the same exact time.
+void FieldNode::expire(Nanoseconds by) {
+  if (!switch_.on() || duration_ == 0 || since_ + duration_ > by) return;
+  switch_.set(false);
+  raise("expired", since_ + duration_);
 }
 
 void FieldNode::followAxis(FrameContext& frame) {
@@ -75,8 +95,7 @@ void FieldNode::followAxis(FrameContext& frame) {
 void FieldNode::simulate(FrameContext& frame) {
   PlacedNode::simulate(frame);
   followAxis(frame);
-  // The world ends the activation by itself, at the same exact time.
-  if (switch_.on() && duration_ > 0 && since_ + duration_ <= frame.now.time) switch_.set(false);
+  expire(frame.now.time);
 }
 
 template <class Self, class Fields>
@@ -104,6 +123,7 @@ constexpr double kDensityOfWater = 1000;      // [kg/m3]
 enum class ForceUnit : std::uint8_t { Gravity, Acceleration, Newton };
 enum class FieldMode : std::uint8_t { Attract, Repel };
 enum class FieldFalloff : std::uint8_t { None, Linear, Square };
+enum class FieldAnchor : std::uint8_t { Mass, Origin };
 enum class DeviceAxis : std::uint8_t {};
 
 /// The node that a field is attached to carries it; else its parent does.
@@ -126,6 +146,8 @@ std::pair<double, LinearField::Unit> unitOf(const Declaration& d) {
 std::unique_ptr<Node> makeField(const NodeRequest& r, FieldLaw law) {
   const Declaration& d = r.declaration;
   FieldAttributes a{law, fromSeconds(d.optionalNumber("duration").value_or(0)), d.flag("initstate"), {}};
+  a.centredOnMass =
+      d.takes("anchor") && d.has("attach") && d.choice<FieldAnchor>("anchor") == FieldAnchor::Mass;
   if (const auto axis = d.optionalChoice<DeviceAxis>("strengthaxis"))
     a.axis = {std::string(d.text("tracker")), static_cast<std::size_t>(*axis)};
   return std::make_unique<FieldNode>(r.type(), r.self, r.name, fieldPlace(r), std::move(a));
@@ -183,6 +205,13 @@ void checkMedium(DeclarationCheck& check) {
   checkVolume(check, false);  // without a volume it is everywhere
 }
 
+void lintExpiry(const Declaration& node, LintScope& scope) {
+  if (node.has("duration")) return;
+  for (const EventMessage& m : node.eventMessages())
+    if (m.event == Event("expired"))
+      scope.warn(node, "eventmessage", "without a duration, this field never posts expired");
+}
+
 void lintField(const Declaration& node, LintScope& scope) {
   const NodeUse& use = scope.useOf(node);
   const bool linear = node.kind() == "forcelinear";
@@ -195,6 +224,9 @@ void lintField(const Declaration& node, LintScope& scope) {
   }
   if (node.has("tracker") && !node.has("strengthaxis"))
     scope.warn(node, "tracker", "the tracker has no effect without strengthaxis");
+  if (node.has("anchor") && !node.has("attach"))
+    scope.warn(node, "anchor", "the anchor has no effect without attach");
+  lintExpiry(node, scope);
   if (node.name().empty() || (scope.alone() && !use.hooked))
     scope.warn(node, "name", fmt::format("{} is never hooked to a body", LintScope::called(node)));
   scope.warnNeverOn(node);
@@ -203,6 +235,7 @@ void lintField(const Declaration& node, LintScope& scope) {
 constexpr std::string_view kDeviceAxes[] = {"0", "1", "2", "3", "4", "5", "6", "7"};
 constexpr std::string_view kForceUnits[] = {"g", "m/s2", "N"};
 constexpr std::string_view kFieldModes[] = {"attract", "repel"};
+constexpr std::string_view kFieldAnchors[] = {"mass", "origin"};
 constexpr std::string_view kFalloffs[] = {"none", "linear", "square"};
 constexpr AttributeSpec kFieldDuration{
     .name = "duration",
@@ -230,6 +263,18 @@ constexpr AttributeSpec kAttachRow{.name = "attach",
                                    .help = "the node that the field moves and turns with",
                                    .targets = kPlacedOrRig,
                                    .acts = true};
+
+constexpr AttributeSpec kFieldAnchor{
+    .name = "anchor",
+    .kind = ValueKind::Choice,
+    .help = "what its place counts from if a body is named by `attach`: the body's centre of mass, or the "
+            "origin of its model",
+    .standard = "mass",
+    .choices = kFieldAnchors};
+
+constexpr EventSpec kFieldEvents[] = {{"enabled", "a command has enabled the field, which was disabled"},
+                                      {"disabled", "a command has disabled the field, which was enabled"},
+                                      {"expired", "the field's duration was over; it is disabled"}};
 
 constexpr AttributeSpec kForceLinearRows[] = {
     {.name = "direction",
@@ -274,6 +319,7 @@ constexpr AttributeSpec kForceSphericalRows[] = {
     kFieldAxis,
     kFieldTracker,
     kAttachRow,
+    kFieldAnchor,
 };
 constexpr AttributeSpec kFieldStrength{.name = "strength",
                                        .kind = ValueKind::Number,
@@ -301,6 +347,7 @@ constexpr AttributeSpec kForcePointRows[] = {
     kFieldAxis,
     kFieldTracker,
     kAttachRow,
+    kFieldAnchor,
 };
 constexpr AttributeSpec kForceVortexRows[] = {
     {.name = "strength",
@@ -373,6 +420,7 @@ constinit const NodeType kForceLinearType{
     .name = "forcelinear",
     .help = "a force field with the same force everywhere, such as gravity or a kick",
     .attributes = kForceLinearRows,
+    .events = kFieldEvents,
     .traits = {Trait::Placed, Trait::Switched, Trait::Field},
     .make = makeLinearField,
     .lint = lintField,
@@ -382,6 +430,7 @@ constinit const NodeType kForceSphericalType{
     .name = "forcespherical",
     .help = "a force field around a centre",
     .attributes = kForceSphericalRows,
+    .events = kFieldEvents,
     .traits = {Trait::Placed, Trait::Switched, Trait::Field},
     .make = makeSphericalField,
     .lint = lintField,
@@ -391,6 +440,7 @@ constinit const NodeType kForcePointType{
     .name = "forcepoint",
     .help = "attraction or repulsion by the inverse square of the distance",
     .attributes = kForcePointRows,
+    .events = kFieldEvents,
     .traits = {Trait::Placed, Trait::Switched, Trait::Field},
     .make = makePointField,
     .lint = lintField,
@@ -400,6 +450,7 @@ constinit const NodeType kForceVortexType{
     .name = "forcevortex",
     .help = "a whirl about the node's Z axis",
     .attributes = kForceVortexRows,
+    .events = kFieldEvents,
     .traits = {Trait::Placed, Trait::Switched, Trait::Field},
     .make = makeVortexField,
     .lint = lintField,
@@ -409,6 +460,7 @@ constinit const NodeType kMediumType{
     .name = "medium",
     .help = "air or water that bodies fly through, and its wind",
     .attributes = kMediumRows,
+    .events = kFieldEvents,
     .traits = {Trait::Placed, Trait::Switched, Trait::Field},
     .make = makeMediumField,
     .check = checkMedium,

@@ -3,10 +3,12 @@
 /// `forcevortex`, `medium`. It moves, turns, scales, is attached and switched; the dynamics nodes whose
 /// bodies are hooked to it read it, in their own step.
 ///
+/// Events    enabled, disabled; expired when `duration` ends an activation. Each at its exact time.
 /// Commands  enable (starts an activation that `duration` bounds), disable, toggle, reset, and those of a
 ///           placed node.
 /// Frames    the law is in the field's own coordinates; its scale multiplies a linear field's strength and
-///           the lengths of the others.
+///           the lengths of the others. The place of a field that is attached to a body counts from the body's
+///           centre of mass if `centredOnMass`.
 /// Times     a command takes effect inside dynamics at its exact time; a device's axis scales the strength
 ///           evenly between the times at which it changed.
 
@@ -29,6 +31,7 @@ struct FieldAttributes {
   Nanoseconds duration = 0;  ///< longest activation [ns], 0 = no limit
   bool on = true;            ///< at the start
   std::optional<StrengthAxis> axis;
+  bool centredOnMass = false;  ///< of the body below which it stands, if it stands below one
 };
 
 extern const NodeType kForceLinearType;
@@ -53,7 +56,8 @@ public:
   FieldNode(const NodeType& type, NodeRef self, std::string name, PlaceAttributes place,
             FieldAttributes attributes)
       : PlacedNode(type, self, std::move(name), std::move(place)), law_(attributes.law),
-        duration_(attributes.duration), axis_(std::move(attributes.axis)), switch_(attributes.on) {}
+        duration_(attributes.duration), axis_(std::move(attributes.axis)),
+        centredOnMass_(attributes.centredOnMass), switch_(attributes.on) {}
 
   /// The law as the field's present scale makes it.
   FieldLaw law(const Scene& scene) const;
@@ -86,10 +90,13 @@ protected:
 private:
   void followAxis(FrameContext& frame);
   void change(bool on, Nanoseconds when, FrameContext& frame);
+  void expire(Nanoseconds by);
+  void moveToCentreOfMass(Scene& scene);
 
   FieldLaw law_;
   Nanoseconds duration_;  ///< 0 = no limit
   std::optional<StrengthAxis> axis_;
+  bool centredOnMass_;
   AxisCourse strength_;
   Switched switch_;
   Nanoseconds since_ = 0;

@@ -73,8 +73,8 @@ void FieldCommands::execute(const Command& c, double tau) {
     if (c.on) {
       ++field->activation;
       if (field->field.duration > 0)
-        insert({std::max(c.when, time_.timeAt(tau)) + field->field.duration, 0, Command::Kind::Expire,
-                c.field, 0, false, field->activation});
+        insert({c.when + field->field.duration, 0, Command::Kind::Expire, c.field, 0, false,
+                field->activation});
     }
     if (field->on == c.on) return;
     field->on = c.on;

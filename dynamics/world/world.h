@@ -81,7 +81,7 @@ public:
   bool setFieldStrength(FieldId id, double start, double end);
   bool setFieldLaw(FieldId id, const FieldLaw& law);
   /// Switches at exactly `when`, or at once if that is past. Switching on starts a new activation. It ends
-  /// after the field's duration, or earlier if the field is switched off.
+  /// when the field's duration, from `when` on, is over, or earlier if the field is switched off.
   bool switchField(FieldId id, bool on, Nanoseconds when);
   bool fieldOn(FieldId id) const;
 

@@ -1,5 +1,6 @@
 /// Situations in which a show went wrong somewhere, played as a user would: tests/corpus/field.
 
+#include "tests/programs/played_cluster.h"
 #include "tests/programs/program.h"
 
 #include <array>
@@ -156,6 +157,55 @@ TEST_P(ProgramFieldCase, ATowerOfCratesOfOneAndAHundredKilogramsStands) {
   EXPECT_NEAR(played.track().end().z, 4.75, 1e-3);
   EXPECT_NEAR(played.track().end().x, 0, 1e-3);
   EXPECT_NEAR(played.track().end().y, 3, 1e-3);
+}
+
+TEST_P(ProgramFieldCase, FieldsPostTheirEventsAtTheExactTime) {
+  const PlayedCase played(GetParam(), "expiry", "1", "ball");
+  const std::map<std::string, double> enabled = played.told("enabled"), disabled = played.told("disabled"),
+                                      expired = played.told("expired");
+  const double gust = 0.1037 + 0.05, over = gust + 0.25, off = gust + 0.05, on = over + 0.05;
+  ASSERT_EQ(enabled.size(), 2U);
+  ASSERT_EQ(disabled.size(), 1U);
+  ASSERT_EQ(expired.size(), 1U);
+  EXPECT_NEAR(enabled.at("gust"), gust, 6e-5);
+  EXPECT_NEAR(expired.at("gust"), over, 6e-5);
+  EXPECT_NEAR(disabled.at("lull"), off, 6e-5);
+  EXPECT_NEAR(enabled.at("lull"), on, 6e-5);
+  const BodyTrack::Row& end = played.track().end();
+  EXPECT_NEAR(end.x, 0.5 * 10 * 0.25 * 0.25 + 10 * 0.25 * (end.time - over), 1e-6);
+  EXPECT_NEAR(end.y,
+              1 + 0.5 * 10 * off * off + 10 * off * (end.time - off) +
+                  0.5 * 10 * (end.time - on) * (end.time - on),
+              1e-6);
+}
+
+TEST_P(ProgramFieldCase, BodiesWithShieldsThatMeetHeadOnStayOnTheirLine) {
+  for (const char* body : {"a", "b"}) {
+    const PlayedCase played(GetParam(), "shields", "8", body);
+    for (const BodyTrack::Row& row : played.track().rows) {
+      ASSERT_NEAR(row.y, 0, 1e-6) << body << " at " << row.time;
+      ASSERT_NEAR(row.z, 0, 1e-6) << body << " at " << row.time;
+    }
+    EXPECT_GT(played.track().end().x, *body == 'a' ? 2 : 6) << "the one stops, the other takes its speed";
+  }
+}
+
+TEST(ProgramFieldEvents, AreTheSameOnTwoHosts) {
+  const TemporaryFolder folder;
+  const std::string show = STADION_SOURCE_DIR "/tests/corpus/field/expiry.evs", out = folder.path() / "out";
+  const std::string hosts =
+      folder.write("two.cluster", "walls cave4\nnode front front left right\nnode floor floor\n"
+                                  "hash-every 1\npartition f" +
+                                      std::to_string(getpid()) + "\n");
+  const ProgramResult r =
+      stadionProgram({"cluster", hosts, show, "--out", out, "--size", "16x12", "--look", "plain", "--frames",
+                      "60", "--pictures", "none", "--input", "none"});
+  ASSERT_EQ(r.status, 0) << r.err;
+  const Json lead = summaryOf(out + "/front"), other = summaryOf(out + "/floor");
+  EXPECT_EQ(lead["happened"].size(), 5U) << lead["happened"];
+  EXPECT_EQ(lead["happened"], other["happened"]);
+  EXPECT_EQ(lead["state_hash"], other["state_hash"]);
+  EXPECT_EQ(lead["cluster"]["differed"], 0);
 }
 
 }  // namespace

@@ -21,7 +21,7 @@ struct Script {
 };
 
 std::unique_ptr<Player> openScript(const Script& script,
-                             std::shared_ptr<const std::vector<std::uint8_t>> state = {}) {
+                                   std::shared_ptr<const std::vector<std::uint8_t>> state = {}) {
   ShowOptions options;
   options.script = script.file, options.walls = "desktop", options.size = "64x48";
   options.input = script.input, options.assetRoots = {assetFolder()};
@@ -81,6 +81,12 @@ public:
   }
   Scene& scene() { return player_->scene(); }
   std::uint64_t seen() const { return seen_.hash(); }
+  /// The events of the last frame.
+  std::uint64_t told() {
+    StateHash h;
+    for (const EventRecord& e : scene().events()) h.add(e.node), h.add(e.event.name()), h.add(e.when);
+    return h.value();
+  }
   const SavedRun& all() const { return seen_; }
 
 private:
@@ -112,6 +118,8 @@ TEST_P(SavedState, GoesOnAsIfNothingHadBeen) {
     for (Copy& copy : copies) {
       copy.played->frame(n);
       ASSERT_EQ(copy.played->scene().stateHash(), played.scene().stateHash())
+          << "in frame " << n << ", put back after frame " << copy.from;
+      ASSERT_EQ(copy.played->told(), played.told())
           << "in frame " << n << ", put back after frame " << copy.from;
       ASSERT_EQ(copy.played->seen(), played.seen())
           << "in frame " << n << ", put back after frame " << copy.from;
@@ -186,7 +194,8 @@ INSTANTIATE_TEST_SUITE_P(
                     Script{testShow("moving.evs"), testShow("moving.input"), 240},
                     Script{testShow("joypad.evs"), testShow("joypad.input"), 240},
                     Script{testShow("desk.evs"), "none", 240}, Script{testShow("hold.evs"), "none", 240},
-                    Script{testShow("stadium/stadium.evs"), "none", 240}),
+                    Script{testShow("stadium/stadium.evs"), "none", 240},
+                    Script{STADION_SOURCE_DIR "/tests/corpus/field/expiry.evs", "none", 60}),
     [](const testing::TestParamInfo<Script>& script) {
       const std::string file = script.param.file.substr(script.param.file.rfind('/') + 1);
       return file.substr(0, file.find('.'));
