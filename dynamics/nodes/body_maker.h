@@ -1,10 +1,12 @@
 #pragma once
 /// Makes the node of a dynobject, and holds what the nodes of this floor share while a show is built.
 
+#include "dynamics/collision/impact_scheme.h"
 #include "engine/build/node_request.h"
 
 #include <functional>
 #include <memory>
+#include <optional>
 
 namespace stadion {
 
@@ -17,7 +19,8 @@ struct DynamicsVariation {
   /// May change how a body looks to collisions (its shape) and what it is (fields, drag area). On the
   /// loader's thread; empty: nothing.
   std::function<void(NodeRef body, Appearance&, BodyAttributes&)> body;
-  std::uint32_t fineness = 1;  ///< of all dynamics nodes, as in World::setFineness
+  std::uint32_t fineness = 1;           ///< of all dynamics nodes, as in World::setFineness
+  std::optional<ImpactScheme> impacts;  ///< of all dynamics nodes; empty: as the script says
 };
 
 /// What a dynobject's declaration says of its body; its flight, which depends on the model, is left open.

@@ -47,6 +47,7 @@ CollisionNode::CollisionNode(const NodeType& type, NodeRef self, std::string nam
   for (const std::string& n : attributes_.collidees) collidees_.push_back(part(n));
   world_.setBodiesCollide(attributes_.selfCollide);
   world_.setFineness(attributes_.fineness);
+  world_.setImpactScheme(attributes_.impacts);
 }
 
 void CollisionNode::onEnter(Scene& scene) {

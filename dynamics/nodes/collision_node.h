@@ -28,6 +28,7 @@ struct CollisionAttributes {
   bool on = true;
   std::vector<SharedFit> fits;  ///< of colliders in its file: made by the loader, kept for App to find
   std::uint32_t fineness = 1;   ///< as in World::setFineness
+  ImpactScheme impacts;         ///< as in World::setImpactScheme
 };
 
 class CollisionNode : public Node {
@@ -47,6 +48,7 @@ public:
 
   /// What the last step did, for reports.
   const World& world() const { return world_; }
+  const ImpactScheme& impacts() const { return attributes_.impacts; }
 
   struct Overlap {
     std::string a, b;

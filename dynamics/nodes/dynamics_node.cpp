@@ -10,6 +10,7 @@
 #include "engine/core/shared_rows.h"
 #include "engine/maths/functions.h"
 #include "engine/scene/scene.h"
+#include "engine/script/declaration_check.h"
 
 #include <algorithm>
 
@@ -417,10 +418,27 @@ bool DynamicsNode::afterStep(FrameContext& frame) {
 
 namespace {
 
+constexpr std::string_view kImpacts[] = {"exact", "paper"};
+
+ImpactScheme impactsOf(const Declaration& d) {
+  return {d.choice<ImpactScheme::Kind>("impact"), d.number("impacttolerance"), 1 / d.number("impactrate")};
+}
+
+/// What only the paper's scheme has a use for.
+void checkImpacts(DeclarationCheck& check) {
+  const Declaration& d = check.declaration();
+  if (d.choice<ImpactScheme::Kind>("impact") == ImpactScheme::Kind::Paper) return;
+  for (const std::string_view name : {"impacttolerance", "impactrate"})
+    if (d.has(Attr::of(name)))
+      check.error(Attr::of(name),
+                  fmt::format("{0} is for impact=paper; add impact=paper or remove {0}", name));
+}
+
 std::unique_ptr<Node> makeDynamics(const NodeRequest& r) {
   const auto& services = r.services.get<DynamicsServices>();
   CollisionAttributes attributes = collisionAttributesOf(r, *services.shapes);
   attributes.fineness = services.variation.fineness;
+  attributes.impacts = services.variation.impacts.value_or(impactsOf(r.declaration));
   return std::make_unique<DynamicsNode>(r.self, r.name, std::move(attributes), services.shapes);
 }
 
@@ -437,6 +455,23 @@ constexpr AttributeSpec kDynamicsRows[] = {
      .kind = ValueKind::Flag,
      .help = "whether the bodies of this node collide with each other",
      .standard = "on"},
+    {.name = "impact",
+     .kind = ValueKind::Choice,
+     .help = "how impacts are found: exactly, or as in the paper by steps that are subdivided",
+     .standard = "exact",
+     .choices = kImpacts},
+    {.name = "impacttolerance",
+     .kind = ValueKind::Number,
+     .help = "of impact=paper: how near two surfaces are brought before they touch",
+     .standard = "0.001",
+     .unit = "m",
+     .range = {1e-9, 0.1}},
+    {.name = "impactrate",
+     .kind = ValueKind::Number,
+     .help = "of impact=paper: tests a second; what passes another thing between two tests is not seen",
+     .standard = "60",
+     .unit = "Hz",
+     .range = {10, 10000}},
     kInitStateRow,
 };
 
@@ -449,6 +484,7 @@ constinit const NodeType kDynamicsType{
     .events = kContactEvents,
     .traits = {Trait::Switched, Trait::Collides, Trait::OwnsBodies, Trait::Degradable},
     .make = makeDynamics,
+    .check = checkImpacts,
     .lint = lintContacts,
 };
 

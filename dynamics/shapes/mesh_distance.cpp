@@ -4,6 +4,7 @@
 
 #include <exception>
 #include <fcl/geometry/bvh/BVH_model.h>
+#include <fcl/geometry/shape/sphere.h>
 #include <fcl/narrowphase/collision.h>
 #include <fcl/narrowphase/distance.h>
 
@@ -15,6 +16,16 @@ fcl::Transform3d toFcl(const Pose& X) {
   t.linear() = X.q.toRotationMatrix();
   t.translation() = X.p;
   return t;
+}
+
+bool meets(const fcl::BVHModel<fcl::OBBRSSd>& a, const fcl::CollisionGeometryd& b, const Pose& X_AB) {
+  try {
+    fcl::CollisionResultd hit;
+    fcl::collide(&a, fcl::Transform3d::Identity(), &b, toFcl(X_AB), fcl::CollisionRequestd(1, false), hit);
+    return hit.isCollision();
+  } catch (const std::exception&) {
+    return true;
+  }
 }
 
 }  // namespace
@@ -67,6 +78,19 @@ std::optional<MeshHierarchy::Pair> MeshHierarchy::nearest(const MeshHierarchy& a
   } catch (const std::exception&) {
     return {};
   }
+}
+
+bool MeshHierarchy::cross(const MeshHierarchy& a, const Pose& X_WA, const MeshHierarchy& b,
+                          const Pose& X_WB) {
+  if (!a.model_->usable || !b.model_->usable) return false;
+  if (!X_WA.finite() || !X_WB.finite()) return true;
+  return meets(a.model_->bvh, b.model_->bvh, X_WA.inverse() * X_WB);
+}
+
+bool MeshHierarchy::reaches(const Vec3& centre, double radius) const {
+  if (!model_->usable) return false;
+  if (!centre.allFinite()) return true;
+  return meets(model_->bvh, fcl::Sphered(radius), {centre, Quat::Identity()});
 }
 
 }  // namespace stadion

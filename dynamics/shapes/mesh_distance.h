@@ -1,5 +1,5 @@
 #pragma once
-/// The nearest pair of triangles of two meshes, found by FCL. Its types stay in mesh_distance.cpp.
+/// Tests and distances of meshes by hierarchies of boxes, made by FCL. Its types stay in mesh_distance.cpp.
 ///
 /// Errors   an exception or a senseless answer from the library gives "unknown", which the callers treat as
 /// "do not move on".
@@ -30,6 +30,11 @@ public:
   /// The nearest triangles, or some that cross.
   static std::optional<Pair> nearest(const MeshHierarchy& a, const Pose& X_WA, const MeshHierarchy& b,
                                      const Pose& X_WB);
+  /// Whether a triangle of one crosses one of the other. Tests boxes along the axes of the meshes, then
+  /// triangles; knows no inside. True if the library fails.
+  static bool cross(const MeshHierarchy& a, const Pose& X_WA, const MeshHierarchy& b, const Pose& X_WB);
+  /// Whether a ball at `centre` reaches a triangle. In the mesh's coordinates.
+  bool reaches(const Vec3& centre, double radius) const;
 
 private:
   struct Model;

@@ -132,7 +132,7 @@ bool FlushSurfaces::isHiddenTouch(const Side& a, const Side& b, const Touch& tou
 
 /// The first touch in [from, to] that is more than a seam.
 std::optional<Touch> FlushSurfaces::firstRealTouch(const Side& a, const Side& b, double from, double to) {
-  std::optional<Touch> touch = firstTouch(a, b, from, to, counters_.distances);
+  std::optional<Touch> touch = search_.first(a, b, from, to);
   double skip = 0;
   while (touch && isHiddenTouch(a, b, *touch)) {
     const Kinematics ka = a.at(touch->tau), kb = b.at(touch->tau);
@@ -140,7 +140,7 @@ std::optional<Touch> FlushSurfaces::firstRealTouch(const Side& a, const Side& b,
     skip = std::max(2 * skip, kSkip / std::max(speed, 1e-3));
     const double next = touch->tau + skip;
     if (!(next <= to)) return {};
-    touch = firstTouch(a, b, next, to, counters_.distances);
+    touch = search_.first(a, b, next, to);
   }
   return touch;
 }

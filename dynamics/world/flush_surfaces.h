@@ -7,7 +7,7 @@
 #include "dynamics/state/contact_events.h"
 #include "dynamics/state/swept_boxes.h"
 #include "dynamics/state/world_objects.h"
-#include "dynamics/world/world.h"
+#include "dynamics/world/impact_search.h"
 
 #include <optional>
 #include <vector>
@@ -17,8 +17,8 @@ namespace stadion {
 class FlushSurfaces {
 public:
   FlushSurfaces(const WorldObjects& objects, const SweptBoxes& boxes, ContactMemory& memory,
-                World::Counters& counters)
-      : objects_(objects), boxes_(boxes), memory_(memory), counters_(counters) {}
+                const ImpactSearch& search)
+      : objects_(objects), boxes_(boxes), memory_(memory), search_(search) {}
 
   /// The first touch in [from, to] that is more than a seam.
   std::optional<Touch> firstRealTouch(const Side& a, const Side& b, double from, double to);
@@ -42,7 +42,7 @@ private:
   const WorldObjects& objects_;
   const SweptBoxes& boxes_;
   ContactMemory& memory_;
-  World::Counters& counters_;
+  const ImpactSearch& search_;
 };
 
 }  // namespace stadion

@@ -167,7 +167,7 @@ void Impacts::onTouch(const Touch& touch, Party pa, Party pb, double tau) {
   const bool rolls = (a.mode == BodyMode::Slide || a.mode == BodyMode::Roll) && a.support.on.id &&
                      a.support.on == pb && a.impacts <= kMostFolds;
   const bool onFace = c && (a.mode == BodyMode::Flight || rolls) && carries(a, *c, touch.gap);
-  const double last = onFace ? kLastBounce : kLastRattle;
+  const double last = std::max(onFace ? kLastBounce : kLastRattle, search_.tolerance());
   std::uint32_t most = pair.restitution < 1 ? kMostImpacts : kMostElastic;
   if (pair.restitution < 0.6)
     most = b && foresight_.ballsAround(a, tau) + 1 >= kPileOfBalls ? kMostInThick : kMostRattles;
@@ -188,7 +188,7 @@ void Impacts::onTouch(const Touch& touch, Party pa, Party pb, double tau) {
   if (Support face; onFace && ends && supportFor(a, *c, touch.gap, face) && !face.ends(ma.p, ma.v)) {
     BallStart s{ma.p, ma.v, ma.omega, ma.q};
     s.v -= n * n.dot(s.v);
-    if (std::fabs(touch.gap.distance) < kExact) s.p -= touch.gap.distance * n;
+    if (std::fabs(touch.gap.distance) < std::max(kExact, search_.tolerance())) s.p -= touch.gap.distance * n;
     a.support = face;
     arcs_.startOnFace(a, tau, s, false, false);
     foresight_.predict(a, tau);

@@ -12,10 +12,10 @@ public:
   Impacts(const WorldTime& time, const StepGrid& grid, EventQueue& queue, WorldObjects& objects,
           const FieldSet& fields, ContactMemory& memory, SweptBoxes& boxes, BodyArcs& arcs,
           FlushSurfaces& surfaces, Foresight& foresight, Waking& waking, ReleaseWatch& releases,
-          World::Counters& counters)
+          const ImpactSearch& search, World::Counters& counters)
       : time_(time), grid_(grid), queue_(queue), objects_(objects), fields_(fields), memory_(memory),
         boxes_(boxes), arcs_(arcs), surfaces_(surfaces), foresight_(foresight), waking_(waking),
-        releases_(releases), counters_(counters) {}
+        releases_(releases), search_(search), counters_(counters) {}
 
   /// Two sides touch at tau.
   void onTouch(const Touch& touch, Party a, Party b, double tau);
@@ -39,6 +39,7 @@ private:
   Foresight& foresight_;
   Waking& waking_;
   ReleaseWatch& releases_;
+  const ImpactSearch& search_;
   World::Counters& counters_;
 };
 

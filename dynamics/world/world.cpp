@@ -401,6 +401,10 @@ void World::setFineness(std::uint32_t parts) {
   core_->grid_.refine(parts);
 }
 
+void World::setImpactScheme(const ImpactScheme& scheme) {
+  core_->search_.set(scheme);
+}
+
 BodyMode World::mode(BodyId id) const {
   const RigidBody* b = core_->objects_.body(id);
   return b ? b->mode : BodyMode::Rest;

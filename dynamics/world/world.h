@@ -15,6 +15,7 @@
 /// Order    results depend on nothing but the sequence of calls: no addresses, no hashing, no threads.
 
 #include "dynamics/body/body.h"
+#include "dynamics/collision/impact_scheme.h"
 #include "dynamics/motion/force_field.h"
 #include "dynamics/shapes/shape.h"
 #include "engine/base/time_signature.h"
@@ -72,6 +73,8 @@ public:
   /// Divides the steps of lasting contact and of pulled balls on faces by 1, 2, 4, 8 or 16. This is more
   /// exact and costs more. Expects that the world has not been advanced.
   void setFineness(std::uint32_t parts);
+  /// Sets how first contacts are found; exactly by default. Expects that the world has not been advanced.
+  void setImpactScheme(const ImpactScheme& scheme);
 
   FieldId addField(const ForceField& field, bool on = false);
   bool removeField(FieldId id);

@@ -52,13 +52,14 @@ public:
 
   // --- motion
   BodyArcs arcs_{time_, grid_, fields_, memory_, active_, changes_, supports_, traces_, counters_};
-  FlushSurfaces surfaces_{objects_, boxes_, memory_, counters_};
+  ImpactSearch search_{time_, counters_};
+  FlushSurfaces surfaces_{objects_, boxes_, memory_, search_};
   Foresight foresight_{time_,    queue_, objects_, memory_,   active_,
                        changes_, boxes_, arcs_,    surfaces_, counters_};
   Waking waking_{time_, grid_, queue_, objects_, supports_, active_, arcs_, foresight_};
   ReleaseWatch releases_{time_, objects_, memory_, traces_};
-  Impacts impacts_{time_, grid_,     queue_,     objects_, fields_,   memory_,  boxes_,
-                   arcs_, surfaces_, foresight_, waking_,  releases_, counters_};
+  Impacts impacts_{time_, grid_,     queue_,     objects_, fields_,   memory_, boxes_,
+                   arcs_, surfaces_, foresight_, waking_,  releases_, search_, counters_};
   ArcEnds ends_{objects_, arcs_, surfaces_, foresight_, waking_};
   Arrivals arrivals_{time_, objects_, fields_, memory_, active_, changes_, boxes_, arcs_, waking_, waysOut_};
   ContactFinder finder_{grid_, objects_, fields_, boxes_, foresight_};

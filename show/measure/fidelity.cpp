@@ -33,7 +33,7 @@ std::vector<TriedModel> modelsFor(NodeRef ref, const PlayedBody& body, const std
   if (!truth.empty()) finest = {truth};
   for (const std::string& shape : finest) {
     TriedModel& t = add(fmt::format("shape={}, steps / {}", shape, kFinestSteps), shape);
-    t.finest = true, t.model.fineness = kFinestSteps;
+    t.finest = true, t.model.fineness = kFinestSteps, t.model.impacts.emplace();
   }
   if (nameOf(body.shape) != finest.front())
     add(fmt::format("as it is, steps / {}", kFinestSteps), "").model.fineness = kFinestSteps;
@@ -42,6 +42,10 @@ std::vector<TriedModel> modelsFor(NodeRef ref, const PlayedBody& body, const std
     if (kind != body.shape)
       add(fmt::format("shape={}", nameOf(kind)), nameOf(kind)).simpler =
           detailOf(kind) > detailOf(body.shape);
+  using Impacts = ImpactScheme::Kind;
+  const bool paper = body.impacts == Impacts::Paper;
+  add(paper ? "impact=exact" : "impact=paper", "").model.impacts =
+      ImpactScheme{paper ? Impacts::Exact : Impacts::Paper};
   for (const HookedField& f : body.fields) {
     if (f.type != "medium") continue;
     TriedModel& t = add("without " + f.name, "");

@@ -2,10 +2,11 @@
 /// How near each body of a show comes to its finest model, what that costs, and which models would do.
 ///
 /// The finest model of a body collides as its own mesh (as the box or convex body that the mesh is to
-/// rounding, as its hull if it is not closed, or as the shape that it is said to have in truth), with the
-/// steps of lasting contact divided by eight. The same show is played with one body's model changed at a
-/// time, and the body's places are compared frame by frame. Fields, masses by density, and the drag area stay
-/// what the script says: what a body is not hooked to is no part of any model.
+/// rounding, as its hull if it is not closed, or as the shape that it is said to have in truth), with exact
+/// impacts and with the steps of lasting contact divided by eight. The same show is played with one body's
+/// model changed at a time, and the body's places are compared frame by frame. The contact scheme of the whole
+/// show, `impact=`, is such a model too. Fields, masses by density, and the drag area stay what the script
+/// says: what a body is not hooked to is no part of any model.
 ///
 /// Errors   of place: how far the node's origin is from where it is with the finest model [m].
 /// Costs    processor time a frame. A model's is what the body's dynamics node takes more with it than

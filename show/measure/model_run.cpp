@@ -1,6 +1,7 @@
 #include "show/measure/model_run.h"
 
 #include "dynamics/collision/shape_choice.h"
+#include "dynamics/nodes/collision_node.h"
 #include "dynamics/nodes/dyn_object_node.h"
 #include "dynamics/nodes/field_node.h"
 #include "show/recording/show_recording.h"
@@ -60,6 +61,8 @@ private:
     }
     body.dragArea = node.body().dragArea.value_or(fit.dragArea);
     body.dynamics = node.movedBy();
+    if (const auto* moves = dynamic_cast<const CollisionNode*>(scene_.find(body.dynamics)))
+      body.impacts = moves->impacts().kind;
     for (const std::string& name : node.body().hooks)
       if (const Node* field = scene_.find(scene_.tree().resolve(name, node.self())))
         body.fields.push_back({name, field->type().name});
@@ -85,7 +88,7 @@ private:
 
 DynamicsVariation variationOf(const BodyModel& model) {
   DynamicsVariation v;
-  v.fineness = model.fineness;
+  v.fineness = model.fineness, v.impacts = model.impacts;
   v.body = [model](NodeRef ref, Appearance& appearance, BodyAttributes& body) {
     if (ref != model.body) return;
     body.simulated = !model.absent;

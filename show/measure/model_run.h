@@ -17,12 +17,13 @@ namespace stadion {
 
 /// How one body is modelled in a run; the others are as the script says.
 struct BodyModel {
-  NodeRef body;                      ///< invalid: all as the script says
-  std::string shape;                 ///< as the language writes it; empty: as the script says
-  std::optional<double> dragArea;    ///< so that another shape does not change the drag [m2]
-  std::vector<std::string> without;  ///< fields that it is not hooked to
-  std::uint32_t fineness = 1;        ///< of the whole show's dynamics, as in World::setFineness
-  bool absent = false;               ///< not simulated at all: what the show costs without it
+  NodeRef body;                         ///< invalid: all as the script says
+  std::string shape;                    ///< as the language writes it; empty: as the script says
+  std::optional<double> dragArea;       ///< so that another shape does not change the drag [m2]
+  std::vector<std::string> without;     ///< fields that it is not hooked to
+  std::uint32_t fineness = 1;           ///< of the whole show's dynamics, as in World::setFineness
+  std::optional<ImpactScheme> impacts;  ///< of the whole show's dynamics; empty: as the script says
+  bool absent = false;                  ///< not simulated at all: what the show costs without it
 };
 
 /// A field that a body is hooked to when it is first seen.
@@ -43,6 +44,7 @@ struct PlayedBody {
   double dragArea = 0;  ///< [m2]
   std::vector<HookedField> fields;
   NodeRef dynamics;                           ///< the node that moves it
+  ImpactScheme::Kind impacts{};               ///< how that node finds impacts
   std::array<std::uint64_t, 7> modes{};       ///< frames in each BodyMode
   std::array<std::uint64_t, 3> flights{};     ///< of those in flight, by FlightClass
   std::uint64_t arcs = 0;                     ///< begun

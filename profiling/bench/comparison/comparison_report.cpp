@@ -37,7 +37,7 @@ int widthOf(const std::string& column) {
 }
 
 std::string rowOf(const Measurement& m, const CaseResult& result, const std::vector<std::string>& columns) {
-  std::string row = fmt::format("  {:<16}{:>3}", m.engine, m.n);
+  std::string row = fmt::format("  {:<20}{:>3}", m.engine, m.n);
   if (m.unsupported) return row + "  has no such thing\n";
   if (m.crash) return row + (m.crash == SIGALRM ? "  out of time\n" : "  crashed\n");
   if (m.refused()) return row + "  refused the mesh\n";
@@ -52,7 +52,7 @@ std::string rowOf(const Measurement& m, const CaseResult& result, const std::vec
 
 std::string tableOf(const CaseResult& result) {
   const std::vector<std::string> columns = columnsOf(result);
-  std::string text = fmt::format("{}\n  {:<16}{:>3}{:>12}", result.name, "engine", "n", "ns/frame");
+  std::string text = fmt::format("{}\n  {:<20}{:>3}{:>12}", result.name, "engine", "n", "ns/frame");
   for (const std::string& c : columns) text += fmt::format("  {:>{}}", c, widthOf(c));
   if (result.verdict.peer) text += fmt::format("  {:>8}", "ratio");
   text += "\n";

@@ -49,7 +49,7 @@ void judgeFinest(const CaseLimits& limits, const std::vector<Measurement>& of, V
   for (const MetricLimit& limit : limits.finest) {
     double best = std::numeric_limits<double>::infinity();
     for (const Measurement& m : of)
-      if (isOurs(m) && m.played()) best = std::fmin(best, std::fabs(m.metric(limit.metric)));
+      if (isJudged(m) && m.played()) best = std::fmin(best, std::fabs(m.metric(limit.metric)));
     verdict.findings.push_back(
         {within(best, limit.most) ? Kind::Met : Kind::Missed,
          fmt::format("{} {:.3g} at the finest setting, at most {:.3g}", limit.metric, best, limit.most)});
@@ -88,6 +88,10 @@ bool isOurs(const Measurement& m) {
   return m.engine.starts_with("stadion");
 }
 
+bool isJudged(const Measurement& m) {
+  return isOurs(m) && !m.engine.starts_with("stadion-paper");
+}
+
 bool keeps(const Measurement& m, const std::vector<MetricLimit>& limits) {
   return std::all_of(limits.begin(), limits.end(),
                      [&m](const MetricLimit& l) { return within(m.metric(l.metric), l.most); });
@@ -115,7 +119,7 @@ Verdict judge(const std::string& caseName, const std::vector<Measurement>& of) {
   const CaseLimits* limits = limitsFor(caseName);
   if (!limits) return verdict;
   for (const Measurement& m : of) {
-    if (!isOurs(m)) continue;
+    if (!isJudged(m)) continue;
     if (m.played()) {
       judgeErrors(*limits, m, verdict);
       judgeCost(*limits, m, of, verdict);

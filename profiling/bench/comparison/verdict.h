@@ -20,7 +20,10 @@ struct Verdict {
   std::size_t count(Finding::Kind kind) const;
 };
 
+/// Returns true for each setting of Stadion. None is a peer.
 bool isOurs(const Measurement& m);
+/// Returns true if the limits hold for it: not for the rungs that are only shown beside.
+bool isJudged(const Measurement& m);
 bool keeps(const Measurement& m, const std::vector<MetricLimit>& limits);
 
 /// Returns the cheapest other engine at the setting of the limit. If none finishes the case there, returns

@@ -11,6 +11,7 @@
 #include "dynamics/world/world.h"
 #include "profiling/bench/dynamics/engine.h"
 
+#include <algorithm>
 #include <limits>
 
 namespace stadion::bench {
@@ -39,8 +40,21 @@ Q4 turned(Q4 q, V3 omega, double seconds) {
   return Q4{1, half.x, half.y, half.z} * q;
 }
 
+/// The rungs of the contact scheme: "stadion", and "stadion-paper-TOLERANCE" with the tolerance in metres.
+struct Rung {
+  const char* name;
+  ImpactScheme impacts;
+};
+
+constexpr Rung kRungs[] = {{"stadion", {}},
+                           {"stadion-paper-1e-3", {ImpactScheme::Kind::Paper, 1e-3}},
+                           {"stadion-paper-1e-5", {ImpactScheme::Kind::Paper, 1e-5}},
+                           {"stadion-paper-1e-7", {ImpactScheme::Kind::Paper, 1e-7}}};
+
 class StadionEngine final : public Engine {
 public:
+  explicit StadionEngine(const ImpactScheme& impacts) { world_.setImpactScheme(impacts); }
+
   void create(const WorldSpec& world) override {
     spec_ = world;
     if (norm(world.gravity) == 0) return;
@@ -168,11 +182,13 @@ private:
 }  // namespace
 
 std::vector<std::string> engineVariants() {
-  return {"stadion"};
+  std::vector<std::string> names;
+  for (const Rung& r : kRungs) names.emplace_back(r.name);
+  return names;
 }
 
-std::unique_ptr<Engine> makeEngine(const std::string&) {
-  return std::make_unique<StadionEngine>();
+std::unique_ptr<Engine> makeEngine(const std::string& variant) {
+  return std::make_unique<StadionEngine>(std::ranges::find(kRungs, variant, &Rung::name)->impacts);
 }
 
 }  // namespace stadion::bench

@@ -59,6 +59,15 @@ TEST(ProgramFidelity, LeavingDragOutIsAModelToo) {
   EXPECT_TRUE(advises(lenient, "without air"));
 }
 
+TEST(ProgramFidelity, TheContactSchemeOfThePaperIsAModel) {
+  const ProgramResult r = profile({"--fidelity", "--json", "--body", "bounces"});
+  ASSERT_EQ(r.status, 0) << r.err;
+  const auto body = named(nlohmann::json::parse(r.out)["bodies"], "name", "bounces");
+  const auto paper = named(body["models"], "model", "impact=paper");
+  EXPECT_GT(paper["error_m"].get<double>(), 1e-5);
+  EXPECT_LT(paper["error_m"].get<double>(), 0.05);
+}
+
 TEST(ProgramFidelity, AShapeThatBouncesOtherwiseIsBeyondTheTolerance) {
   const ProgramResult r = profile({"--fidelity", "--json", "--body", "bounces"});
   ASSERT_EQ(r.status, 0) << r.err;

@@ -22,7 +22,8 @@ constexpr Show kShows[] = {{"kick", "scripts/kick.evs"},
                            {"olympia", "scripts/olympia.evs"},
                            {"crowd", "scripts/crowd.evs"},
                            {"bodies", "tests/corpus/shows/bodies.evs"},
-                           {"moving", "tests/corpus/shows/moving.evs"}};
+                           {"moving", "tests/corpus/shows/moving.evs"},
+                           {"paper_impacts", "tests/corpus/shows/paper_impacts.evs"}};
 
 std::string pathOf(const Show& show) {
   return std::string(STADION_SOURCE_DIR "/") + show.script;

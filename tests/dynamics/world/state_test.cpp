@@ -22,8 +22,9 @@ std::vector<std::uint8_t> saved(World& w) {
 }
 
 /// With the shapes of the other, which must outlive it.
-std::unique_ptr<World> copyOf(World& w, const std::vector<std::uint8_t>& state) {
+std::unique_ptr<World> copyOf(World& w, const std::vector<std::uint8_t>& state, const ImpactScheme& impacts) {
   auto copy = std::make_unique<World>();
+  copy->setImpactScheme(impacts);
   RestoredState in(state);
   copy->visit(in);
   EXPECT_TRUE(in.complete());
@@ -47,6 +48,7 @@ struct StateCase {
   std::function<void(World&)> build;
   std::function<void(World&, std::uint64_t frame)> act = [](World&, std::uint64_t) {};
   std::uint64_t frames = 200;
+  ImpactScheme impacts{};
 };
 
 Pose at(double x, double y, double z) {
@@ -120,13 +122,18 @@ void swing(World& w, std::uint64_t frame) {
 }
 
 TEST(WorldState, GoesOnToTheBit) {
-  const std::vector<StateCase> cases{{"a heap", heap},
-                                {"a slope", slope},
-                                {"air", air},
-                                {"a hand", heap, swing},
-                                {"a hand on a slope", slope, swing}};
+  const ImpactScheme stepped{ImpactScheme::Kind::Paper};
+  const std::vector<StateCase> cases{
+      {"a heap", heap},
+      {"a heap with the paper's impacts", heap, swing, 200, stepped},
+      {"a slope with the paper's impacts", slope, [](World&, std::uint64_t) {}, 200, stepped},
+      {"a slope", slope},
+      {"air", air},
+      {"a hand", heap, swing},
+      {"a hand on a slope", slope, swing}};
   for (const StateCase& c : cases) {
     World w;
+    w.setImpactScheme(c.impacts);
     c.build(w);
     std::vector<std::pair<std::uint64_t, std::unique_ptr<World>>> copies;
     const auto step = [&](World& x, std::uint64_t n) {
@@ -142,7 +149,7 @@ TEST(WorldState, GoesOnToTheBit) {
       }
       if (n % 9 != 4) continue;
       if (copies.size() > 5) copies.erase(copies.begin());
-      copies.emplace_back(n, copyOf(w, saved(w)));
+      copies.emplace_back(n, copyOf(w, saved(w), c.impacts));
     }
   }
 }

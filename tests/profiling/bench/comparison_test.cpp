@@ -73,6 +73,15 @@ TEST(Comparison, CostIsComparedWithTheCheapestAtTheLimitsSetting) {
   EXPECT_EQ(kinds(v), (Kinds{Met, Missed}));  // 20 of 110 is more than a sixth
 }
 
+TEST(Comparison, TheContactSchemeOfThePaperHasNoLimitsAndIsNoPeer) {
+  const std::vector<Measurement> all{of("stadion", "C01_ballistic", 1, 10, {{"err", 0}}),
+                                     of("stadion-paper-1e-3", "C01_ballistic", 1, 1, {{"err", 1}}),
+                                     of("bullet64", "C01_ballistic", 1, 100, {{"err", 1}})};
+  const Verdict v = judge("C01_ballistic", all);
+  EXPECT_EQ(kinds(v), (Kinds{Met, Met}));
+  EXPECT_EQ(v.peer, &all[2]);
+}
+
 TEST(Comparison, AWallThatWasTunnelledIsNoComparison) {
   const auto ours = of("stadion", "C09_tunnel_v200_ccd", 1, 10,
                        {{"err", 0}, {"tunnelled_of_8", 0}, {"no_rebound_of_8", 0}, {"vel_relerr", 0}});

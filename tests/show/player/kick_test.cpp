@@ -104,15 +104,25 @@ std::string kickScript() {
   return STADION_SOURCE_DIR "/scripts/kick.evs";
 }
 
-/// The same show with a kick field that has no strength.
-std::string withoutField(const TemporaryFolder& folder) {
-  std::string text = fileContent(kickScript());
-  const std::string strength = "0, 5, 0";
-  const std::size_t at = text.find(strength);
+/// A copy of the script that says `after` instead of `before`, with the input of the kick.
+std::string copyWith(const TemporaryFolder& folder, const std::string& name, const std::string& script,
+                     const std::string& before, const std::string& after) {
+  std::string text = fileContent(script);
+  const std::size_t at = text.find(before);
   EXPECT_NE(at, text.npos);
-  text.replace(at, strength.size(), "0, 0, 0");
-  folder.write("kick.input", fileContent(STADION_SOURCE_DIR "/scripts/kick.input"));
-  return folder.write("kick.evs", text);
+  text.replace(at, before.size(), after);
+  folder.write(name + ".input", fileContent(STADION_SOURCE_DIR "/scripts/kick.input"));
+  return folder.write(name + ".evs", text);
+}
+
+/// The same show with a kick field that has no strength.
+std::string withoutField(const TemporaryFolder& folder, const std::string& script) {
+  return copyWith(folder, "without", script, "0, 5, 0", "0, 0, 0");
+}
+
+/// The same show with the contact scheme of the paper.
+std::string withPaperImpacts(const TemporaryFolder& folder) {
+  return copyWith(folder, "paper", kickScript(), "name=”sim_kick”,", "name=”sim_kick”, impact=paper,");
 }
 
 /// What the listing promises of a kick, in figures.
@@ -181,11 +191,11 @@ void tellFigures(double rate, const Figures& with, const Figures& without) {
              with.firstBounce, with.bounces, with.asleep);
 }
 
-void expectTheKick(double rate) {
+void expectTheKick(double rate, const std::string& script = kickScript()) {
   SCOPED_TRACE(fmt::format("at {} Hz", rate));
   const TemporaryFolder folder;
-  const Figures f = figuresOf(playKick(kickScript(), rate));
-  const Figures bare = figuresOf(playKick(withoutField(folder), rate));
+  const Figures f = figuresOf(playKick(script, rate));
+  const Figures bare = figuresOf(playKick(withoutField(folder, script), rate));
   tellFigures(rate, f, bare);
   EXPECT_LT(f.stirred, 0.001);
   EXPECT_GT(f.firstEvent, 2.0);
@@ -213,6 +223,11 @@ TEST(Kick, TheShowOfThePaperHoldsWhatItPromises) {
 
 TEST(Kick, ItDoesSoAtOtherFrameRates) {
   for (const double rate : {30., 96., 120., 144., 240.}) expectTheKick(rate);
+}
+
+TEST(Kick, ItPlaysWithTheContactSchemeOfThePaper) {
+  const TemporaryFolder folder;
+  for (const double rate : {60., 144.}) expectTheKick(rate, withPaperImpacts(folder));
 }
 
 TEST(Kick, AtSixtyHertzTheBallComesToRestBeforeTheVisitor) {

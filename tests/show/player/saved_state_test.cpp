@@ -191,6 +191,7 @@ INSTANTIATE_TEST_SUITE_P(
     testing::Values(Script{ours("kick.evs"), ours("kick.input"), 480},
                     Script{ours("olympia.evs"), ours("olympia.input"), 900},
                     Script{ours("crowd.evs"), "none", 240}, Script{testShow("bodies.evs"), "none", 240},
+                    Script{testShow("paper_impacts.evs"), "none", 240},
                     Script{testShow("moving.evs"), testShow("moving.input"), 240},
                     Script{testShow("joypad.evs"), testShow("joypad.input"), 240},
                     Script{testShow("desk.evs"), "none", 240}, Script{testShow("hold.evs"), "none", 240},
