@@ -6,6 +6,7 @@
 #include "engine/base/installed_files.h"
 #include "engine/input/input_log.h"
 #include "engine/input/tracker_feed.h"
+#include "engine/input/tracker_names.h"
 #include "engine/maths/angles.h"
 #include "engine/maths/functions.h"
 #include "pipeline/record/run_summary.h"
@@ -76,9 +77,9 @@ Errors errorsOf(const HeadPath& path, const BenchPredictionOptions& o, double ah
     const Nanoseconds now = signatureAt(n, kFrameRate).time;
     if (toSeconds(now) > o.seconds) return errors;
     for (Nanoseconds t; (t = signatureAt(measured, o.trackerRate).time) <= now; ++measured)
-      feed.pose("head", begin + t, measuring.of(path.at(t)));
+      feed.pose(kHeadTracker, begin + t, measuring.of(path.at(t)));
     if (toSeconds(now) < 1) continue;  // it has just been heard of
-    const auto told = feed.soon("head", begin + now, predicted ? ahead : 0);
+    const auto told = feed.soon(kHeadTracker, begin + now, predicted ? ahead : 0);
     const Pose truly = path.at(now + ahead);
     errors.millimetres.push_back(1e3 * (told->X_RH.p - truly.p).norm());
     errors.degrees.push_back(det::logRotation(told->X_RH.q * truly.q.conjugate()).norm() / kDegree);
@@ -88,12 +89,13 @@ Errors errorsOf(const HeadPath& path, const BenchPredictionOptions& o, double ah
 std::optional<HeadPath> pathOf(const std::string& file, Diagnostics& findings) {
   auto log = loadInputLog(file, findings);
   if (!log) return {};
-  if (!log->find("head")) return findings.error({file, 0, 0}, "the log has no head; record one with --record-input"), std::nullopt;
+  if (!log->find(kHeadTracker))
+    return findings.error({file, 0, 0}, "the log has no head; record one with --record-input"), std::nullopt;
   const auto shared = std::make_shared<const InputLog>(std::move(*log));
   return HeadPath{std::filesystem::path(file).filename(), [shared](Nanoseconds t) {
                     InputSample sample;
                     shared->sampleAt(t, sample);
-                    return sample.find("head")->X_RT;
+                    return sample.find(kHeadTracker)->X_RT;
                   }};
 }
 

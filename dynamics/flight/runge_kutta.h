@@ -9,6 +9,7 @@
 /// Model    any `Wrench model(const Vec3& u, const Vec3& w)`.
 
 #include "dynamics/flight/flight_step.h"
+#include "dynamics/maths/dormand_prince.h"
 #include "engine/maths/functions.h"
 
 #include <algorithm>
@@ -87,19 +88,17 @@ private:
   /// Its error in tolerances; the result is left in `next_`.
   template <class Model>
   double tryStep(const RigidFlight& f, double h, const Surroundings& s, const Model& model) {
-    const State y = pack(f), k1 = rate(y, s, model), k2 = rate(y + h * (1. / 5 * k1), s, model),
-                k3 = rate(y + h * (3. / 40 * k1 + 9. / 40 * k2), s, model),
-                k4 = rate(y + h * (44. / 45 * k1 - 56. / 15 * k2 + 32. / 9 * k3), s, model),
-                k5 = rate(
-                    y + h * (19372. / 6561 * k1 - 25360. / 2187 * k2 + 64448. / 6561 * k3 - 212. / 729 * k4),
-                    s, model),
-                k6 = rate(y + h * (9017. / 3168 * k1 - 355. / 33 * k2 + 46732. / 5247 * k3 + 49. / 176 * k4 -
-                                   5103. / 18656 * k5),
-                          s, model);
-    next_ = y + h * (35. / 384 * k1 + 500. / 1113 * k3 + 125. / 192 * k4 - 2187. / 6784 * k5 + 11. / 84 * k6);
-    const State k7 = rate(next_, s, model);
-    const State error = h * (71. / 57600 * k1 - 71. / 16695 * k3 + 71. / 1920 * k4 - 17253. / 339200 * k5 +
-                             22. / 525 * k6 - 1. / 40 * k7);
+    namespace pair = dormand_prince;
+    const State y = pack(f);
+    State k[pair::kStages], error = State::Zero();
+    for (int i = 0; i < pair::kStages; ++i) {
+      State sum = State::Zero();
+      for (int j = 0; j < i; ++j) sum += pair::kWeights[i][j] * k[j];
+      next_ = y + h * sum;
+      k[i] = rate(next_, s, model);
+      error += pair::kError[i] * k[i];
+    }
+    error *= h;
     const auto scale = 1 + y.cwiseAbs().cwiseMax(next_.cwiseAbs()).array();
     return (error.array() / scale).abs().maxCoeff() / tolerance_;
   }

@@ -7,8 +7,8 @@
 /// Frames   World. Torques are about the centre of mass.
 /// Bits     the same on all machines.
 
+#include "dynamics/maths/dormand_prince.h"
 #include "dynamics/motion/arc.h"
-#include "dynamics/motion/dormand_prince.h"
 #include "engine/maths/functions.h"
 
 #include <algorithm>

@@ -1,6 +1,6 @@
 #include "dynamics/world/body_arcs.h"
 
-#include "dynamics/motion/dormand_prince.h"
+#include "dynamics/maths/dormand_prince.h"
 #include "dynamics/motion/drag_flight.h"
 
 #include <cmath>

@@ -4,7 +4,7 @@
 #include "engine/input/input_device.h"
 #include "engine/scene/scene.h"
 #include "pipeline/cull/cull.h"
-#include "pipeline/draw/renderer.h"
+#include "pipeline/draw_list/draw_counts.h"
 #include "pipeline/loop/head_latch.h"
 #include "pipeline/loop/head_timing.h"
 #include "pipeline/loop/swap_forecast.h"
@@ -124,7 +124,7 @@ private:
   struct Drawn {
     std::uint32_t views = 0;
     std::uint64_t frame = 0;
-    bool read = false;                   ///< the pictures have been read back
+    bool read = false;    ///< the pictures have been read back
     ViewTotals totals{};  ///< of the whole show, when it has been closed
     std::optional<std::chrono::steady_clock::time_point> posed{};  ///< the head's pose was measured then
     WallLateness late{};

@@ -7,7 +7,7 @@
 /// one build, so structs travel as they are. If one program exits, the other one's socket ends. The two share
 /// no lock.
 
-#include "pipeline/draw/renderer.h"
+#include "pipeline/draw_list/draw_counts.h"
 #include "pipeline/platform/processor_set.h"
 #include "pipeline/shader/look.h"
 

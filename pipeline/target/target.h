@@ -2,7 +2,7 @@
 /// Drawing targets of walls: one OpenGL context, with or without a window, from one of several
 /// implementations.
 ///
-/// The Renderer owns the colour result (an offscreen buffer of the target's size per eye), so all providers
+/// The GlRenderer owns the colour result (an offscreen buffer of the target's size per eye), so all providers
 /// give the same pixels.
 
 #include "engine/base/diagnostic.h"
@@ -36,7 +36,7 @@ public:
   virtual void release() = 0;
 
   const GlTable& gl() const { return gl_; }
-  /// Serialises the provider's contexts if they must not run at the same time (Renderer).
+  /// Serialises the provider's contexts if they must not run at the same time (GlRenderer).
   std::mutex& turns() const { return turns_; }
   std::uint32_t width() const { return width_; }    ///< [pixels]
   std::uint32_t height() const { return height_; }  ///< [pixels]

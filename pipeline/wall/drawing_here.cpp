@@ -29,23 +29,21 @@ Failure DrawingHere::open(std::size_t wall) {
   return {};
 }
 
-// Without a probe, and left out of the totals.
 Failure DrawingHere::warmUp(std::size_t wall, const DrawList& list) {
-  DrawOutcome outcome = draw(wall, list, nullptr);
-  if (!outcome.failure) contexts_.renderer(wall).forgetTotals();
-  return std::move(outcome.failure);
+  return drawWith(wall, list, [&](Renderer& r) { return r.warmUp(list, parts_.giveUp); }).failure;
 }
 
 DrawOutcome DrawingHere::draw(std::size_t wall, const DrawList& list, bool) {
-  return draw(wall, list, parts_.probe);
+  return drawWith(wall, list, [&](Renderer& r) { return r.draw(list, parts_.giveUp, parts_.probe); });
 }
 
-DrawOutcome DrawingHere::draw(std::size_t wall, const DrawList& list, FrameProbe* probe) {
+/// Makes another context, if the wall's was lost, and draws with it.
+DrawOutcome DrawingHere::drawWith(std::size_t wall, const DrawList& list, const Draw& draw) {
   const auto about = [&](const std::string& what) {
     return "wall " + nameOf(wall) + ", frame " + std::to_string(list.ticket.signature.frame) + ": " + what;
   };
   for (int contexts = 1; contexts <= kMostContexts; ++contexts) {
-    if (auto drawn = drawOnce(wall, list, probe)) {
+    if (auto drawn = drawOnce(wall, draw)) {
       if (list.filling && list.filling->isVoid()) return {{}, false};
       return {std::move(*drawn)};
     }
@@ -57,12 +55,12 @@ DrawOutcome DrawingHere::draw(std::size_t wall, const DrawList& list, FrameProbe
   return {Reason(about("its OpenGL context was lost again and again"))};
 }
 
-/// How it went; nothing: the context is lost.
-std::optional<Failure> DrawingHere::drawOnce(std::size_t wall, const DrawList& list, FrameProbe* probe) {
+/// Returns the outcome, or nothing if the context is lost.
+std::optional<Failure> DrawingHere::drawOnce(std::size_t wall, const Draw& draw) {
   if (contexts_.enter(wall)) return {};
   Renderer& renderer = contexts_.renderer(wall);
-  const auto problem = renderer.draw(list, parts_.giveUp, probe);
-  if (renderer.contextIsLost()) return {};
+  const auto problem = draw(renderer);
+  if (renderer.isLost()) return {};
   return toFailure(problem);
 }
 
@@ -88,7 +86,7 @@ ViewTotals DrawingHere::totals(std::size_t wall) const {
 }
 
 std::string DrawingHere::glDescription(std::size_t wall) const {
-  return describeGl(contexts_.gl(wall));
+  return std::as_const(contexts_).renderer(wall).description();
 }
 
 }  // namespace stadion

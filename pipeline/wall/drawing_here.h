@@ -45,8 +45,10 @@ public:
   std::string glDescription(std::size_t wall) const override;
 
 private:
-  DrawOutcome draw(std::size_t wall, const DrawList& list, FrameProbe* probe);
-  std::optional<Failure> drawOnce(std::size_t wall, const DrawList& list, FrameProbe* probe);
+  using Draw = std::function<std::optional<Diagnostic>(Renderer&)>;
+
+  DrawOutcome drawWith(std::size_t wall, const DrawList& list, const Draw& draw);
+  std::optional<Failure> drawOnce(std::size_t wall, const Draw& draw);
   std::string nameOf(std::size_t wall) const;
 
   DrawingHereParts parts_;

@@ -1,5 +1,7 @@
 #include "pipeline/wall/wall_contexts.h"
 
+#include "pipeline/draw/gl_renderer.h"
+
 namespace stadion {
 
 // On a thread of its own, since something else may be current on this one, a window's context for example.
@@ -20,18 +22,17 @@ Failure WallContexts::open(std::size_t wall, GlProvider& provider, const MeshSto
   Context& c = *contexts_[wall];
   if (c.target) {
     if (Failure f = enter(wall)) return f;
-    if (c.renderer && c.renderer->width() == width && c.renderer->height() == height &&
-        c.renderer->quality() == quality)
-      return {};
+    if (c.renderer && c.width == width && c.height == height && c.quality == quality) return {};
     close(wall);
   }
   auto target = provider.create(width, height);
   if (!target) return Reason(target.error());
   c.target = std::move(target.value());
   if (Failure f = enter(wall)) return f;
-  auto renderer = Renderer::create(c.target->gl(), c.target->turns(), meshes, width, height, quality);
+  auto renderer = GlRenderer::create(c.target->gl(), c.target->turns(), meshes, width, height, quality);
   if (!renderer) return Reason(renderer.error());
   c.renderer = std::move(renderer.value());
+  c.width = width, c.height = height, c.quality = quality;
   return {};
 }
 

@@ -8,7 +8,8 @@
 ///          enters once, a thread that draws all of them goes from one to the next. Destroyed by any thread
 ///          once all have been left.
 
-#include "pipeline/draw/renderer.h"
+#include "pipeline/draw_list/renderer.h"
+#include "pipeline/shader/look.h"
 #include "pipeline/target/target.h"
 #include "pipeline/wall/stages.h"
 
@@ -41,12 +42,14 @@ public:
   bool hasContext(std::size_t wall) const { return contexts_[wall]->target != nullptr; }
   /// Expects that it has been opened.
   Renderer& renderer(std::size_t wall) { return *contexts_[wall]->renderer; }
-  const GlTable& gl(std::size_t wall) const { return contexts_[wall]->target->gl(); }
+  const Renderer& renderer(std::size_t wall) const { return *contexts_[wall]->renderer; }
 
 private:
   struct Context {
     std::unique_ptr<Target> target;
     std::unique_ptr<Renderer> renderer;
+    std::uint32_t width = 0, height = 0;  ///< of its pictures [pixels]
+    RenderQuality quality;
     std::atomic<std::thread::id> currentOn;  ///< the thread on which it is current
   };
   std::vector<std::unique_ptr<Context>> contexts_;

@@ -5,7 +5,7 @@
 /// Threads  a wall's functions on its Draw thread, several walls at a time; destroyed when all walls are
 /// closed.
 
-#include "pipeline/draw/renderer.h"
+#include "pipeline/draw_list/draw_counts.h"
 #include "pipeline/wall/stages.h"
 
 #include <array>

@@ -59,6 +59,13 @@ float textureCutoff(const Mesh& mesh, std::size_t texture) {
 
 }  // namespace
 
+MeshParts partsOf(const GlMesh& mesh, std::uint32_t level) {
+  const std::vector<GlSubmesh>& parts = mesh.partsAt(level);
+  std::uint32_t triangles = 0;
+  for (const GlSubmesh& part : parts) triangles += part.triangles();
+  return {&mesh, parts, triangles};
+}
+
 void pointAtInstances(const GlTable& gl, const GlBuffer& instances, std::uint32_t first) {
   constexpr std::size_t kRow = 4 * sizeof(float), kMatrix = 3 * kRow;
   gl.BindBuffer(GL_ARRAY_BUFFER, instances.name());
@@ -109,7 +116,8 @@ std::optional<GlMesh> MeshCache::upload(const Mesh& mesh) {
     report("\"" + mesh.name + "\" cannot be drawn: " + fault);
     return {};
   }
-  GlMesh out{GlVertexArray(gl_), GlBuffer(gl_), GlBuffer(gl_), GlBuffer(gl_), {}, {}, {}, 0, {}, mesh.bounds, {}};
+  GlMesh out{
+      GlVertexArray(gl_), GlBuffer(gl_), GlBuffer(gl_), GlBuffer(gl_), {}, {}, {}, 0, {}, mesh.bounds, {}};
   uploadVertices(mesh, out);
   out.textures.reserve(mesh.textures.size());
   for (std::size_t i = 0; i < mesh.textures.size(); ++i)

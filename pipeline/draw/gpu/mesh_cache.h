@@ -31,7 +31,19 @@ struct GlSubmesh {
   bool bothSides;                        ///< not culled: double-sided, or the mesh is open
   std::uint32_t material;                ///< of the mesh's
   std::uint32_t firstVertex, endVertex;  ///< it has none but these
+
+  /// The same range in triangles of the index buffer.
+  std::uint32_t firstTriangle() const {
+    return static_cast<std::uint32_t>(indexOffset / (3 * sizeof(std::uint32_t)));
+  }
+  std::uint32_t triangles() const { return static_cast<std::uint32_t>(indexCount) / 3; }
 };
+
+/// Which side of a part is seen, if the model matrix mirrors it or not.
+inline TriangleSieve::Facing facingOf(const GlSubmesh& part, bool mirrored) {
+  if (part.bothSides) return TriangleSieve::Facing::Both;
+  return mirrored ? TriangleSieve::Facing::Clockwise : TriangleSieve::Facing::CounterClockwise;
+}
 
 struct GlMesh {
   GlVertexArray vertexArray;
@@ -50,6 +62,14 @@ struct GlMesh {
     return level == 0 || levels.empty() ? parts : levels[std::min<std::size_t>(level, levels.size()) - 1];
   }
 };
+
+/// A mesh at the level at which it is drawn.
+struct MeshParts {
+  const GlMesh* gl;
+  const std::vector<GlSubmesh>& parts;
+  std::uint32_t triangles;
+};
+MeshParts partsOf(const GlMesh& mesh, std::uint32_t level);
 
 /// Where vertex arrays find what; the shaders use the same numbers.
 enum VertexAttribute : GLuint { kPosition, kNormal, kUv, kColour, kModelX, kModelY, kModelZ };

@@ -2,6 +2,7 @@
 ///
 /// Started by stadion with a socket as its standard input; it ends when the show closes that.
 
+#include "pipeline/draw/gl_renderer.h"
 #include "pipeline/process/list_bytes.h"
 #include "pipeline/process/protocol.h"
 #include "pipeline/process/shared_meshes.h"
@@ -76,7 +77,7 @@ public:
   std::optional<std::string> open(const OrderHead& order, const std::array<int, 3>& segments);
   void draw(const OrderHead& order);
   void read() { answer(Order::Read, readPictures()); }
-  std::string description() const { return describeGl(target_->gl()); }
+  std::string description() const { return renderer_->description(); }
 
 private:
   using Access = SharedSegment::Access;
@@ -116,7 +117,7 @@ std::optional<std::string> Worker::open(const OrderHead& order, const std::array
   target_ = std::move(target.value());
   if (const auto why = target_->makeCurrent()) return why->message;
   auto renderer =
-      Renderer::create(target_->gl(), target_->turns(), meshes_, order.width, order.height, order.quality);
+      GlRenderer::create(target_->gl(), target_->turns(), meshes_, order.width, order.height, order.quality);
   if (!renderer) return renderer.error().message;
   renderer_ = std::move(renderer.value());
   pictureBytes_ = std::size_t{order.width} * order.height * 4;
@@ -159,8 +160,7 @@ void Worker::draw(const OrderHead& order) {
   rename(list_.opaque), rename(list_.transparent);
   for (DrawShadowRing& ring : list_.shadows.rings) rename(ring.moving);
   renameStill();
-  auto problem = renderer_->draw(list_);
-  if (order.warmUp) renderer_->forgetTotals();
+  auto problem = order.warmUp ? renderer_->warmUp(list_, {}) : renderer_->draw(list_, {}, nullptr);
   if (!problem && order.read) problem = readPictures();
   answer(Order::Draw, problem, renderer_->totals());
 }

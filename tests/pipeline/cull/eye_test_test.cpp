@@ -139,7 +139,7 @@ TEST(PictureEyeTest, PicturesAreThoseOfEyesThatDrawEverything) {
   ASSERT_TRUE(target && !target.value()->makeCurrent());
   RenderQuality quality = RenderQuality::plain();
   quality.leavesOutUnseen = false;
-  auto renderer = Renderer::create(target.value()->gl(), target.value()->turns(), meshes, 64, 48, quality);
+  auto renderer = GlRenderer::create(target.value()->gl(), target.value()->turns(), meshes, 64, 48, quality);
   ASSERT_TRUE(renderer);
   std::uint64_t drawn = 0, ofAll = 0;
   for (std::uint32_t wall = 0; wall < views.size(); ++wall) {

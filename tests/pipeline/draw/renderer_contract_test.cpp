@@ -233,7 +233,7 @@ TEST(PictureRenderer, OneSampleAPixelGivesHardEdges) {
   list.opaque = {place(meshes.add(MeshMaker(white).triangle({-1, 0, -1}, {1, 0, -1}, {-0.9, 0, 1}).seal()))};
   Stage stage(meshes, 32, 32);
   const auto shades = [&](std::uint32_t samples) {
-    auto renderer = Renderer::create(stage.gl(), stage.turns(), meshes, 32, 32, {Look::Full, samples});
+    auto renderer = GlRenderer::create(stage.gl(), stage.turns(), meshes, 32, 32, {Look::Full, samples});
     EXPECT_TRUE(renderer);
     EXPECT_FALSE(renderer.value()->draw(list));
     std::vector<std::uint8_t> rgba(32 * 32 * 4);
@@ -250,8 +250,8 @@ TEST(PictureRenderer, OneSampleAPixelGivesHardEdges) {
 TEST(PictureRenderer, RefusesSizesThatNoBufferHas) {
   MeshStore meshes;
   Stage stage(meshes, 4, 4);
-  EXPECT_FALSE(Renderer::create(stage.gl(), stage.turns(), meshes, 0, 4));
-  EXPECT_FALSE(Renderer::create(stage.gl(), stage.turns(), meshes, 16385, 4));
+  EXPECT_FALSE(GlRenderer::create(stage.gl(), stage.turns(), meshes, 0, 4));
+  EXPECT_FALSE(GlRenderer::create(stage.gl(), stage.turns(), meshes, 16385, 4));
 }
 
 TEST(PictureRenderer, FreesMeshesThatTheStoreHasFreed) {

@@ -35,7 +35,7 @@ Stage::Stage(const MeshStore& meshes, std::uint32_t width, std::uint32_t height,
   target_ = std::move(target.value());
   const auto bound = target_->makeCurrent();
   EXPECT_FALSE(bound) << bound->message;
-  auto renderer = Renderer::create(target_->gl(), target_->turns(), meshes, width, height, quality);
+  auto renderer = GlRenderer::create(target_->gl(), target_->turns(), meshes, width, height, quality);
   EXPECT_TRUE(renderer) << (renderer ? "" : renderer.error().message);
   renderer_ = std::move(renderer.value());
 }

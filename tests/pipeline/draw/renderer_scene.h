@@ -1,7 +1,7 @@
 #pragma once
 /// What the renderer's tests draw, and with what.
 
-#include "pipeline/draw/renderer.h"
+#include "pipeline/draw/gl_renderer.h"
 #include "pipeline/target/target.h"
 
 #include <cstdint>
@@ -29,7 +29,7 @@ public:
         GlProviderKind kind = GlProviderKind::OsMesa, RenderQuality quality = {});
   ~Stage();
 
-  Renderer& renderer() { return *renderer_; }
+  GlRenderer& renderer() { return *renderer_; }
   const GlTable& gl() const { return target_->gl(); }
   std::mutex& turns() const { return target_->turns(); }
   /// Draws and reads one eye; a problem fails the test.
@@ -37,7 +37,7 @@ public:
 
 private:
   std::unique_ptr<Target> target_;
-  std::unique_ptr<Renderer> renderer_;
+  std::unique_ptr<GlRenderer> renderer_;
 };
 
 Material matt(float r, float g, float b, float alpha = 1);

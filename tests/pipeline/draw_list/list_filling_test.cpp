@@ -43,7 +43,7 @@ DrawList crowdedList(MeshStore& meshes, Random& random, bool lamps) {
 
 using Pictures = std::array<std::vector<std::uint8_t>, 2>;
 
-Pictures picturesOf(Renderer& renderer) {
+Pictures picturesOf(GlRenderer& renderer) {
   Pictures pictures;
   for (std::uint32_t eye = 0; eye < 2; ++eye) {
     pictures[eye].resize(std::size_t{renderer.width()} * renderer.height() * 4);
@@ -63,7 +63,7 @@ TEST(ThreadsListFilling, PicturesAreThoseOfTheWholeList) {
       auto target = test::provider(GlProviderKind::OsMesa)->create(150, 100);
       ASSERT_TRUE(target && !target.value()->makeCurrent());
       auto renderer =
-          Renderer::create(target.value()->gl(), target.value()->turns(), meshes, 150, 100, quality);
+          GlRenderer::create(target.value()->gl(), target.value()->turns(), meshes, 150, 100, quality);
       ASSERT_TRUE(renderer);
       std::optional<Pictures> expected;
       for (int round = 0; round < 4; ++round) {

@@ -201,7 +201,7 @@ void compare(const MeshStore& meshes, const DrawList& list, std::uint32_t width,
     RenderQuality quality = RenderQuality::plain();
     quality.drawsSmallThings = here;
     auto renderer =
-        Renderer::create(target.value()->gl(), target.value()->turns(), meshes, width, height, quality);
+        GlRenderer::create(target.value()->gl(), target.value()->turns(), meshes, width, height, quality);
     ASSERT_TRUE(renderer);
     pictures[here].resize(std::size_t{width} * height * 4);
     for (std::uint32_t again = 0; again < 2; ++again) {
@@ -272,7 +272,7 @@ TEST(ThreadsSmallThings, WallsThatDrawThemSideBySideAllDrawTheSame) {
   const auto play = [&](std::size_t wall) {
     auto target = test::provider(GlProviderKind::OsMesa)->create(90, 60);
     if (!target || target.value()->makeCurrent()) return;
-    auto renderer = Renderer::create(target.value()->gl(), target.value()->turns(), meshes, 90, 60,
+    auto renderer = GlRenderer::create(target.value()->gl(), target.value()->turns(), meshes, 90, 60,
                                      RenderQuality::plain());
     for (int i = 0; renderer && i < 6; ++i) {
       std::vector<std::uint8_t> picture(90 * 60 * 4);

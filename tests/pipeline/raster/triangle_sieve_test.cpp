@@ -149,7 +149,7 @@ void expectSame(const MeshStore& meshes, const DrawList& list, std::uint32_t wid
     RenderQuality quality = RenderQuality::plain();
     quality.leavesOutUnseen = sieved, quality.drawsSmallThings = false;
     auto renderer =
-        Renderer::create(target.value()->gl(), target.value()->turns(), meshes, width, height, quality);
+        GlRenderer::create(target.value()->gl(), target.value()->turns(), meshes, width, height, quality);
     ASSERT_TRUE(renderer);
     pictures[sieved].resize(std::size_t{width} * height * 4);
     const auto wrong = renderer.value()->draw(list, 0);

@@ -117,9 +117,9 @@ TEST(PictureViews, OfOneWallAreThePicturesOfWallsWithOneViewEach) {
   auto target = provider->create(64, 48);
   ASSERT_TRUE(target && !target.value()->makeCurrent());
   for (const RenderQuality quality : {RenderQuality::plain(), RenderQuality{}}) {
-    auto made = Renderer::create(target.value()->gl(), target.value()->turns(), meshes, 64, 48, quality);
+    auto made = GlRenderer::create(target.value()->gl(), target.value()->turns(), meshes, 64, 48, quality);
     ASSERT_TRUE(made);
-    Renderer& renderer = *made.value();
+    GlRenderer& renderer = *made.value();
     const bool oneSample = quality.samples == 1;
     RoomCull together({allIn(walls)}), apart(walls);
     DrawList list;

@@ -3,7 +3,7 @@
 ///
 /// Software     processor time of the calling thread and of Mesa's rasteriser threads (OpenGL's own timer
 ///              queries say 30 to 100 times too little there). Expects that no other context of the process
-///              is told to draw meanwhile (Renderer: a turn).
+///              is told to draw meanwhile (GlRenderer: a turn).
 /// Hardware     a query of the time that passed between the first and the last command.
 ///
 /// Threads  the thread on which the context is current.

@@ -7,7 +7,7 @@
 
 #include "engine/core/frame_probe.h"
 #include "engine/display/wall.h"
-#include "pipeline/draw/lone_clock.h"
+#include "pipeline/draw/sampling/lone_clock.h"
 
 #include <algorithm>
 #include <array>
@@ -43,8 +43,7 @@ public:
   /// A view for that eye, whose nodes are drawn in pieces, of which a few are timed. A piece is some instances that are
   /// drawn one after the other; `starts` has the first of each, ascending, `wanted` the numbers of those that
   /// are to have a turn, ascending. Both must stay until endEye().
-  void beginEye(Eye of, std::span<const std::uint32_t> starts,
-                std::span<const std::size_t> wanted) {
+  void beginEye(Eye of, std::span<const std::uint32_t> starts, std::span<const std::size_t> wanted) {
     const auto eye = static_cast<std::uint32_t>(of);
     now_.eye = eye;
     timed_.clear(), parts_.clear();

@@ -1,4 +1,4 @@
-#include "pipeline/draw/lone_clock.h"
+#include "pipeline/draw/sampling/lone_clock.h"
 
 #include "engine/base/folder_names.h"
 
