@@ -2,7 +2,8 @@
 /// Values that describe bodies and colliders: ids, surfaces, definitions, modes, states, contact events.
 ///
 /// Frames   node poses X_WN in World, right-handed, +Z up; C is a body's centre of mass with its principal
-/// axes. Units    metres, seconds, kilograms; times in show nanoseconds.
+///          axes.
+/// Units    metres, seconds, kilograms; times in show nanoseconds.
 
 #include "dynamics/shapes/mass_properties.h"
 #include "engine/base/time_signature.h"

@@ -1,9 +1,9 @@
 #pragma once
-/// Collision impulses at one point: Newton's restitution, Coulomb's friction; none brings energy.
+/// Collision impulses at one point: Newton's restitution and Coulomb's friction. None adds energy.
 ///
-/// Formula  K = sum (1/m + [r]^T I^-1 [r]); the impulse that stops the slip and reverses the approach is K^-1
-/// du; outside the
-///          friction cone the tangential part is mu times the normal part against the slip.
+/// Formula  K = sum (1/m + [r]^T I^-1 [r]). The impulse that stops the slip and reverses the approach is
+///          K^-1 du. Outside the friction cone, its tangential part is mu times its normal part, against the
+///          slip.
 
 #include "dynamics/body/rigid_body.h"
 

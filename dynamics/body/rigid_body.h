@@ -133,7 +133,7 @@ struct alignas(64) RigidMotion {
   double validAge = 0;        ///< the same as an age
   double pathAge = 0;         ///< the same for the path alone: the spin may wear out earlier
   double spinStart = 0;       ///< the arc's age at which the spin's own began
-  Pose pose;                  ///< X_WN at the end of the last frame
+  Pose pose;                  ///< X_WN at the end of the last frame, sampled from the arc
   Path path;
   Spin spin;
 };

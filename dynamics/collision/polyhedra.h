@@ -1,10 +1,9 @@
 #pragma once
 /// Meshes, and bounded planes, against each other.
 ///
-/// Method   steps that motion bounds of our own allow, so that a thin wall cannot be skipped, from gap to
-/// gap. While
-///          something may be reached the gap is searched in both triangle trees no farther than that; without
-///          a limit FCL's oriented boxes with swept spheres find it. FCL is never asked for a time.
+/// Method   steps that our own motion bounds prove safe, so none skips a thin wall. Each step needs the gap
+///          between the meshes. With a limit, both triangle trees are searched up to that distance. Without
+///          one, FCL's oriented boxes with swept spheres find it. FCL is never asked for a time.
 /// Errors   an exception or a non-finite answer from the library counts as "unknown": the bodies keep their
 ///          last free pose.
 

@@ -1,11 +1,11 @@
 #pragma once
 /// When and where two moving shapes first touch, and how far apart they are.
 ///
-/// Method   the gap g of a moving convex pair obeys g(t + s) >= g + g' s - A s^2 / 2, A a bound on the
-/// relative acceleration
-///          of points; the root of the right side is a step that cannot pass a contact, and near one it
-///          converges quadratically. Ball against a still plane: closed form. Pairs of meshes: motion bounds
-///          on the distance.
+/// Method   the gap g of a moving convex pair obeys g(t + s) >= g + g' s - A s^2 / 2. A is a bound on the
+///          relative acceleration of its points. The root of the right side is a step that cannot pass a
+///          contact; near a contact it converges quadratically. A ball against a still plane has a closed
+///          form. Pairs of meshes step by motion bounds on the distance.
+/// Times    tau is seconds since the start of the world's present window (dynamics/state/world_time.h).
 
 #include "dynamics/body/rigid_body.h"
 
@@ -45,7 +45,7 @@ struct Gap {
 };
 
 struct Touch {
-  double tau = 0;
+  double tau = 0;  ///< [s]
   Gap gap;
   bool swapped = false;  ///< gap was measured from the second side
 };

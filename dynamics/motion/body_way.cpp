@@ -47,18 +47,18 @@ bool jumpsAt(const BodyWay& way, Nanoseconds time) {
   return std::ranges::any_of(way, [&](const WayPart& p) { return p.jump && p.begins() == time; });
 }
 
-void addChords(const BodyWay& way, Nanoseconds end, Course& course) {
+void addChords(const BodyWay& way, Nanoseconds end, PoseTrack& track) {
   for (std::size_t i = 0; i < way.size(); ++i) {
     const WayPart& part = way[i];
     const Nanoseconds begins = part.begins(), to = i + 1 < way.size() ? way[i + 1].begins() : end;
     const auto at = [&](Nanoseconds t) {
       return part.poseAfter(std::max(0.0, Instant{t, 0}.since(part.from)));
     };
-    if (part.jump) course.push_back({begins, at(begins), true});
+    if (part.jump) track.push_back({begins, at(begins), true});
     if (!part.straight())
       for (Nanoseconds t = (begins / kChord + 1) * kChord; t < to; t += kChord)
-        course.push_back({t, at(t), false});
-    if (to > course.back().time && to <= end) course.push_back({to, at(to), false});
+        track.push_back({t, at(t), false});
+    if (to > track.back().time && to <= end) track.push_back({to, at(to), false});
   }
 }
 

@@ -3,15 +3,14 @@
 /// from an exact moment on.
 ///
 /// Frames   C is at the centre of mass, along the principal axes; N is the node that goes along, the body's
-/// own
-///          or one that it carries.
+///          own or one that it carries.
 /// Units    metres, seconds; ages as in arc.h.
 /// Threads  plain values.
 
 #include "dynamics/motion/arc.h"
 #include "dynamics/motion/instant.h"
-#include "engine/maths/course.h"
 #include "engine/maths/maths.h"
+#include "engine/maths/pose_track.h"
 
 #include <vector>
 
@@ -85,6 +84,6 @@ Pose poseOn(const BodyWay& way, Nanoseconds time, Limit limit);
 /// Whether it is put somewhere at exactly `time`.
 bool jumpsAt(const BodyWay& way, Nanoseconds time);
 /// The same way by straight chords, to `end`, for nodes that follow no arcs.
-void addChords(const BodyWay& way, Nanoseconds end, Course& course);
+void addChords(const BodyWay& way, Nanoseconds end, PoseTrack& track);
 
 }  // namespace stadion

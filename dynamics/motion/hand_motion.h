@@ -10,7 +10,7 @@
 /// Frames, units  poses X_WT; metres, seconds, radians.
 /// Threads        a plain value.
 
-#include "engine/maths/course.h"
+#include "engine/maths/pose_track.h"
 
 namespace stadion {
 
@@ -32,7 +32,7 @@ public:
   Velocity velocity() const;
   /// Where it is. Expects that it has been put somewhere.
   const Pose& now() const { return way_.back().X; }
-  const Course& way() const { return way_; }  ///< all that counts
+  const PoseTrack& way() const { return way_; }  ///< all that counts
 
   template <class Self, class Fields>
   static void fields(Self& h, Fields& f) {
@@ -40,7 +40,7 @@ public:
   }
 
 private:
-  Course way_;
+  PoseTrack way_;
 };
 
 }  // namespace stadion

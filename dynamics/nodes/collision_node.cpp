@@ -103,7 +103,7 @@ void CollisionNode::changeParts(Nanoseconds time, FrameContext& frame) {
     const bool isCollider = part >= colliders_.data() && part < colliders_.data() + colliders_.size();
     if (part->ref.valid() && part->leaveAt <= time) {
       isCollider ? removeCollider(*part, scene) : removeCollidee(*part, scene);
-      part->ref = {}, part->id = 0, part->fit = nullptr, part->course.clear(), part->way.clear();
+      part->ref = {}, part->id = 0, part->fit = nullptr, part->track.clear(), part->way.clear();
     }
     if (!part->next.valid() || part->nextAt > time || part->ref.valid()) continue;
     auto* object = dynamic_cast<ObjectNode*>(scene.find(part->next));
@@ -211,19 +211,19 @@ ColliderDef CollisionNode::colliderOf(Part& part, const ObjectNode& object, cons
   return def;
 }
 
-void CollisionNode::addCuts(const Course& course, std::vector<Nanoseconds>& cuts) {
-  for (const PoseKnot& k : course) cuts.push_back(k.time);
+void CollisionNode::addCuts(const PoseTrack& track, std::vector<Nanoseconds>& cuts) {
+  for (const PoseKnot& k : track) cuts.push_back(k.time);
 }
 
 bool CollisionNode::follow(Part& part, FrameContext& frame, std::vector<Nanoseconds>& cuts) const {
-  part.course.clear(), part.way.clear();
+  part.track.clear(), part.way.clear();
   if (!part.ref.valid()) return false;
   followFrom(part, part.pose, frame);
   if (!part.way.empty()) {
     for (const WayPart& p : part.way)
       if (p.jump) cuts.push_back(p.begins());
   } else {
-    addCuts(part.course, cuts);
+    addCuts(part.track, cuts);
   }
   return moves(part);
 }
@@ -231,15 +231,15 @@ bool CollisionNode::follow(Part& part, FrameContext& frame, std::vector<Nanoseco
 /// The way of a part that was at `before` when the frame began.
 void CollisionNode::followFrom(Part& part, const Pose& before, FrameContext& frame) const {
   const Placements& placements = frame.scene.placements();
-  const PoseTracks& courses = frame.scene.poseTracks();
+  const PoseTracks& tracks = frame.scene.poseTracks();
   // What has moved while this node was kept from running is put where it has come to.
-  const Pose start = frame.rested ? courses.startOf(part.placement, placements) : before;
-  part.course = courses.within(part.placement, start, frame.start(), frame.now.time, placements);
+  const Pose start = frame.rested ? tracks.startOf(part.placement, placements) : before;
+  part.track = tracks.within(part.placement, start, frame.start(), frame.now.time, placements);
   if (frame.rested && !(start.p == before.p && start.q.coeffs() == before.q.coeffs())) {
-    if (part.course.empty()) part.course.push_back({frame.start(), start, false});
-    part.course.front().jump = true;
-    part.course.insert(part.course.begin(), {frame.start(), before, false});
-  } else if (!part.course.empty()) {
+    if (part.track.empty()) part.track.push_back({frame.start(), start, false});
+    part.track.front().jump = true;
+    part.track.insert(part.track.begin(), {frame.start(), before, false});
+  } else if (!part.track.empty()) {
     followBody(part, before, frame);
   }
   part.pose = poseOf(placements.world(part.placement));
@@ -272,11 +272,11 @@ bool CollisionNode::followBody(Part& part, const Pose& before, const FrameContex
 }
 
 bool CollisionNode::jumps(const Part& part, Nanoseconds time) {
-  return part.way.empty() ? jumpsAt(part.course, time) : jumpsAt(part.way, time);
+  return part.way.empty() ? jumpsAt(part.track, time) : jumpsAt(part.way, time);
 }
 
 Pose CollisionNode::poseAt(const Part& part, Nanoseconds time, Limit limit) {
-  return part.way.empty() ? poseOn(part.course, time, limit) : poseOn(part.way, time, limit);
+  return part.way.empty() ? poseOn(part.track, time, limit) : poseOn(part.way, time, limit);
 }
 
 bool CollisionNode::foresee(FrameContext& frame, std::vector<Nanoseconds>& cuts) {

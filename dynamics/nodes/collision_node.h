@@ -1,16 +1,16 @@
 #pragma once
-/// `collision`: tells when its colliders and collidees touch. The dynamics node is a collision node that
+/// `collision`: reports when its colliders and collidees touch. The dynamics node is a collision node that
 /// moves its collidees as well.
 ///
-/// Events    onimpact: once when a separated pair touches; onrelease: once when it has come apart again
-/// farther than
-///           releasedistance. Both carry the exact time.
-/// Commands  enable, disable, toggle, reset. While it is off, what it moves stands still where it is.
-/// Times     what moves its parts from outside is followed inside the frame: the knots of a tracker's way,
-/// commands,
-///           files that come and go, each at its exact time.
-/// Time-critical: it reads placements and moves bodies by direct calls, in App only. It is visited only while
-/// something in it moves.
+/// The node reads placements and moves bodies by direct calls. It is visited only while one of its parts
+/// moves.
+///
+/// Events    onimpact: once when a separated pair touches; onrelease: once when the pair is farther apart
+///           than releasedistance again. Both carry the exact time.
+/// Commands  enable, disable, toggle, reset. While the node is off, its bodies stand still.
+/// Times     external motion is followed within the frame: the knots of a tracker's path, commands, loads and
+///           unloads, each at its exact time.
+/// Threads   App; compute() on any thread, with the world of this node only.
 
 #include "dynamics/nodes/shape_store.h"
 #include "dynamics/world/world.h"
@@ -36,7 +36,7 @@ public:
   CollisionNode(const NodeType& type, NodeRef self, std::string name, CollisionAttributes attributes,
                 std::shared_ptr<ShapeStore> shapes);
 
-  /// What only looks on is visited when all bodies have been moved.
+  /// A node that moves nothing is visited after all bodies have been moved.
   Rank rank() const override { return kind() == "collision" ? Rank::Contact : Rank::Dynamics; }
   bool busy() const override { return switch_.on() && awake_; }
   void hash(StateHash& h) const override;
@@ -73,13 +73,13 @@ protected:
     SharedFit fit;         ///< null if it has no usable triangle
     ShapeId shape = 0;
     PlacementId placement = kNoPlacement;
-    Pose pose;      ///< at the end of the last step
-    Course course;  ///< in this frame, if something outside moves it
-    BodyWay way;    ///< the same, if a body of another dynamics node carries it
-    /// When it goes, and what its name stands for from when on.
+    Pose pose;        ///< at the end of the last step, where the next one begins; the placement is at its end
+    PoseTrack track;  ///< in this frame, if something outside moves it
+    BodyWay way;      ///< the same, if a body of another dynamics node carries it
+    /// When it leaves, and which node then has its name.
     Nanoseconds leaveAt = std::numeric_limits<Nanoseconds>::max(), nextAt = 0;
     NodeRef next;
-    std::optional<Vec3> refit;  ///< of one that has been put back: at which scale its fit is to be found
+    std::optional<Vec3> refit;  ///< of a restored part: the scale at which its fit is found again
 
     template <class Self, class Fields>
     static void fields(Self& p, Fields& f) {
@@ -138,14 +138,14 @@ protected:
   bool follow(Part& part, FrameContext& frame, std::vector<Nanoseconds>& cuts) const;
   void followFrom(Part& part, const Pose& before, FrameContext& frame) const;
   bool followBody(Part& part, const Pose& before, const FrameContext& frame) const;
-  static bool moves(const Part& part) { return !part.way.empty() || !part.course.empty(); }
+  static bool moves(const Part& part) { return !part.way.empty() || !part.track.empty(); }
   static bool jumps(const Part& part, Nanoseconds time);
   static Pose poseAt(const Part& part, Nanoseconds time, Limit limit);
   /// Adds the other dynamics node that moves the node or something that carries it.
   void addMover(NodeRef node, const Scene& scene, std::vector<NodeRef>& movers) const;
   /// Whether `mover` moves the node or something that carries it.
   static bool isMovedBy(const Node& mover, NodeRef node, const Scene& scene);
-  static void addCuts(const Course& course, std::vector<Nanoseconds>& cuts);
+  static void addCuts(const PoseTrack& track, std::vector<Nanoseconds>& cuts);
 
 private:
   void noteImpacts(Scene& scene) const;

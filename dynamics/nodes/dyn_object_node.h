@@ -1,11 +1,12 @@
 #pragma once
 /// `dynobject`: an object that a dynamics node moves, or the visitor's hand while it is grabbed.
 ///
+/// The node is passive. Its dynamics node takes the requests of this frame, carries them out at their exact
+/// times, and moves the node by direct calls.
+///
 /// Events    onquarantine: its state would have become infinite or undefined; it stands still.
 /// Commands  hook FIELD, unhook FIELD, grab [tracker], release, and those of a placed node (reset brings it
-/// back to its place, with the velocity that its script gives it).
-/// It is passive: its dynamics node reads what was asked of it in this frame, obeys at the exact times, and
-/// moves it by direct calls.
+///           back to its place, with the velocity that its script gives it).
 
 #include "dynamics/motion/body_way.h"
 #include "dynamics/nodes/shape_store.h"
@@ -82,12 +83,13 @@ public:
   void setSimulation(const Simulation& simulation) { simulation_ = simulation; }
   BodyId bodyId() const { return simulation_.body; }
   NodeRef movedBy() const { return simulation_.dynamics; }  ///< invalid while no node simulates it
-  /// Its simulated state, copied here by its dynamics node so that the state hash sees it.
+  /// Its simulated state after its last change. It is a copy, because the state hash and snapshots ask the
+  /// node, and because a node that is no longer simulated keeps it.
   void setState(const BodyState& state) { state_ = state; }
   const BodyState& state() const { return state_; }
 
-  /// How it has moved in a frame, said by its dynamics node for nodes that look at it; null: it has not, or
-  /// no node has looked before.
+  /// Its path in a frame, set by its dynamics node for nodes that look at it; null: it has not moved, or no
+  /// node looked at it before.
   void setWay(std::uint64_t frame, const BodyWay& way) { way_ = way, wayOf_ = frame; }
   const BodyWay* wayIn(std::uint64_t frame) const {
     return frame == wayOf_ && !way_.empty() ? &way_ : nullptr;

@@ -69,7 +69,7 @@ void DynamicsNode::addCollidee(Part& part, ObjectNode& object, Scene& scene) {
     if (const FieldId id = fieldFor(field, scene)) world_.hook(part.id, id, 0);  // from its beginning
   node->takeRequests();
   node->setSimulation({self(), part.id, &asking_});
-  scene.placements().claim(part.placement, true);
+  scene.placements().setAttached(part.placement, true);
   partOf_[part.id] = &part;
   node->setState(world_.state(part.id));
   node->hold(scene, scene.placements().world(part.placement));
@@ -91,7 +91,7 @@ void DynamicsNode::removeCollidee(Part& part, Scene& scene) {
   DynObjectNode* node = bodyAt(part.ref, scene);
   if (!node) return;
   node->setSimulation({});
-  scene.placements().claim(part.placement, node->moved());
+  scene.placements().setAttached(part.placement, node->moved());
   node->place(scene, scene.placements().world(part.placement));
 }
 
@@ -126,16 +126,16 @@ BodyId DynamicsNode::carrierOf(PlacementId field, const Placements& placements) 
 bool DynamicsNode::followFields(FrameContext& frame, std::vector<Nanoseconds>& cuts) {
   bool any = false;
   for (Field& f : fields_) {
-    f.course.clear();
+    f.track.clear();
     const FieldNode* node = fieldAt(f.ref, frame.scene);
     f.leaveAt = node ? frame.scene.tree().endOf(f.ref.load) : 0;
     if (f.leaveAt <= frame.now.time) cuts.push_back(f.leaveAt), any = true;
     if (!node) continue;
     world_.setFieldLaw(f.id, node->law(frame.scene));
-    f.course = frame.scene.poseTracks().within(f.placement, f.pose, frame.start(), frame.now.time,
-                                            frame.scene.placements());
-    if (!f.course.empty()) any = true;
-    addCuts(f.course, cuts);
+    f.track = frame.scene.poseTracks().within(f.placement, f.pose, frame.start(), frame.now.time,
+                                              frame.scene.placements());
+    if (!f.track.empty()) any = true;
+    addCuts(f.track, cuts);
     if (f.carrier = carrierOf(f.placement, frame.scene.placements()); f.carrier) {
       // Where the body goes is only known from part to part.
       f.X_BF = world_.pose(f.carrier).inverse() * node->pose(frame.scene);
@@ -170,7 +170,7 @@ bool DynamicsNode::takeOrders(FrameContext& frame, std::vector<Nanoseconds>& cut
         continue;
       }
       cuts.push_back(r.when);
-      if (const auto hand = frame.scene.feed().trackerCourse(r.tracker, frame)) addCuts(*hand, cuts);
+      if (const auto hand = frame.scene.feed().poseTrackOf(r.tracker, frame)) addCuts(*hand, cuts);
       orders_.push_back({ref, std::move(r)});
     }
   }
@@ -199,9 +199,9 @@ void DynamicsNode::obey(const Order& order, FrameContext& frame) {
 }
 
 void DynamicsNode::grab(const Part& part, const std::string& tracker, Nanoseconds when, FrameContext& frame) {
-  const Course* hand = frame.scene.feed().trackerCourse(tracker, frame);
+  const PoseTrack* hand = frame.scene.feed().poseTrackOf(tracker, frame);
   if (!hand || when < hand->front().time) return;  // it is not known where the hand is
-  Course way = *hand;
+  PoseTrack way = *hand;
   letGo(part, when, frame.scene);
   if (const Grip* grip = grips_.grab(part.id, part.ref, tracker, std::move(way), when))
     carryFields(*grip, frame.scene);
@@ -304,11 +304,11 @@ void DynamicsNode::move(Nanoseconds from, Nanoseconds to, bool jump) {
                               axisOn(f.strength, to, Limit::Before));
     if (f.carrier)
       world_.moveField(f.id, world_.pose(f.carrier) * f.X_BF, world_.poseAhead(f.carrier, to) * f.X_BF);
-    else if (f.course.empty())
+    else if (f.track.empty())
       world_.moveField(f.id, f.pose, f.pose);
     else
-      world_.moveField(f.id, poseOn(f.course, jump ? to : from, jump ? Limit::Before : Limit::After),
-                       poseOn(f.course, to, Limit::Before));
+      world_.moveField(f.id, poseOn(f.track, jump ? to : from, jump ? Limit::Before : Limit::After),
+                       poseOn(f.track, to, Limit::Before));
   }
 }
 
@@ -377,12 +377,12 @@ void DynamicsNode::publishWay(const Part& part, FrameContext& frame) {
   if (frame.start() < frame.scene.frameStart()) return;
   const Pose begins = poseOn(way, frame.start(), Limit::Before);
   const PoseKnot first{frame.start(), part.pose, false};
-  Course& course = frame.scene.poseTracks().of(part.placement, first);
-  course.assign(1, first);
+  PoseTrack& track = frame.scene.poseTracks().of(part.placement, first);
+  track.assign(1, first);
   const bool put = (begins.p - part.pose.p).norm() > 1e-9 * (1 + begins.p.norm()) ||
                    std::fabs(begins.q.dot(part.pose.q)) < 1 - 1e-12;
-  if (put) course.push_back({frame.start(), begins, true});
-  addChords(way, frame.now.time, course);
+  if (put) track.push_back({frame.start(), begins, true});
+  addChords(way, frame.now.time, track);
 }
 
 bool DynamicsNode::afterStep(FrameContext& frame) {

@@ -1,11 +1,12 @@
 #pragma once
-/// `dynamics`: the simulation node. A collision node that also moves its collidees, by the forces that they
-/// are hooked to and by what they run into.
+/// `dynamics`: the simulation node. A collision node that also moves its collidees, by force fields and
+/// impacts.
 ///
-/// Events    onimpact, onrelease per pair of collider and collidee, and of two collidees.
-/// What happens inside a frame does not depend on the frame rate: bodies fly, bounce and rest on clocks of
-/// their own; fields switch, hands grab and let go at exact times. A body that is let go goes on with the
-/// velocity of the hand (hand_motion.h) and with what the fields in the same hand have added up.
+/// Motion does not depend on the frame rate. Bodies fly, bounce and rest on clocks of their own. Fields
+/// switch and hands grab and release at exact times. A released body continues with the velocity of the hand
+/// (hand_motion.h), plus the pushes of the fields in that hand.
+///
+/// Events    onimpact, onrelease for each pair of collider and collidee, and of two collidees.
 
 #include "dynamics/nodes/collision_node.h"
 #include "dynamics/nodes/dyn_object_node.h"
@@ -50,11 +51,11 @@ private:
     NodeRef ref;
     FieldId id = 0;
     PlacementId placement = kNoPlacement;
-    Pose pose;            ///< at the end of the last step
-    Course course;        ///< in this frame, if it moves
-    AxisCourse strength;  ///< in this frame, if a device's axis says it
-    BodyId carrier = 0;   ///< one of this node's bodies, if that carries it
-    Pose X_BF;            ///< where it is then, in the body's coordinates
+    Pose pose;           ///< at the end of the last step
+    PoseTrack track;     ///< in this frame, if it moves
+    AxisTrack strength;  ///< in this frame, if a device's axis says it
+    BodyId carrier = 0;  ///< one of this node's bodies, if that carries it
+    Pose X_BF;           ///< where it is then, in the body's coordinates
     Nanoseconds leaveAt = std::numeric_limits<Nanoseconds>::max();
 
     template <class Self, class Fields>

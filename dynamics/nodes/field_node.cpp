@@ -87,7 +87,7 @@ void FieldNode::expire(Nanoseconds by) {
 void FieldNode::followAxis(FrameContext& frame) {
   if (!axis_) return;
   const double before = strength_.empty() ? 0 : strength_.back().value;
-  strength_ = axisCourse(frame.input, axis_->tracker, axis_->axis, frame.start(), frame.now.time);
+  strength_ = axisTrack(frame.input, axis_->tracker, axis_->axis, frame.start(), frame.now.time);
   if (std::ranges::any_of(strength_, [&](const AxisKnot& k) { return k.value != before; }))
     for (const NodeRef user : users_) frame.scene.schedule().wakeNow(user);
 }

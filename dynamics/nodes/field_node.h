@@ -13,7 +13,7 @@
 ///           evenly between the times at which it changed.
 
 #include "dynamics/motion/force_field.h"
-#include "engine/input/axis_course.h"
+#include "engine/input/axis_track.h"
 #include "engine/nodes/switched.h"
 #include "engine/scene/placed_node.h"
 
@@ -70,7 +70,7 @@ public:
   const std::vector<Change>& changes(std::uint64_t frame) const;
 
   /// What its strength is multiplied by in this frame, while it is on; empty without an axis.
-  const AxisCourse& strength() const { return strength_; }
+  const AxisTrack& strength() const { return strength_; }
 
   /// A dynamics node that wants to be woken when this field is switched, or its strength changes.
   void addUser(NodeRef dynamics) { users_.push_back(dynamics); }
@@ -97,7 +97,7 @@ private:
   Nanoseconds duration_;  ///< 0 = no limit
   std::optional<StrengthAxis> axis_;
   bool centredOnMass_;
-  AxisCourse strength_;
+  AxisTrack strength_;
   Switched switch_;
   Nanoseconds since_ = 0;
   std::vector<Change> changes_;

@@ -7,14 +7,15 @@
 
 namespace stadion {
 
-const Grip* Grips::grab(BodyId body, NodeRef node, const std::string& tracker, Course way, Nanoseconds when) {
+const Grip* Grips::grab(BodyId body, NodeRef node, const std::string& tracker, PoseTrack way,
+                        Nanoseconds when) {
   if (!world_.holdBody(body)) return nullptr;
   const Pose X_WT = poseOn(way, when, Limit::After);
   Grip& grip = grips_.emplace_back();
   grip.body = body, grip.node = node, grip.tracker = tracker;
   grip.X_TN = X_WT.inverse() * world_.pose(body);
   grip.hand.put(when, X_WT);
-  grip.course = std::move(way);
+  grip.track = std::move(way);
   return &grip;
 }
 
@@ -32,16 +33,16 @@ void Grips::forget(BodyId body) {
 
 void Grips::follow(FrameContext& frame, std::vector<Nanoseconds>& cuts) {
   for (Grip& grip : grips_) {
-    const Course* way = frame.scene.feed().trackerCourse(grip.tracker, frame);
-    grip.course = way ? *way : Course{};
-    for (const PoseKnot& k : grip.course) cuts.push_back(k.time);
+    const PoseTrack* way = frame.scene.feed().poseTrackOf(grip.tracker, frame);
+    grip.track = way ? *way : PoseTrack{};
+    for (const PoseKnot& k : grip.track) cuts.push_back(k.time);
   }
 }
 
 void Grips::jump(Nanoseconds time) {
   for (Grip& grip : grips_) {
-    if (!jumpsAt(grip.course, time)) continue;
-    const Pose X_WT = poseOn(grip.course, time, Limit::After);
+    if (!jumpsAt(grip.track, time)) continue;
+    const Pose X_WT = poseOn(grip.track, time, Limit::After);
     world_.moveHeld(grip.body, X_WT * grip.X_TN, true);
     grip.hand.put(time, X_WT);
     grip.jumped = time;
@@ -51,7 +52,7 @@ void Grips::jump(Nanoseconds time) {
 void Grips::move(Nanoseconds from, Nanoseconds to, bool jump) {
   for (Grip& grip : grips_) {
     if (grip.silentBefore(to) || from == to) continue;
-    const Pose X_WT = poseOn(grip.course, to, Limit::Before);
+    const Pose X_WT = poseOn(grip.track, to, Limit::Before);
     world_.moveHeld(grip.body, X_WT * grip.X_TN, jump);
     grip.hand.go(to, X_WT);
   }

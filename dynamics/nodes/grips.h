@@ -9,7 +9,7 @@
 
 #include "dynamics/motion/hand_motion.h"
 #include "dynamics/world/world.h"
-#include "engine/maths/course.h"
+#include "engine/maths/pose_track.h"
 #include "engine/scene/node.h"
 
 #include <optional>
@@ -29,7 +29,7 @@ struct Grip {
   std::string tracker;
   Pose X_TN;  ///< how it lies in the hand
   HandMotion hand;
-  Course course;            ///< of the hand in this frame; empty while the tracker is silent
+  PoseTrack track;          ///< of the hand in this frame; empty while the tracker is silent
   Nanoseconds jumped = -1;  ///< when the hand last jumped while it held the body
 
   template <class Self, class Fields>
@@ -38,7 +38,7 @@ struct Grip {
     f("jumped", g.jumped);
   }
   bool silentBefore(Nanoseconds t) const {
-    return course.empty() || (course.front().jump && t <= course.front().time);
+    return track.empty() || (track.front().jump && t <= track.front().time);
   }
 };
 
@@ -48,7 +48,7 @@ public:
   bool empty() const { return grips_.empty(); }
 
   /// Closes the hand, that goes this way, around the body. Null if the body cannot be held.
-  const Grip* grab(BodyId body, NodeRef node, const std::string& tracker, Course way, Nanoseconds when);
+  const Grip* grab(BodyId body, NodeRef node, const std::string& tracker, PoseTrack way, Nanoseconds when);
   /// Opens the hand and tells how it was. The body stays held in the world until its releaseBody(). Nothing
   /// if no hand has it.
   std::optional<Grip> open(BodyId body);

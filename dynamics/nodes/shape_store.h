@@ -4,7 +4,7 @@
 #include "dynamics/collision/shape_choice.h"
 #include "dynamics/shapes/mass_properties.h"
 #include "dynamics/shapes/shape.h"
-#include "engine/maths/course.h"
+#include "engine/maths/pose_track.h"
 #include "engine/scene/object_node.h"
 
 #include <map>

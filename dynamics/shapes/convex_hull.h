@@ -2,7 +2,7 @@
 /// The convex hull of a cloud of points, with its faces merged to polygons.
 ///
 /// Method   quickhull over triangles: each point outside is taken to be a corner of the hull, farthest first;
-/// faces in one plane are merged afterwards.
+///          faces in one plane are merged afterwards.
 ///          Barber, Dobkin, Huhdanpaa, The Quickhull Algorithm for Convex Hulls, 1996.
 
 #include "engine/maths/maths.h"

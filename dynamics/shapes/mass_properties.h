@@ -2,7 +2,7 @@
 /// How much matter a body has and how it is spread.
 ///
 /// Source   volume, centre and second moments as signed sums over the surface's triangles (divergence
-/// theorem);
+///          theorem);
 ///          Mirtich, Fast and Accurate Computation of Polyhedral Mass Properties, 1996.
 
 #include "engine/asset/mesh.h"

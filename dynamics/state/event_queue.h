@@ -1,6 +1,7 @@
 #pragma once
 /// The events of one window, by time: commands, touches, ends of arcs and ticks of the contact solver.
 ///
+/// Times    tau is seconds since the start of the window (world_time.h).
 /// Order    by tau, then in the order of posting.
 /// Versions an event of a body or collider carries the version of its motion. If that has changed, the event
 ///          is void; the world checks this when the event is due.
@@ -18,8 +19,8 @@ public:
   struct Event {
     enum class Kind : std::uint8_t { Command, Touch, Horizon, Tick };
     friend constexpr Kind lastOf(Kind) { return Kind::Tick; }
-    double tau = 0;
-    std::uint64_t order = 0;
+    double tau = 0;           ///< [s]
+    std::uint64_t order = 0;  ///< number in the order of posting
     Kind kind = Kind::Touch;
     Party a, b;
     std::uint32_t versionA = 0, versionB = 0;

@@ -1,12 +1,12 @@
 #pragma once
-/// Where the frame loop, the stages and the nodes report what they do. Implemented by the profiling floor;
-/// without recording there is no probe, and nothing is called.
+/// Receives the costs of the frame loop, the stages and the nodes. The profiling floor implements it. Without
+/// a probe, nothing is measured.
 ///
-/// Stretches of time (spans) nest strictly within a thread: a stage holds its parts, which hold nodes. Time
-/// within a stage that is in no part is the stage's own.
+/// Spans of time nest strictly within a thread: a stage contains its parts, and these contain nodes. Time in
+/// a stage that belongs to no part is the stage's own.
 ///
-/// Work that cannot be timed node by node is timed together. `shared` names the nodes that share the time;
-/// `drewAlone` gives what a few of them cost when nothing else was drawn.
+/// Work that cannot be timed for one node is timed for several together. `shared` names the nodes that share
+/// it. `drewAlone` reports the cost of a few nodes when nothing else was drawn.
 ///
 /// Threads  each function is called on the thread that does the work; an implementation takes calls of
 ///          several threads at a time.
@@ -34,9 +34,9 @@ enum class Span : std::uint8_t {
   // Of App beside the nodes' cycles.
   Input,     ///< devices and logs are asked
   Loading,   ///< files take effect or go
-  Mail,      ///< the nodes to visit are found, with their messages
-  Workers,   ///< nodes that simulate side by side are waited for
-  Settle,    ///< what a node's cycle changed is taken up: its hash, the nodes that it wakes
+  Mail,      ///< finds the nodes to visit, and their messages
+  Workers,   ///< waits for nodes that simulate side by side
+  Settle,    ///< takes up the changes of a node's cycle: its hash, and nodes that it wakes
   Publish,   ///< what changed, into the slot
   Sound,     ///< what is heard
   Watching,  ///< observers: hashes, reports, records
@@ -147,7 +147,7 @@ class FrameProbe {
 public:
   virtual ~FrameProbe() = default;
 
-  /// A stage, or a wait. kNoFrame: its frame is not known yet; kNoWall: it is of no wall.
+  /// A stage, or a wait. kNoFrame: the frame is not known yet; kNoWall: it belongs to no wall.
   virtual void began(Span what, std::uint64_t frame, std::uint32_t wall) = 0;
   /// Anything within a stage; of a node if that is valid.
   virtual void began(Span what, NodeRef node) = 0;

@@ -33,8 +33,8 @@ struct Message {
   Verb verb{};
   std::vector<std::string> arguments;
   NodeRef node;  ///< what the first argument names, for verbs that take a node
-  /// What of the names leads into sub-scenes. Which file a name's first part belongs to is settled when the
-  /// message is posted; the way from there is found when it is delivered: sub-scenes come and go meanwhile.
+  /// The rest of a path such as arena/ball. The scene looks up its first part when the message is posted, and
+  /// the rest on delivery, because sub-scenes can load or unload in between.
   std::string targetInside{}, nodeInside{};
 
   template <class Self, class Fields>

@@ -1,11 +1,16 @@
 #pragma once
-/// What a node type says of itself. The descriptor is a constant beside the node's code; the parser, the
-/// checker, the language reference, the editor files and the profiler know a type by nothing else.
+/// The descriptor of a node type: a constant beside the node's code. The parser, the checker, the language
+/// reference, the editor files and the profiler know a type by its descriptor alone.
 ///
-///     constexpr AttributeSpec kPeriod[] = {{.name = "period", .kind = ValueKind::Number, .help = "...",
-///     .unit = "s"}}; constexpr EventSpec kEvents[] = {{"timesup", "the timer's period is over"}}; constexpr
-///     NodeType kTimerType{.name = "timer", .help = "posts an event after a time", .attributes = kPeriod,
-///                                   .events = kEvents, .traits = {Trait::Switched}, .make = makeTimer};
+///     constexpr AttributeSpec kPeriod[] = {
+///         {.name = "period", .kind = ValueKind::Number, .help = "...", .unit = "s"}};
+///     constexpr EventSpec kEvents[] = {{"timesup", "the timer's period is over"}};
+///     constexpr NodeType kTimerType{.name = "timer",
+///                                   .help = "posts an event after a time",
+///                                   .attributes = kPeriod,
+///                                   .events = kEvents,
+///                                   .traits = {Trait::Switched},
+///                                   .make = makeTimer};
 ///
 /// Threads   constant data; may be read from anywhere.
 /// Ownership a descriptor and all that it points to live as long as the program.

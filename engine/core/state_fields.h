@@ -1,25 +1,23 @@
 #pragma once
-/// A state, field by field, in an order that is the same everywhere: to hash it, to write it down, to put it
-/// back, to say in which field two of them differ.
+/// Visits a state field by field, in a fixed order: to hash, save, restore or compare it.
 ///
-/// A type with a state lists its fields once, for all of these:
+/// A class with a state lists its fields once, for all four:
 ///
 ///     template <class Self, class Fields>
 ///     static void fields(Self& self, Fields& f) {
 ///       f("on", self.on_);
 ///       f("due", self.due_);
-///       f.kept("handle", self.handle_);  // follows from the rest as a rule: no part of the hash
+///       f.kept("handle", self.handle_);  // usually follows from other fields: saved, but not hashed
 ///     }
 ///
-/// An enumeration that is part of a state begins at 0; lastOf(), in its namespace, says where it ends:
+/// An enumeration in a state begins at 0. lastOf(), in its namespace, returns its last value:
 ///
 ///     constexpr Held lastOf(Held) { return Held::All; }
 ///
-/// What is read from elsewhere may be damaged or meant for another script: reading it ends in failed(), and
-/// nothing is out of bounds. What was read by then is void.
-///
 /// Threads  one at a time.
-/// Bits     numbers by their bits, little end first, so that what is put back is the very same.
+/// Bits     numbers are saved by their bits, little end first. A restored value is the same to the bit.
+/// Errors   saved bytes may be damaged or belong to another script. Reading them then ends in failed(), and
+///          never reads out of bounds. Discard what was read before that.
 
 #include "engine/core/message.h"
 #include "engine/core/state_hash.h"
@@ -42,7 +40,7 @@
 
 namespace stadion {
 
-/// Numbers and texts, by name. See SavedState, RestoredState and StateDifference for what becomes of them.
+/// Visits numbers and texts by name. Derived classes save, restore and compare them.
 class StateFields {
 public:
   StateFields() = default;
@@ -55,15 +53,15 @@ public:
     name_ = name;
     visit(value);
   }
-  /// What is no part of the hash.
+  /// A field that is not part of the hash.
   template <class T>
   void kept(std::string_view name, T& value) {
     (*this)(name, value);
   }
-  /// What the hash counts in another form than it is kept in.
+  /// A value that only the hash visits: another form of a saved field.
   template <class T>
   void hashed(const T&) {}
-  /// How many there are: elements that are visited one by one afterwards.
+  /// The number of elements, which are visited one by one afterwards.
   std::size_t count(std::string_view name, std::size_t present) {
     name_ = name;
     std::uint64_t n = present;
@@ -72,27 +70,27 @@ public:
     return failed() ? 0 : static_cast<std::size_t>(n);
   }
 
-  /// What is visited from now on is about that one of the node's parts, until the next call; 0 = about the
-  /// node. See Node::nodeOf().
+  /// The fields visited until the next call belong to this part of the node; 0 = to the node. See
+  /// Node::nodeOf().
   void about(std::uint32_t part) { part_ = part; }
 
-  /// Whether fields are set by what was written.
+  /// Whether fields are set from saved bytes.
   virtual bool restores() const { return false; }
-  /// What is there is no such state.
+  /// Whether the bytes are no such state.
   virtual bool failed() const { return false; }
-  /// Called by a type that finds a value impossible: a name that does not occur, a place that does not exist.
+  /// Reports a value that cannot be: an unknown name, a place that does not exist.
   virtual void fail() {}
 
 protected:
-  /// How a number's 64 bits are to be read by people.
-  enum class Form : std::uint8_t { Whole, Signed, Real, Count };  ///< Count: what follows depends on it
+  /// How reports write a number's 64 bits.
+  enum class Form : std::uint8_t { Whole, Signed, Real, Count };  ///< Count: the next fields depend on it
   virtual void number(std::uint64_t& bits, Form form) = 0;
   virtual void text(std::string& words) = 0;
-  /// Elements that a list may have at most: each takes a byte.
+  /// The most elements that a list may have: each takes a byte.
   virtual std::uint64_t most() const { return ~std::uint64_t{0}; }
 
-  std::string_view name_;   ///< of the field that is visited
-  std::string_view outer_;  ///< of what it is a part of; empty = of the whole
+  std::string_view name_;   ///< of the visited field
+  std::string_view outer_;  ///< name of the field that contains it; empty = none
   std::uint32_t part_ = 0;  ///< of the node; 0 = of none
 
 private:
@@ -100,7 +98,7 @@ private:
   void visit(T& value) {
     using U = std::remove_const_t<T>;
     if constexpr (std::is_const_v<T>)
-      visit(const_cast<U&>(value));  // what only writes and compares changes nothing
+      visit(const_cast<U&>(value));  // saving and comparing change nothing
     else if constexpr (std::is_same_v<U, double> || std::is_same_v<U, float>)
       real(value);
     else if constexpr (std::is_enum_v<U> || std::is_integral_v<U>)
@@ -196,7 +194,7 @@ private:
     visitAll(list);
     if (restores()) m = {list.begin(), list.end()};
   }
-  /// Whatever else says what it consists of, or of which a fieldsOf(value, f) beside it says that.
+  /// A type with its own fields(), or with a function fieldsOf(value, f) beside it.
   template <class T>
   requires requires(T& v, StateFields& f) { T::fields(v, f); } || requires(T& v, StateFields& f) {
     fieldsOf(v, f);
@@ -211,7 +209,7 @@ private:
   }
 };
 
-/// The same fields, added to a hash. Of lists the elements alone count, one by one (each()).
+/// Adds the same fields to a hash. Of a list, only the elements are added.
 class HashedFields {
 public:
   explicit HashedFields(StateHash& hash) : hash_(hash) {}
@@ -244,7 +242,7 @@ private:
   StateHash& hash_;
 };
 
-/// Of something that derives from it, that part.
+/// The base class part of an object, const if the object is.
 template <class Base, class Whole>
 auto& partOf(Whole& whole) {
   if constexpr (std::is_const_v<Whole>)
@@ -253,14 +251,14 @@ auto& partOf(Whole& whole) {
     return static_cast<Base&>(whole);
 }
 
-/// Of anything that says what it consists of.
+/// Hashes an object that has fields().
 template <class T>
 void hashFields(const T& whole, StateHash& hash) {
   HashedFields f(hash);
   T::fields(whole, f);
 }
 
-/// Written down.
+/// Saves fields as bytes.
 class SavedState final : public StateFields {
 public:
   const std::vector<std::uint8_t>& bytes() const { return bytes_; }
@@ -273,8 +271,8 @@ private:
   std::vector<std::uint8_t> bytes_;
 };
 
-/// A hash of all that SavedState would write: what is kept() counts, too. Numbers are gathered and hashed
-/// many at a time, which takes half as long as one after the other.
+/// A hash of all that SavedState would write, with kept() fields. Numbers are gathered and hashed many at a
+/// time, which takes half as long.
 class StateDigest final : public StateFields {
 public:
   std::uint64_t value();
@@ -309,7 +307,7 @@ private:
   bool failed_ = false;
 };
 
-/// Put back.
+/// Restores fields from bytes.
 class RestoredState final : public StateFields {
 public:
   explicit RestoredState(std::span<const std::uint8_t> bytes) : bytes_(bytes) {}
@@ -317,7 +315,7 @@ public:
   bool restores() const override { return true; }
   bool failed() const override { return bytes_.failed(); }
   void fail() override { bytes_.fail(); }
-  /// Whether nothing is left over.
+  /// Whether all bytes were read.
   bool complete() const { return !bytes_.failed() && bytes_.left() == 0; }
 
 private:
@@ -328,19 +326,19 @@ private:
   StateBytes bytes_;
 };
 
-/// Compared with what was written elsewhere: the first field that differs, and after next() another one.
-/// Where lists are not alike in length, what follows cannot be compared: there is no other one.
+/// Compares fields with bytes that another process saved. Finds the first field that differs, and after
+/// next() a further one. After lists of different length, no further one can be found.
 class StateDifference final : public StateFields {
 public:
   explicit StateDifference(std::span<const std::uint8_t> there) : there_(there) {}
 
   struct Field {
     std::string name;
-    std::string here, there;  ///< as people read them
-    std::uint32_t part;       ///< whose it is; 0 = the node's
+    std::string here, there;  ///< as text
+    std::uint32_t part;       ///< of the node that it belongs to; 0 = the node itself
   };
   const std::optional<Field>& first() const { return first_; }
-  /// Looks for another one in what is visited from now on.
+  /// Looks for a further one in the fields visited from now on.
   void next() { first_.reset(); }
 
 private:
@@ -350,7 +348,7 @@ private:
 
   StateBytes there_;
   std::optional<Field> first_;
-  bool apart_ = false;  ///< what follows cannot be compared
+  bool apart_ = false;  ///< the next fields cannot be compared
 };
 
 }  // namespace stadion

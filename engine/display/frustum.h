@@ -13,9 +13,8 @@
 /// Units    metres.
 /// Threads  pure functions.
 /// Errors   an eye on, behind or nearer than kMinEyeDistance to the wall's plane is moved out along the
-/// wall's
-///          normal to that distance, and the frustum says so (`clamped`); one that is not finite is put 1 m
-///          in front of the middle of the wall. No result is ever infinite or NaN.
+///          wall's normal to that distance, and the frustum is marked `clamped`. An eye that is not finite is
+///          put 1 m in front of the middle of the wall. No result is ever infinite or NaN.
 
 #include "engine/display/wall.h"
 

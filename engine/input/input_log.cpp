@@ -87,7 +87,7 @@ bool samePose(const Pose& a, const Pose& b) {
 
 /// The corners between a and b, and b itself, as far as they lie strictly inside the frame.
 void addKnots(const InputStamp& a, const InputStamp& b, bool leap, Nanoseconds start, Nanoseconds end,
-              Course& knots) {
+              PoseTrack& knots) {
   const bool whole = a.valid && b.valid;
   if (whole && b.smooth && !(samePose(a.X_RT, b.X_RT) && a.axes == b.axes)) {
     const Nanoseconds after = std::max(a.time, start), before = std::min(b.time, end);
@@ -146,7 +146,7 @@ void dropIdle(std::vector<ControlKnot>& controls, const std::array<float, kTrack
   controls.resize(kept);
 }
 
-void addKnots(const InputTrack& track, Nanoseconds start, Nanoseconds end, Course& knots) {
+void addKnots(const InputTrack& track, Nanoseconds start, Nanoseconds end, PoseTrack& knots) {
   auto next = std::ranges::upper_bound(track.stamps, start, {}, &InputStamp::time);
   if (next == track.stamps.begin()) {  // nothing moves before the first
     if (next->valid && next->time < end) knots.push_back({next->time, next->X_RT, false});

@@ -7,7 +7,7 @@
 /// Threads  plain values, any thread.
 
 #include "engine/base/time_signature.h"
-#include "engine/maths/course.h"
+#include "engine/maths/pose_track.h"
 
 #include <array>
 #include <cstdint>
@@ -43,7 +43,7 @@ struct TrackerSample {
   bool controlsOnly = false;
   /// The corners of its way since the frame before, X_RT at times inside the frame (a jump may be at its very
   /// end); without any it came straight.
-  Course knots;
+  PoseTrack knots;
   /// What buttons and axes said at the frame's start and whenever that changed inside the frame. Buttons stay
   /// as they are until the next one; axes go evenly to the next one, the last of them to `axes` at the
   /// frame's end. Two of the same time are a jump of the axes. Empty if the device does not know: then

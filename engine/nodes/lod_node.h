@@ -1,10 +1,10 @@
 #pragma once
 /// `lod`: draws one of its children, by how far away from the visitor's head it is.
 ///
-/// What is nearer than the first range shows the first child, and so on; beyond the last range the child
-/// after it, or nothing. Coming nearer, a child comes back only a tenth nearer than where it went, so that
-/// visitors do not see it flicker. While the show is under stress, or the node has to give up detail, it counts
-/// as farther away.
+/// Nearer than the first range, the first child is shown, and so on. Beyond the last range, the child after
+/// it is shown, or nothing. To avoid flicker, an approaching visitor sees a child again only a tenth nearer
+/// than where it went. While the show is under stress, or the node has to give up detail, it counts as
+/// farther away.
 ///
 /// The choice is made here, once a frame, for all walls and both eyes. It changes no simulated state and is
 /// no part of the hash.

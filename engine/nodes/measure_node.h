@@ -1,15 +1,15 @@
 #pragma once
-/// `measure`: the distance of a throw, taken where and when the body first touches something. A throw that
-/// does not touch anything ends as a foul: when its body comes to rest or is taken out of the simulation, or
-/// after the node's duration. So every throw has a result.
+/// `measure`: the distance of a throw, taken where and when the body first touches something.
+///
+/// Every throw has a result. A throw that touches nothing ends as a foul: when its body comes to rest or is
+/// quarantined, or after the node's duration. The node is not visited meanwhile; the simulation wakes it.
 ///
 /// Events    measured (with its figure), foul; won, lost or drawn against another measure, once both have a
 ///           result. They carry the exact time of the touch.
 /// Commands  start: from now on the body's next impact counts; reset: forgets the result; those of a placed
-/// node.
-/// Frames    the node's X axis is the line from which is thrown, +Y goes downfield. Its scale does not
-/// count. Units     metres; results are compared and told in whole centimetres, rounded down, as in
-/// athletics. It waits for the impact without being visited: the simulation wakes it.
+///           node.
+/// Frames    the node's X axis is the line of the throw, +Y goes downfield. Its scale does not count.
+/// Units     metres; results are compared and reported in whole centimetres, rounded down, as in athletics.
 
 #include "engine/core/measure_from.h"
 #include "engine/scene/impact.h"

@@ -71,7 +71,7 @@ void PathNode::trace(Nanoseconds to, FrameContext& frame) {
   };
   const Pose begin = at(since_, toSeconds(elapsed_));
   const bool goesOn = putAt_ == since_;
-  Course& way =
+  PoseTrack& way =
       frame.scene.poseTracks().of(id, {frame.start(), goesOn ? begin : poseOf(placements.world(id)), false});
   const Nanoseconds pass = std::max<Nanoseconds>(length(), 1);
   // What it has missed it makes up for, without the turns; where it began again it is put.
@@ -110,10 +110,10 @@ void PathNode::jump(Nanoseconds when, FrameContext& frame) {
   const PlacedNode* placed = target(frame.scene);
   if (!placed) return;
   const Placements& placements = frame.scene.placements();
-  Course* way = nullptr;
+  PoseTrack* way = nullptr;
   if (placements.watchedBelow(placed->placement()))
     way = &frame.scene.poseTracks().of(placed->placement(),
-                                    {frame.start(), poseOf(placements.world(placed->placement())), false});
+                                       {frame.start(), poseOf(placements.world(placed->placement())), false});
   putTarget(frame.scene);
   if (way) way->push_back({when, poseOf(placements.world(placed->placement())), true});
 }

@@ -3,7 +3,7 @@
 #include "engine/build/node_request.h"
 #include "engine/core/node_registry.h"
 #include "engine/core/shared_rows.h"
-#include "engine/input/axis_course.h"
+#include "engine/input/axis_track.h"
 #include "engine/input/tracker_names.h"
 #include "engine/maths/angles.h"
 #include "engine/nodes/rig_drive.h"
@@ -39,9 +39,9 @@ void NavigatorNode::simulate(FrameContext& frame) {
   p_RH_ = frame.scene.feed().headInRig(frame.input).p;
 }
 
-Course NavigatorNode::way(const TrackerSample* t, const FrameContext& frame, const Pose& before,
-                          const Pose& now) const {
-  Course way;
+PoseTrack NavigatorNode::way(const TrackerSample* t, const FrameContext& frame, const Pose& before,
+                             const Pose& now) const {
+  PoseTrack way;
   if (ended_ == frame.start()) way.push_back({frame.start(), before, false});
   if (t)
     for (const PoseKnot& k : t->knots) way.push_back(k);
@@ -53,21 +53,21 @@ void NavigatorNode::drive(FrameContext& frame, Nanoseconds until) {
   const TrackerSample* t = frame.input.find(attributes_.tracker);
   if (!t || !t->hasControls() || frame.now.step == 0) return;
   const auto axis = [&](std::size_t i) {
-    return axisCourse(frame.input, attributes_.tracker, i, frame.start(), frame.now.time);
+    return axisTrack(frame.input, attributes_.tracker, i, frame.start(), frame.now.time);
   };
-  const AxisCourse turn = axis(0), forward = axis(1);
-  const auto still = [](const AxisCourse& c) {
+  const AxisTrack turn = axis(0), forward = axis(1);
+  const auto still = [](const AxisTrack& c) {
     return std::ranges::all_of(c, [](const AxisKnot& k) { return k.value == 0; });
   };
   if (still(turn) && still(forward)) return;
 
-  const Course wand = way(t, frame, {Vec3::Zero(), q_RT_}, t->X_RT);
+  const PoseTrack wand = way(t, frame, {Vec3::Zero(), q_RT_}, t->X_RT);
   const Pose head_R = frame.scene.feed().headInRig(frame.input);
-  const Course head = way(frame.input.find(kHeadTracker), frame, {p_RH_, Quat::Identity()}, head_R);
+  const PoseTrack head = way(frame.input.find(kHeadTracker), frame, {p_RH_, Quat::Identity()}, head_R);
   const Nanoseconds from = std::max(since_, frame.start());
   std::vector<Nanoseconds> stops{from, until};
-  for (const Course* course : {&wand, &head})
-    for (const PoseKnot& k : *course) stops.push_back(k.time);
+  for (const PoseTrack* track : {&wand, &head})
+    for (const PoseKnot& k : *track) stops.push_back(k.time);
   for (const AxisKnot& k : turn) stops.push_back(k.time);  // those of `forward` too
   std::sort(stops.begin(), stops.end());
   stops.erase(std::unique(stops.begin(), stops.end()), stops.end());

@@ -62,7 +62,7 @@ protected:
 private:
   /// Moves the rig from where it was at since_ to where it is at `until`.
   void drive(FrameContext& frame, Nanoseconds until);
-  Course way(const TrackerSample* t, const FrameContext& frame, const Pose& before, const Pose& now) const;
+  PoseTrack way(const TrackerSample* t, const FrameContext& frame, const Pose& before, const Pose& now) const;
 
   Attributes attributes_;
   Switched switch_;

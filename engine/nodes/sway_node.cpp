@@ -173,7 +173,7 @@ void SwayNode::traceOne(std::size_t k, Nanoseconds to, FrameContext& frame) cons
   };
   const Pose begin = at(since_);
   const bool goesOn = putAt_ == since_;
-  Course& way =
+  PoseTrack& way =
       frame.scene.poseTracks().of(id, {frame.start(), goesOn ? begin : poseOf(placements.world(id)), false});
   // What they have missed they make up for, without the turns.
   if (since_ < frame.start()) return way.push_back({to, at(to), to == frame.start()});
@@ -188,7 +188,7 @@ void SwayNode::jump(Nanoseconds when, FrameContext& frame) {
   settleTargets(frame.scene);
   const Placements& placements = frame.scene.placements();
   const auto pose = [&](std::size_t k) { return poseOf(placements.world(placements_[k])); };
-  std::vector<std::pair<std::size_t, Course*>> watched;
+  std::vector<std::pair<std::size_t, PoseTrack*>> watched;
   for (std::size_t k = 0; k < nodes_.size(); ++k)
     if (nodes_[k] && !nodes_[k]->moved() && placements.watchedBelow(placements_[k]))
       watched.emplace_back(k, &frame.scene.poseTracks().of(placements_[k], {frame.start(), pose(k), false}));

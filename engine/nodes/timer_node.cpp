@@ -76,7 +76,7 @@ void TimerNode::fields(Self& self, Fields& f) {
   f("switch", self.switch_), f("due", self.due_);
 }
 
-// It never misses a frame: one that is overdue would make up for ever so many.
+// A timer never misses a frame. An overdue one is damaged, and might post events without end.
 bool TimerNode::resume(Scene& scene) {
   return !switch_.on() || due_ > scene.now();
 }

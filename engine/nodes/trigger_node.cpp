@@ -49,8 +49,8 @@ double Region::crossing(const Vec3& a, const Vec3& b) const {
   return part ? std::clamp(contains(a) ? part->out : part->in, 0.0, 1.0) : 1.0;
 }
 
-const Course& TriggerNode::wayInRig(const FrameContext& frame) {
-  Course& way = way_;
+const PoseTrack& TriggerNode::wayInRig(const FrameContext& frame) {
+  PoseTrack& way = way_;
   way.clear();
   const TrackerSample* t = frame.input.find(tracker_);
   // A device without a pose is where the visitor's head is.
@@ -92,7 +92,7 @@ std::uint32_t TriggerNode::heldBefore(const TrackerSample& t, Nanoseconds time,
 }
 
 void TriggerNode::look(FrameContext& frame, Nanoseconds until) {
-  const Course& way = wayInRig(frame);
+  const PoseTrack& way = wayInRig(frame);
   const TrackerSample* t = kind() == "wandtrigger" ? frame.input.find(tracker_) : nullptr;
   if (way.empty()) {
     if (looked_ && t) watchLost(*t, frame, until);

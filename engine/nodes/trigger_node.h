@@ -62,7 +62,7 @@ protected:
 private:
   /// Returns where the visitor was since the last look and is at the frame's end, in the rig; empty without
   /// a visitor.
-  const Course& wayInRig(const FrameContext& frame);
+  const PoseTrack& wayInRig(const FrameContext& frame);
   /// Follows the visitor up to `until`, which lies in this frame.
   void look(FrameContext& frame, Nanoseconds until);
   void goTo(const Vec3& p, bool jumped, Nanoseconds time);
@@ -84,7 +84,7 @@ private:
   Affine X_NR_ = Affine::Identity();  ///< at the end of the frame before
   std::uint32_t buttons_ = 0;
   std::uint32_t pressed_ = 0;       ///< of these, the ones of which a press was reported
-  Course way_;                      ///< wayInRig()'s answer
+  PoseTrack way_;                   ///< wayInRig()'s answer
   std::vector<Nanoseconds> stops_;  ///< look()'s own
 };
 

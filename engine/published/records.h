@@ -31,7 +31,7 @@ constexpr std::size_t kMostChunks = 4096;  ///< shown at a time; objects of furt
 
 /// One thing to draw.
 struct InstanceRecord {
-  double model[12];  ///< X_WN (3 x 4), row major
+  double model[12];  ///< X_WN (3 x 4), row major; a copy, since Cull reads it while App moves the node
   double centre[3];  ///< of the bounding sphere in World [m]
   float radius;      ///< [m]; < 0 = not there
   MeshId mesh;

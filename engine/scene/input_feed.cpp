@@ -18,34 +18,34 @@ Pose InputFeed::headInRig(const InputSample& input) const {
   return {Vec3(0, 0, rigs_.empty() ? 1.7 : rigs_.back().eyeHeight), Quat::Identity()};
 }
 
-const Course* InputFeed::trackerCourse(const std::string& tracker, const FrameContext& frame) {
+const PoseTrack* InputFeed::poseTrackOf(const std::string& tracker, const FrameContext& frame) {
   const TrackerSample* t = frame.input.find(tracker);
   if (!t || !t->valid) return nullptr;
   // The frame is the scene's: poses from before it are not kept, however long a node's own step is.
   const Nanoseconds start = time_.start, end = frame.now.time;
-  Course& course = tracker_;
-  course.clear();
+  PoseTrack& track = tracker_;
+  track.clear();
   // Only the tracker can jump: how the rig has moved is known.
   const auto add = [&](Nanoseconds time, const Pose& X_RT, bool jump) {
-    course.push_back(
-        {time, X_RT, jump || course.empty() || teleported(course.back().X, X_RT, time - course.back().time)});
+    track.push_back(
+        {time, X_RT, jump || track.empty() || teleported(track.back().X, X_RT, time - track.back().time)});
   };
   if (const TrackerSample* was = lastInput_.find(tracker); was && was->valid && start < end) {
     add(start, was->X_RT, false);
-    course.front().jump = false;
+    track.front().jump = false;
   }
   for (const PoseKnot& k : t->knots)
-    if (k.X.finite() && k.time >= (course.empty() ? start : course.back().time) && k.time <= end)
+    if (k.X.finite() && k.time >= (track.empty() ? start : track.back().time) && k.time <= end)
       add(k.time, k.X, k.jump);
-  if (course.empty() || course.back().time < end) add(end, t->X_RT, false);
-  toWorld(course, start, end);
-  return &course;
+  if (track.empty() || track.back().time < end) add(end, t->X_RT, false);
+  toWorld(track, start, end);
+  return &track;
 }
 
-/// Converts a course from the rig's coordinates to World, while the rig itself may move.
-void InputFeed::toWorld(Course& course, Nanoseconds start, Nanoseconds end) {
+/// Converts a pose track from the rig's coordinates to World, while the rig itself may move.
+void InputFeed::toWorld(PoseTrack& track, Nanoseconds start, Nanoseconds end) {
   const Pose X_WR = rigPose();
-  Course &rig = rigCourse_, &ridden = ridden_;
+  PoseTrack &rig = rigTrack_, &ridden = ridden_;
   rig.clear(), ridden.clear();
   if (!rigs_.empty()) {
     rig = poseTracks_.within(rigs_.back().placement, rigStart_, start, end, placements_);
@@ -53,24 +53,24 @@ void InputFeed::toWorld(Course& course, Nanoseconds start, Nanoseconds end) {
     rig.push_back({start, rigStart_, false}), rig.push_back({end, X_WR, false});
   }
   if (rig.empty()) {
-    for (PoseKnot& k : course) k.X = X_WR * k.X;
+    for (PoseKnot& k : track) k.X = X_WR * k.X;
     return;
   }
-  const Nanoseconds known = course.front().time;
+  const Nanoseconds known = track.front().time;
   const auto add = [&](Nanoseconds time, const Pose& X_RT, bool jump) {
     const bool arrived = time == end && (jump || !rig.back().jump);
     const Pose X = arrived ? rig.back().X : poseOn(rig, time, jump ? Limit::After : Limit::Before);
     ridden.push_back({time, X * X_RT, jump});
   };
   std::size_t next = 0;
-  for (const PoseKnot& k : course) {
+  for (const PoseKnot& k : track) {
     for (; next < rig.size() && rig[next].time < k.time; ++next)
       if (rig[next].time > known)
-        add(rig[next].time, poseOn(course, rig[next].time, Limit::Before), rig[next].jump);
+        add(rig[next].time, poseOn(track, rig[next].time, Limit::Before), rig[next].jump);
     add(k.time, k.X, k.jump || jumpsAt(rig, k.time));
     while (next < rig.size() && rig[next].time == k.time) ++next;
   }
-  course.swap(ridden);
+  track.swap(ridden);
 }
 
 void InputFeed::stateOfRigs(StateFields& f) {

@@ -21,8 +21,8 @@ namespace stadion {
 
 class InputFeed {
 public:
-  InputFeed(const Placements& placements, const PoseTracks& courses, const SceneTime& time)
-      : placements_(placements), poseTracks_(courses), time_(time) {}
+  InputFeed(const Placements& placements, const PoseTracks& tracks, const SceneTime& time)
+      : placements_(placements), poseTracks_(tracks), time_(time) {}
 
   // For nodes.
 
@@ -38,10 +38,10 @@ public:
   Pose headInRig(const InputSample& input) const;
   /// The sample of the frame before.
   const InputSample& lastInput() const { return lastInput_; }
-  /// The course of the tracker in World, from its first known pose in this frame to the frame's end; null if
-  /// it is not valid at the end. If it was known before, its course begins at the frame's start. Valid until
-  /// the next call.
-  const Course* trackerCourse(const std::string& tracker, const FrameContext& frame);
+  /// The pose track of the tracker in World, from its first known pose in this frame to the frame's end. Null
+  /// if the tracker is not valid at the end. If it was known before, its track begins at the frame's start.
+  /// Valid until the next call.
+  const PoseTrack* poseTrackOf(const std::string& tracker, const FrameContext& frame);
 
   // For the scene.
 
@@ -71,7 +71,7 @@ private:
     }
   };
 
-  void toWorld(Course& course, Nanoseconds start, Nanoseconds end);
+  void toWorld(PoseTrack& track, Nanoseconds start, Nanoseconds end);
 
   const Placements& placements_;
   const PoseTracks& poseTracks_;
@@ -80,8 +80,8 @@ private:
   Pose freeRig_;           ///< X_WR of a show without a rig node
   Pose rigStart_;          ///< X_WR at this frame's start
   InputSample lastInput_;
-  Course tracker_;             ///< trackerCourse()'s answer
-  Course rigCourse_, ridden_;  ///< toWorld()'s own
+  PoseTrack tracker_;            ///< poseTrackOf()'s answer
+  PoseTrack rigTrack_, ridden_;  ///< toWorld()'s own
 };
 
 }  // namespace stadion

@@ -71,7 +71,7 @@ public:
   const std::string& name() const { return name_; }
   /// The node, if it has a place in the world; else nullptr.
   virtual PlacedNode* placed() { return nullptr; }
-  /// What the node has missed since its last cycle: nothing, frames that it makes up for, or time as well.
+  /// What the node has missed since its last cycle: nothing, frames that it makes up for, or also time.
   enum class Missed : std::uint8_t { Nothing, Frames, Time };
   /// What the scene notes about an installed node. Only the scene's parts use it.
   struct ScheduleState {
@@ -116,8 +116,8 @@ public:
   virtual bool busy() const { return false; }
   /// Adds every field that the show's future depends on.
   virtual void hash(StateHash&) const {}
-  /// Visits the same fields and what follows from them, to save, compare or restore them. A restored node
-  /// does not enter: resume() is called instead.
+  /// Visits the same fields and the kept ones, to save, compare or restore them (state_fields.h). For a
+  /// restored node, resume() is called instead of enter().
   virtual void state(StateFields&) {}
   /// Maps a part number (StateFields::about()) to its node: the bodies of a dynamics node are nodes
   /// themselves.

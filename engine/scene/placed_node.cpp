@@ -70,7 +70,7 @@ void PlacedNode::resetPlace(Scene& scene) {
 /// While a tracker moves the node, nothing else does.
 void PlacedNode::setFollowing(Held part, Scene& scene) {
   follow_ = part;
-  scene.placements().claim(placement_, moved());
+  scene.placements().setAttached(placement_, moved());
 }
 
 void PlacedNode::follow(const Message& m, FrameContext& frame) {
@@ -89,21 +89,21 @@ void PlacedNode::follow(const Message& m, FrameContext& frame) {
 
 void PlacedNode::stopFollowing(Nanoseconds when, FrameContext& frame) {
   if (attached() && trace(when, frame))
-    hold(frame.scene, placedAt(course(frame).back().X, frame.scene), follow_);
+    hold(frame.scene, placedAt(poseTrack(frame).back().X, frame.scene), follow_);
   setFollowing(Held::Nothing, frame.scene);
 }
 
 void PlacedNode::resetAt(Nanoseconds when, FrameContext& frame) {
   if (attached()) trace(when, frame);
-  Course& way = course(frame);
+  PoseTrack& way = poseTrack(frame);
   resetPlace(frame.scene);
   way.push_back({when, poseOf(frame.scene.placements().world(placement_)), true});
 }
 
-/// Its course in this frame, begun where it is if nothing has been said of it yet.
-Course& PlacedNode::course(FrameContext& frame) const {
-  return frame.scene.poseTracks().of(placement_,
-                                  {frame.start(), poseOf(frame.scene.placements().world(placement_)), false});
+/// Its pose track in this frame, begun where it is if nothing has been said of it yet.
+PoseTrack& PlacedNode::poseTrack(FrameContext& frame) const {
+  return frame.scene.poseTracks().of(
+      placement_, {frame.start(), poseOf(frame.scene.placements().world(placement_)), false});
 }
 
 /// Where the node is while its tracker is at X_WT: what it does not take over is its own.
@@ -120,11 +120,11 @@ Affine PlacedNode::placedAt(const Pose& X_WN, const Scene& scene) const {
   return X;
 }
 
-/// Continues its course along the tracker's up to `to`. False if the tracker is silent.
+/// Continues its pose track along the tracker's up to `to`. False if the tracker is silent.
 bool PlacedNode::trace(Nanoseconds to, FrameContext& frame) {
-  const Course* tracker = frame.scene.feed().trackerCourse(tracker_, frame);
+  const PoseTrack* tracker = frame.scene.feed().poseTrackOf(tracker_, frame);
   if (!tracker) return false;
-  Course& way = course(frame);
+  PoseTrack& way = poseTrack(frame);
   const Pose own = way.back().X;
   const Nanoseconds from = std::max(traced_, frame.start()), known = tracker->front().time;
   const auto at = [&](Nanoseconds time, Limit limit) {
@@ -159,7 +159,7 @@ void PlacedNode::receive(const Message& m, FrameContext& frame) {
 
 void PlacedNode::simulate(FrameContext& frame) {
   if (!attached() || !trace(frame.now.time, frame)) return;  // a silent tracker holds the node where it is
-  const Course& way = course(frame);
+  const PoseTrack& way = poseTrack(frame);
   const Affine X = placedAt(way.back().X, frame.scene);
   if (moves(way) || X.matrix() != frame.scene.placements().world(placement_).matrix())
     hold(frame.scene, X, follow_);

@@ -1,15 +1,18 @@
 #pragma once
-/// A node that has a place in the world: under its parent, or following a tracker.
+/// A node that has a place in the world: below its parent, or following a tracker.
 ///
 /// Commands  attach all|position|orientation [tracker], detach, show, hide, reset.
-/// Frames    X_PN maps Node to Parent. Attached, the node follows tracker x rig with no offset and keeps its
-///          scale; what it does not take over from the tracker still comes from its parent. Detached, it goes
-///          along with its parent again, from where the two were at that time.
-/// Times    attach, detach and reset put it elsewhere at their exact time: inside the frame for dynamics (the
-///          course that it leaves in the scene), at the frame's end for the picture.
+/// Frames    X_PN maps Node to Parent. An attached node follows tracker x rig without offset, and keeps its
+///           scale. If it takes only position or orientation from the tracker, its parent gives the other. A
+///           detached node goes along with its parent again, from where the two were at that time.
+/// Times     attach, detach and reset take effect at their exact time: within the frame for dynamics (by the
+///           pose track that the node leaves in the scene), at the frame's end for the picture.
+/// Threads   App only: no other thread changes the pose of a node. Dynamics nodes call place() and hold()
+///           after their worlds have computed.
+/// Errors    place() and hold() return false and keep the old pose if X_WN is not finite.
 
 #include "engine/core/state_fields.h"
-#include "engine/maths/course.h"
+#include "engine/maths/pose_track.h"
 #include "engine/scene/node.h"
 #include "engine/scene/placements.h"
 
@@ -30,24 +33,24 @@ public:
   PlacedNode* placed() final { return this; }
   PlacementId placement() const { return placement_; }
   const PlaceAttributes& attributes() const { return attributes_; }
-  /// Makes X_WN the place that reset brings it back to, and goes there.
+  /// Moves to X_WN, which reset brings it back to from now on.
   void becomeHome(Scene& scene, const Affine& X_WN);
-  /// Places the node below its parent, so that it is at X_WN now. False if X_WN is not finite.
+  /// Places the node below its parent, so that it is at X_WN now.
   bool place(Scene& scene, const Affine& X_WN);
-  /// Places the node in World by a direct call (dynamics nodes), whatever its parent does from now on.
+  /// Places the node in World. Its parent does not carry it from now on.
   bool hold(Scene& scene, const Affine& X_WN, Held part = Held::All);
-  /// Another node moves its placement from now on, frame by frame, without telling it: it is no part of its
-  /// state where that is.
+  /// From now on another node moves the placement, as part of a fleet. Until stay(), the pose belongs to that
+  /// node's state.
   void letMove(Scene& scene);
-  /// It stays where its placement is: that is its own state again.
+  /// The node stays where its placement is, and that pose is its own state again.
   void stay(Scene& scene);
-  /// It has been detached in this frame, when its parent was at X_WP: goes along with it from now on.
+  /// The node was detached in this frame, when its parent was at X_WP. Its parent carries it from now on.
   void rejoin(Scene& scene, const Affine& X_WP);
   bool attached() const { return follow_ != Held::Nothing; }
   bool follows(std::string_view tracker) const { return attached() && tracker_ == tracker; }
-  /// Whether a tracker or the dynamics moves it: then no path does.
+  /// Whether a tracker or a dynamics node moves it; then no path does.
   virtual bool moved() const { return attached(); }
-  /// Static objects stand below this node: they must become nodes before it may move.
+  /// Static objects are below this node. They must become nodes before it may move.
   void carryStatics() { carriesStatics_ = true; }
 
   Rank rank() const override { return Rank::Attachment; }
@@ -64,7 +67,7 @@ public:
   }
 
 protected:
-  /// Passes that a node which has been put back may have missed: each is told.
+  /// Most passes of a loop that a restored node makes up for, one by one.
   static constexpr Nanoseconds kMostPasses = 100'000;
   void onEnter(Scene& scene) override;
   void onLeave(Scene& scene) override;
@@ -79,7 +82,7 @@ private:
   void follow(const Message& m, FrameContext& frame);
   void stopFollowing(Nanoseconds when, FrameContext& frame);
   void resetAt(Nanoseconds when, FrameContext& frame);
-  Course& course(FrameContext& frame) const;
+  PoseTrack& poseTrack(FrameContext& frame) const;
   Pose following(const Pose& X_WT, const Pose& own) const;
   Affine placedAt(const Pose& X_WN, const Scene& scene) const;
   bool trace(Nanoseconds to, FrameContext& frame);
@@ -88,11 +91,13 @@ private:
   PlacementId placement_ = kNoPlacement;
   Held follow_ = Held::Nothing;
   std::string tracker_;
-  Nanoseconds traced_ = 0;  ///< up to here its way along the tracker is known
-  bool arrived_ = false;    ///< it has been put where the tracker is
+  Nanoseconds traced_ = 0;  ///< its path along the tracker is known up to this time
+  bool arrived_ = false;    ///< it has reached the tracker
   bool shown_ = true;
   bool carriesStatics_ = false;
-  Affine X_PN_ = Affine::Identity();  ///< for the hash: where it was last put, in World if it is held there
+  /// Where it was last put, in World if it is held. The state hash needs this beside the placement, because
+  /// the placement of a fleet's member follows the state of another node.
+  Affine X_PN_ = Affine::Identity();
 };
 
 }  // namespace stadion

@@ -27,7 +27,7 @@ PlacementId Placements::add(PlacementId parent, const Affine& X_PN) {
     entries_[id] = Entry{};
     entries_[id].changed = listed;
   }
-  stray(parent);
+  detach(parent);
   Entry& e = entries_[id];
   X_PN_[id] = X_PN;
   e.parent = parent;
@@ -44,8 +44,9 @@ void Placements::remove(PlacementId id) {
   Entry& e = entries_[id];
   assert(e.live && e.firstChild == kNoPlacement);
   if (e.fleet != kNoFleet) fleets_[e.fleet].members[e.member] = kNoPlacement;
-  if (e.astray)
-    for (Fleet& fleet : fleets_) std::erase_if(fleet.strays, [id](const auto& s) { return s.second == id; });
+  if (e.detached)
+    for (Fleet& fleet : fleets_)
+      std::erase_if(fleet.detached, [id](const auto& s) { return s.second == id; });
   if (e.previousSibling != kNoPlacement)
     entries_[e.previousSibling].nextSibling = e.nextSibling;
   else
@@ -75,7 +76,7 @@ void Placements::markBelow(PlacementId top, bool moved) {
 
 bool Placements::setLocal(PlacementId id, const Affine& X_PN) {
   if (!X_PN.matrix().allFinite()) return false;
-  stray(id);
+  detach(id);
   X_PN_[id] = X_PN;
   entries_[id].held = Held::Nothing;
   markBelow(id, true);
@@ -92,7 +93,7 @@ bool Placements::setWorld(PlacementId id, const Affine& X_WN) {
 
 bool Placements::hold(PlacementId id, const Affine& X_WN, Held part) {
   if (!X_WN.matrix().allFinite()) return false;
-  stray(id);
+  detach(id);
   X_WH_[id] = X_WN;
   entries_[id].held = part;
   markBelow(id, true);
@@ -111,13 +112,13 @@ Affine Placements::local(PlacementId id) const {
   return e.parent == kWorldPlacement ? world(id) : Affine(world(e.parent).inverse() * world(id));
 }
 
-void Placements::claim(PlacementId id, bool claimed) {
-  if (claimed) stray(id);
-  entries_[id].claimed = claimed;
+void Placements::setAttached(PlacementId id, bool attached) {
+  if (attached) detach(id);
+  entries_[id].attached = attached;
 }
 
 void Placements::watch(PlacementId id) {
-  stray(id);
+  detach(id);
   entries_[id].watched = anyWatched_ = true;
   for (; id != kNoPlacement && !entries_[id].watchedBelow; id = entries_[id].parent)
     entries_[id].watchedBelow = true;
@@ -161,7 +162,7 @@ void Placements::setShown(PlacementId id, bool shown, Hider hider) {
   const std::uint8_t before = entries_[id].hiders;
   const auto now = static_cast<std::uint8_t>(shown ? before & ~bit : before | bit);
   if (before == now) return;
-  stray(id);
+  detach(id);
   entries_[id].hiders = now;
   if ((before == 0) != (now == 0)) markBelow(id, false);
 }
@@ -191,13 +192,13 @@ FleetId Placements::addFleet(const FleetRule& rule, std::span<const PlacementId>
 }
 
 void Placements::join(PlacementId id, FleetId fleet, std::uint32_t member) {
-  stray(id);  // a member of two fleets is a stray of both
+  detach(id);  // a member of two fleets is detached from both
   Entry& e = entries_[id];
   const bool plain = standsInWorld(e) && e.firstChild == kNoPlacement && e.hiders == 0 && !e.watched &&
-                     !e.claimed && !e.astray;
+                     !e.attached && !e.detached;
   if (!plain) {
-    e.astray = true;
-    fleets_[fleet].strays.emplace_back(member, id);
+    e.detached = true;
+    fleets_[fleet].detached.emplace_back(member, id);
     return;
   }
   fleets_[fleet].members[member] = id;
@@ -216,7 +217,7 @@ void Placements::settle(PlacementId id) const {
   Entry& e = entries_[id];
   if (e.fleet == kNoFleet) return;
   const Fleet& fleet = fleets_[e.fleet];
-  if (!fleet.rule) return;  // restored, and no node has claimed it
+  if (!fleet.rule) return;  // restored, and its node has not resumed yet
   if (std::exchange(e.move, fleet.moves) != fleet.moves) X_PN_[id] = memberOf(fleet, e.member).affine();
 }
 
@@ -232,8 +233,8 @@ std::optional<MemberPlace> Placements::inFleet(PlacementId id) const {
   return memberOf(fleets_[e.fleet], e.member);
 }
 
-/// It stays where it is. It is marked even if the fleet stands: what is published of it follows from its
-/// matrix alone from now on, as for one that was restored from a snapshot.
+/// The placement stays where it is. It is marked even if the fleet stands still. From now on its published
+/// records follow from its matrix alone, as for a restored placement.
 void Placements::leaveFleet(PlacementId id) {
   settle(id);
   Entry& e = entries_[id];
@@ -242,26 +243,26 @@ void Placements::leaveFleet(PlacementId id) {
   mark(id, e);
 }
 
-/// Somebody else has to do with it: it does not go with its fleet any more, but is moved by it still.
-void Placements::stray(PlacementId id) {
+/// Takes the placement out of its fleet's list. The fleet still moves it, by itself.
+void Placements::detach(PlacementId id) {
   Entry& e = entries_[id];
   if (e.fleet == kNoFleet) return;
-  fleets_[e.fleet].strays.emplace_back(e.member, id);
+  fleets_[e.fleet].detached.emplace_back(e.member, id);
   leaveFleet(id);
-  e.astray = true;
+  e.detached = true;
 }
 
 void Placements::moveFleet(FleetId id) {
   Fleet& fleet = fleets_[id];
   ++fleet.moves;
   fleet.moved = true;
-  putStrays(fleet);
+  placeDetached(fleet);
 }
 
-void Placements::putStrays(const Fleet& fleet) {
-  for (const auto& [number, id] : fleet.strays) {
+void Placements::placeDetached(const Fleet& fleet) {
+  for (const auto& [number, id] : fleet.detached) {
     Entry& e = entries_[id];
-    if (e.claimed) continue;
+    if (e.attached) continue;
     X_PN_[id] = memberOf(fleet, number).affine();
     e.held = Held::Nothing;
     if (e.firstChild != kNoPlacement || e.watched) {
@@ -323,8 +324,8 @@ void Placements::state(StateFields& f) {
     for (std::uint32_t k = 0; k < fleet.members.size(); ++k)
       if (const PlacementId member = fleet.members[k]; member != kNoPlacement)
         if (!isThere(member) || entries_[member].fleet != id || entries_[member].member != k) f.fail();
-    for (const auto& [number, stray] : fleet.strays)
-      if (!isThere(stray) || number >= fleet.members.size()) f.fail();
+    for (const auto& [number, member] : fleet.detached)
+      if (!isThere(member) || number >= fleet.members.size()) f.fail();
   }
   for (PlacementId id = 0; id < entries_.size(); ++id) {
     const Entry& e = entries_[id];
@@ -333,12 +334,12 @@ void Placements::state(StateFields& f) {
     if (!known || fleets_[e.fleet].members[e.member] != id) f.fail();
   }
   const auto noFleet = [&](FleetId id) {
-    return id < fleets_.size() && fleets_[id].members.empty() && fleets_[id].strays.empty();
+    return id < fleets_.size() && fleets_[id].members.empty() && fleets_[id].detached.empty();
   };
   if (!std::ranges::all_of(freeFleets_, noFleet) || twice(freeFleets_)) f.fail();
 }
 
-/// Whether everything that is there stands below World, once.
+/// Whether every live placement is below World, once.
 bool Placements::standsTogether() const {
   if (entries_.empty()) return false;
   const Entry& world = entries_[kWorldPlacement];

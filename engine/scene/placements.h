@@ -1,14 +1,15 @@
 #pragma once
-/// Where every movable thing is: a tree of placements in flat arrays.
+/// Where every movable node is: a tree of placements in flat arrays. Here App keeps the pose of a node; the
+/// other places are in docs/architecture.md ("Where a pose is kept").
 ///
 /// A placement has a local matrix relative to its parent, and a World matrix that follows from it. A
-/// placement that a tracker or the dynamics moves is held in World instead: its parent does not carry it, so
-/// the order in which the two move does not matter. A matrix is computed again only if the placement or one
-/// above it moved. World matrices are always up to date in App.
+/// placement that a tracker or a dynamics node moves is held in World instead. Its parent does not carry it,
+/// so the order in which the two move does not matter. A World matrix is computed on request, and only if the
+/// placement or one above it has moved since.
 ///
 /// A fleet is many placements that one node moves by a rule. Poses of its members are computed only when they
-/// are published. A member that is watched, held, hidden or put elsewhere, or that carries others, leaves the
-/// fleet: it is detached and moved by itself.
+/// are published. A member that is watched, held, hidden or put elsewhere, or that carries others, is
+/// detached: the fleet then moves it by itself.
 ///
 /// Frames     X_PN maps Node to Parent coordinates, X_WN Node to World.
 /// Ownership  borrows the rules of fleets.
@@ -58,10 +59,10 @@ struct MemberPlace {
   }
 };
 
-/// Says where the members of a fleet are.
+/// Computes where the members of a fleet are.
 class FleetRule {
 public:
-  /// Of member `first` and those after it, since moveFleet() was called.
+  /// Fills `places` for member `first` and those after it, as of the last moveFleet().
   virtual void putMembers(std::size_t first, std::span<MemberPlace> places) const = 0;
 
 protected:
@@ -82,40 +83,40 @@ public:
   /// Expects that its children are gone.
   void remove(PlacementId id);
 
-  /// Puts it there below its parent, which carries it from now on.
+  /// Places it at X_PN below its parent, which carries it from now on.
   bool setLocal(PlacementId id, const Affine& X_PN);
-  /// Makes a fleet of them, which stay where they are until it moves. `rule` lives until removeFleet().
+  /// Makes a fleet of them. They stay where they are until it moves. `rule` lives until removeFleet().
   FleetId addFleet(const FleetRule& rule, std::span<const PlacementId> members);
   /// They stay where they are.
   void removeFleet(FleetId fleet);
-  /// All members but those that are claimed are elsewhere now.
+  /// All members have moved, except those that are attached.
   void moveFleet(FleetId fleet);
-  /// visit(ids, places) for those that have moved in their fleets since the last call, a block at a time;
-  /// kNoPlacement stands for members that are strays. They are shown, and stand in World.
+  /// Calls visit(ids, places) for members that have moved with their fleets since the last call, a block at a
+  /// time. kNoPlacement stands for a detached member. All of them are shown, and their parent is World.
   template <class Visit>
   void takeMovedFleets(const Visit& visit);
   bool setWorld(PlacementId id, const Affine& X_WN);  ///< the same, so that it is at X_WN now
-  /// Holds it, or the part of it that is named, at X_WN until it is put below its parent again.
+  /// Holds it at X_WN, or only its position or orientation, until setLocal(), setWorld() or rejoin().
   bool hold(PlacementId id, const Affine& X_WN, Held part = Held::All);
-  /// Puts what is held below its parent again, which was at X_WP when it was let go.
+  /// Its parent carries it again, from where the two were when the parent was at X_WP.
   void rejoin(PlacementId id, const Affine& X_WP);
-  /// A tracker or the dynamics moves it: its fleet leaves it alone.
-  void claim(PlacementId id, bool claimed);
+  /// Sets whether a tracker or a dynamics node moves it; its fleet then does not.
+  void setAttached(PlacementId id, bool attached);
   Held held(PlacementId id) const { return entries_[id].held; }
   const Affine& world(PlacementId id) const;
-  Affine local(PlacementId id) const;  ///< where it is relative to its parent now
-  /// Where its fleet puts it; nothing if it is in no fleet. The numbers are those of takeMovedFleets().
+  Affine local(PlacementId id) const;  ///< relative to its parent now
+  /// Where its fleet puts it, with the numbers of takeMovedFleets(); nothing if it is in no fleet.
   std::optional<MemberPlace> inFleet(PlacementId id) const;
   PlacementId parent(PlacementId id) const { return entries_[id].parent; }
   bool has(PlacementId id) const { return id < entries_.size() && entries_[id].live; }
-  /// What moves it when it does not move itself: its parent, or World if it is held there.
+  /// The placement that carries it: its parent, or World if it is held there.
   PlacementId carrier(PlacementId id) const;
 
   /// Hides or shows this placement and everything below it.
   void setShown(PlacementId id, bool shown, Hider hider = Hider::Author);
   bool shown(PlacementId id) const;  ///< itself and everything above it
 
-  /// From now on takeMovedWatched() tells when this placement moves.
+  /// From now on takeMovedWatched() returns this placement if it has moved.
   void watch(PlacementId id);
   bool anyWatched() const { return anyWatched_; }  ///< any placement, ever
   /// Whether this placement or one below it has ever been watched.
@@ -143,9 +144,9 @@ private:
     std::uint8_t hiders = 0;
     bool live = false;
     bool watched = false, watchedBelow = false;
-    bool claimed = false;
-    bool astray = false;       ///< a stray of some fleet
-    FleetId fleet = kNoFleet;  ///< it goes with it
+    bool attached = false;
+    bool detached = false;     ///< from some fleet
+    FleetId fleet = kNoFleet;  ///< it moves with this fleet
     std::uint32_t member = 0;
     std::uint32_t move = 0;  ///< the fleet's move after which its local matrix was written
 
@@ -153,21 +154,21 @@ private:
     static void fields(Self& e, Fields& f) {
       f("parent", e.parent), f("first child", e.firstChild);
       f("next sibling", e.nextSibling), f("previous sibling", e.previousSibling);
-      f("held", e.held), f("hiders", e.hiders), f("live", e.live), f("claimed", e.claimed);
+      f("held", e.held), f("hiders", e.hiders), f("live", e.live), f("attached", e.attached);
       f("watched", e.watched), f("watched below", e.watchedBelow);
-      f("astray", e.astray), f("fleet", e.fleet), f("member", e.member), f("move", e.move);
+      f("detached", e.detached), f("fleet", e.fleet), f("member", e.member), f("move", e.move);
     }
   };
   struct Fleet {
-    const FleetRule* rule = nullptr;                            ///< null: has been removed
-    std::vector<PlacementId> members;                           ///< kNoPlacement: a stray, or gone
-    std::vector<std::pair<std::uint32_t, PlacementId>> strays;  ///< by number
+    const FleetRule* rule = nullptr;                              ///< null: it has been removed
+    std::vector<PlacementId> members;                             ///< kNoPlacement: detached, or removed
+    std::vector<std::pair<std::uint32_t, PlacementId>> detached;  ///< by number
     std::uint32_t moves = 0;
     bool moved = false;  ///< since takeMovedFleets()
 
     template <class Self, class Fields>
     static void fields(Self& fleet, Fields& f) {
-      f("members", fleet.members), f("strays", fleet.strays), f("moves", fleet.moves);
+      f("members", fleet.members), f("detached", fleet.detached), f("moves", fleet.moves);
     }
   };
   static constexpr std::size_t kFleetBlock = 64;
@@ -181,8 +182,8 @@ private:
   MemberPlace memberOf(const Fleet& fleet, std::uint32_t member) const;
   void join(PlacementId id, FleetId fleet, std::uint32_t member);
   void leaveFleet(PlacementId id);
-  void stray(PlacementId id);
-  void putStrays(const Fleet& fleet);
+  void detach(PlacementId id);
+  void placeDetached(const Fleet& fleet);
   void mark(PlacementId id, Entry& e) {
     if (e.changed) return;
     e.changed = true;
@@ -191,7 +192,7 @@ private:
 
   mutable std::vector<Entry> entries_;
   mutable std::vector<Affine> X_PN_;  ///< by placement
-  mutable std::vector<Affine> X_WN_;  ///< by placement; unused while it stands in World
+  mutable std::vector<Affine> X_WN_;  ///< by placement; unused while one of the others is its World matrix
   std::vector<Affine> X_WH_;          ///< by placement: where it is held
   bool anyWatched_ = false;
   std::vector<PlacementId> free_;

@@ -23,15 +23,15 @@ void PoseTracks::clear() {
   used_ = 0;
 }
 
-Course& PoseTracks::of(PlacementId id, const PoseKnot& first) {
+PoseTrack& PoseTracks::of(PlacementId id, const PoseKnot& first) {
   if (at_.size() <= id) at_.resize(id + std::size_t{1});
-  if (at_[id] != 0) return pool_[at_[id] - 1].course;
+  if (at_[id] != 0) return pool_[at_[id] - 1].track;
   if (used_ == pool_.size()) pool_.emplace_back();
   Known& known = pool_[used_];
   at_[id] = ++used_;
   known.id = id;
-  known.course.assign(1, first);
-  return known.course;
+  known.track.assign(1, first);
+  return known.track;
 }
 
 const PoseTracks::Known* PoseTracks::above(PlacementId id, const Placements& placements) const {
@@ -45,25 +45,25 @@ Pose PoseTracks::at(PlacementId id, Nanoseconds time, const Placements& placemen
   const Pose now = poseOf(placements.world(id));
   const Known* carrier = above(id, placements);
   if (!carrier) return now;
-  const Course& way = carrier->course;
+  const PoseTrack& way = carrier->track;
   return poseOn(way, time, Limit::After) * (way.back().X.inverse() * now);
 }
 
 Pose PoseTracks::startOf(PlacementId id, const Placements& placements) const {
   const Pose now = poseOf(placements.world(id));
   const Known* carrier = above(id, placements);
-  return carrier ? carrier->course.front().X * (carrier->course.back().X.inverse() * now) : now;
+  return carrier ? carrier->track.front().X * (carrier->track.back().X.inverse() * now) : now;
 }
 
-Course PoseTracks::within(PlacementId id, const Pose& before, Nanoseconds start, Nanoseconds end,
-                          const Placements& placements) const {
+PoseTrack PoseTracks::within(PlacementId id, const Pose& before, Nanoseconds start, Nanoseconds end,
+                             const Placements& placements) const {
   const Pose now = poseOf(placements.world(id));
   const Known* carrier = above(id, placements);
-  const bool carried = carrier && moves(carrier->course);
+  const bool carried = carrier && moves(carrier->track);
   if (!carried && same(before, now)) return {};
-  Course course{{start, before, false}};
+  PoseTrack track{{start, before, false}};
   if (carried) {
-    const Course& way = carrier->course;
+    const PoseTrack& way = carrier->track;
     const bool itself = carrier->id == id;
     // A node that has not looked for some frames does not know the way before this one: it takes it as straight.
     const bool late = way.front().time > start;
@@ -78,15 +78,15 @@ Course PoseTracks::within(PlacementId id, const Pose& before, Nanoseconds start,
       // What hangs off something that turns goes round, not straight.
       if (last && !itself && !knot.jump && knot.X.q.coeffs() != last->X.q.coeffs())
         for (Nanoseconds t = (last->time / kChord + 1) * kChord; t < knot.time; t += kChord)
-          course.push_back({t, at(t, poseOn(way, t, Limit::Before)), false});
+          track.push_back({t, at(t, poseOn(way, t, Limit::Before)), false});
       const Pose X = at(knot.time, knot.X);
-      if (last || !near(X, before)) course.push_back({knot.time, X, knot.jump || (!last && !late)});
+      if (last || !near(X, before)) track.push_back({knot.time, X, knot.jump || (!last && !late)});
       last = &knot;
     }
-    if (course.back().time >= end || near(course.back().X, now)) return course;
+    if (track.back().time >= end || near(track.back().X, now)) return track;
   }
-  course.push_back({end, now, course.back().time >= end});
-  return course;
+  track.push_back({end, now, track.back().time >= end});
+  return track;
 }
 
 }  // namespace stadion

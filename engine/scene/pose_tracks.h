@@ -1,12 +1,12 @@
 #pragma once
-/// The courses of placements within this frame, where more is known than their two ends: placements that
+/// The pose tracks of placements within this frame, where more is known than their two ends: placements that
 /// follow a tracker or a path, or that a command moved at an exact time.
 ///
-/// Frames   World. Every course begins at the frame's start.
+/// Frames   World. Every pose track begins at the frame's start.
 /// Threads  App only.
 /// Errors   none.
 
-#include "engine/maths/course.h"
+#include "engine/maths/pose_track.h"
 #include "engine/scene/placements.h"
 
 #include <cstdint>
@@ -18,13 +18,13 @@ namespace stadion {
 class PoseTracks {
 public:
   void clear();
-  /// The placement's course in this frame; a new one begins with `first`. The reference is valid until
+  /// The placement's pose track in this frame; a new one begins with `first`. The reference is valid until
   /// clear().
-  Course& of(PlacementId id, const PoseKnot& first);
-  /// The course of the placement from `start`, where it was at `before`, to `end`: its own or that of the
+  PoseTrack& of(PlacementId id, const PoseKnot& first);
+  /// The pose track of the placement from `start`, where it was at `before`, to `end`: its own or that of the
   /// nearest above it, on which its place changes evenly; else straight. Empty if it stays.
-  Course within(PlacementId id, const Pose& before, Nanoseconds start, Nanoseconds end,
-                const Placements& placements) const;
+  PoseTrack within(PlacementId id, const Pose& before, Nanoseconds start, Nanoseconds end,
+                   const Placements& placements) const;
 
   /// The pose at a time of this frame, or at its start, if nothing moved on what carries the placement.
   Pose at(PlacementId id, Nanoseconds time, const Placements& placements) const;
@@ -33,7 +33,7 @@ public:
 private:
   struct Known {
     PlacementId id = kNoPlacement;
-    Course course;
+    PoseTrack track;
   };
   const Known* above(PlacementId id, const Placements& placements) const;
 

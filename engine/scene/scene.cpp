@@ -171,8 +171,8 @@ void Scene::rejoinParent(const Detached& d, const FrameContext& frame) {
   auto* node = dynamic_cast<PlacedNode*>(find(d.node));
   if (!node) return;
   Affine X_WP = placements_.world(d.parent);
-  const Course course = poseTracks_.within(d.parent, d.X_WP, frame.start(), frame.now.time, placements_);
-  if (!course.empty()) X_WP = withScale(poseOn(course, d.when, Limit::After), X_WP);
+  const PoseTrack track = poseTracks_.within(d.parent, d.X_WP, frame.start(), frame.now.time, placements_);
+  if (!track.empty()) X_WP = withScale(poseOn(track, d.when, Limit::After), X_WP);
   node->rejoin(*this, X_WP);
 }
 

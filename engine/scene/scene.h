@@ -6,7 +6,7 @@
 ///     tree         the loaded files and their nodes; names
 ///     requests     loads and unloads that are pending
 ///     schedule     which nodes are visited in a frame, in what order
-///     placements   where nodes are; courses: how they moved within the frame
+///     placements   where nodes are; pose tracks: how they moved within the frame
 ///     degradation  what nodes must do without to save time
 ///     feed         rig, head and trackers as nodes see them
 ///     instances    what is drawn; lights, sounds

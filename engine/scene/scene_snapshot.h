@@ -1,12 +1,12 @@
 #pragma once
 /// Saves, restores and compares the state of a scene, field by field (engine/core/state_fields.h).
 ///
-/// The state is all that the show's future depends on. A restored scene goes on to the same hashes and the
-/// same pictures. What is computed from the state, such as records that are published, is made anew.
+/// The state is all that the show's future depends on. A restored scene continues with the same hashes and
+/// the same pictures. Values that follow from the state, such as published records, are computed again.
 ///
 /// Ownership  borrows the scene.
 /// Threads    App only, between two frames.
-/// Errors     returned in words; after a failed restore() the scene is of no use.
+/// Errors     restore() returns the reason. After a failure, destroy the scene.
 
 #include "engine/scene/scene.h"
 
@@ -30,17 +30,17 @@ public:
   explicit SceneSnapshot(Scene& scene) : scene_(scene) {}
 
   std::vector<std::uint8_t> save();
-  /// Restores what save() wrote, in a scene in which nothing was opened, with the same files. `script` is the
-  /// file for open(), which may lie elsewhere now. Waits until all files are loaded. Returns nothing if all
-  /// is well; else why not: this is no such state, or the files have changed.
+  /// Restores what save() wrote. Expects a scene in which nothing was opened, and the same files. `script` is
+  /// the file for open(), whose path may differ. Waits until all files are loaded. Returns nothing on
+  /// success; else the reason: the bytes are no saved state, or the files have changed.
   std::optional<std::string> restore(std::span<const std::uint8_t> state, const std::string& script);
-  /// A hash of all that save() writes and of filesOf(). It visits every field of every node. stateHash() in
-  /// contrast is kept up to date from frame to frame and leaves out what usually follows from the rest.
+  /// A hash of all that save() writes and of filesOf(). It visits every field of every node.
+  /// Scene::stateHash() is updated from frame to frame, and omits fields that usually follow from others.
   std::uint64_t digest();
   /// A hash of the scripts and models that the scene has loaded.
   static std::uint64_t filesOf(const Scene& scene);
-  /// The first difference from a state that save() wrote elsewhere after the same frame, that of a node if
-  /// there is one; nothing if the states are equal.
+  /// The first difference from a state that another process saved after the same frame. A difference in a
+  /// node comes before one in the scene. Returns nothing if the states are equal.
   std::optional<Difference> difference(std::span<const std::uint8_t> there);
 
 private:

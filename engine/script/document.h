@@ -4,17 +4,15 @@
 ///   Diagnostics findings;
 ///   auto document = parseScript(std::move(source), types, findings);       // script.h
 ///   resolveNames(document, surroundings, findings);
-///   for (const Declaration node : document) if (node.kind() == "dynobject")
-///   node.number("density");
+///   for (const Declaration node : document)
+///     if (node.kind() == "dynobject") node.number("density");
 ///
-/// Units    those of the node types: metres, seconds, kilograms, degrees.
-/// Ownership the document owns its text and values and borrows the registry; Declarations and string views
-/// borrow from it and stay valid
-///          when it is moved as a whole only if taken after the move.
-/// Errors   accessors expect an attribute that this type of node has and that is stated or
-/// has
-///          a standard value; broken values were reported by the checker and are absent here.
-/// Threads  constant once names are resolved.
+/// Units     those of the node types: metres, seconds, kilograms, degrees.
+/// Ownership the document owns its text and values and borrows the registry. Declarations and string views
+///           borrow from the document. They become invalid when it is moved.
+/// Errors    accessors expect an attribute that this node type has, and that is stated or has a default. The
+///           checker has reported broken values; they are absent here.
+/// Threads   constant once names are resolved.
 
 #include "engine/core/node_registry.h"
 #include "engine/maths/maths.h"

@@ -7,9 +7,8 @@
 ///   resolveNames(document, {enclosing files, sub-scene files}, findings);
 ///   if (findings.hasErrors()) ...                                  // build nothing
 ///
-/// Errors   every finding is added to `findings`, at most Reporter::kMost errors per step; the document
-/// returned
-///          can always be looked at, and lacks what was wrong.
+/// Errors   every finding is added to `findings`, at most Reporter::kMost errors per step. The returned
+///          document can always be read; it lacks what was wrong.
 /// Threads  a document is used by one thread until its names are resolved, then constant.
 
 #include "engine/script/document.h"

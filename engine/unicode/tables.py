@@ -78,7 +78,7 @@ def main():
     blanks = [c for c in every if hidden(c) and (u.category(chr(c)) == "Zs" or c in BLANK_THOUGH_NO_SPACE)]
     nothing = [c for c in every if hidden(c) and c not in blanks]
     # Of letters and marks that are written in one piece or in several; Hangul is composed by rule, and the
-    # compatibility ideographs are no letters that somebody types.
+    # compatibility ideographs are not letters that people type.
     composed = []
     for c in every:
         whole = u.normalize("NFD", chr(c))

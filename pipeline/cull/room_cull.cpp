@@ -8,7 +8,7 @@ namespace stadion {
 /// What was found of one frame.
 struct RoomCull::Found {
   std::size_t slot = 0;
-  std::uint64_t written = kNever;  ///< which of the slot's frames; kNever: none that anybody else may see
+  std::uint64_t written = kNever;  ///< which of the slot's frames; kNever: none that another wall may see
   std::atomic<std::uint32_t> holders = 0;
   std::vector<WallSeen> walls;
 
@@ -46,7 +46,7 @@ RoomCull::Seen RoomCull::seen(const SlotView& state, const EyeChoice& choice) {
   return seen;
 }
 
-/// Room for a new frame: that of an earlier one of the slot, which is over unless somebody was late.
+/// Returns room for a new frame: that of an earlier frame of the slot, which is over unless a wall was late.
 RoomCull::Found& RoomCull::take(const SlotView& state) {
   const auto over = [&](const auto& f) {
     return f->slot == state.slot && f->holders.load(std::memory_order_acquire) == 0;
@@ -107,8 +107,7 @@ void RoomCull::lookFor(const SlotView& state, const EyeChoice& choice, Found& fo
     eachPart([&](std::size_t first, std::size_t count) {
       for (const TreeSphere& sphere : search_.find(tree, std::span(volumes_).subspan(first, count)))
         if (const InstanceRecord* r = recordAt(tree.indexOf(sphere.place))) keep(sphere, first, *r, found);
-      for (std::size_t v = 0; v < count; ++v)
-        found.walls[wallsOf_[first + v]].tested += search_.tested()[v];
+      for (std::size_t v = 0; v < count; ++v) found.walls[wallsOf_[first + v]].tested += search_.tested()[v];
     });
   });
 }

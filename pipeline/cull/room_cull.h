@@ -7,11 +7,11 @@
 /// ConvexVolume says so, in double precision. So the outcome is that of looking at every record, to the last
 /// one, on every machine.
 ///
-/// Threads    any, at once: one that comes while another searches waits for that. A wall that does not come
-///            delays no other.
-/// Ownership  what is found is kept while somebody holds it; it points into the slot and its chunks and is
+/// Threads    any, at once: a thread that comes during a search waits for its end. No thread waits for a wall
+///            that does not come.
+/// Ownership  what is found is kept while a wall holds it; it points into the slot and its chunks and is
 ///            good while the slot is under lease. Of a slot that has been taken away it is void, but can be
-///            read without harm; other callers do not get it.
+///            read without harm; no other thread gets it.
 
 #include "pipeline/cull/bounds_search.h"
 #include "pipeline/cull/moving_bounds.h"

@@ -1,12 +1,11 @@
 #pragma once
-/// What stands still and casts shadows into a ring of the shadow maps.
+/// The objects that stand still and cast shadows into a ring of the shadow maps.
 ///
-/// Which things these are follows from where the ring is and from what stands still, so it is found once for
-/// all walls, and again only when the ring has followed the head or when something has come, gone or begun to
-/// move. A hundred thousand things that stand still cost nothing in the other frames.
+/// They follow from the place of the ring and from the objects that stand still. So they are found once for
+/// all walls. They are found again only after the ring has followed the head, or after an object has
+/// appeared, gone or begun to move. In the other frames, a hundred thousand still objects cost nothing.
 ///
-/// Threads  any, at once; the first thread that asks searches, the others wait for its result. A result
-///          never changes.
+/// Threads  any, at once. The first call finds them while the others wait. A result never changes.
 
 #include "pipeline/draw_list/draw_list.h"
 #include "pipeline/state/scene_state.h"

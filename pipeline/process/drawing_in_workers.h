@@ -8,8 +8,9 @@
 /// Every   if every frame counts, a new process draws the frame again until its pictures are there. If four
 ///         processes in a row die on one frame, or before they are ready, the run ends.
 /// Latest  if the newest frame counts, the other walls wait for a late wall for a limited time (patience.h).
-///         They do not wait for the first picture of a new process. The late wall shows its last picture until
-///         its process answers. After repeated crashes, a process starts after a growing pause (restarts.h).
+///         They do not wait for the first picture of a new process. The late wall shows its last picture
+///         until its process answers. After repeated crashes, a process starts after a growing pause
+///         (restarts.h).
 
 #include "engine/asset/mesh_store.h"
 #include "pipeline/process/wall_worker.h"

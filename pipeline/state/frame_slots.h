@@ -19,7 +19,7 @@ namespace stadion {
 
 enum class Delivery {
   Every,   ///< every frame is shown; App waits for slow readers (recording, regression)
-  Latest,  ///< the newest frame is shown; App never waits for a reader (live)
+  Latest,  ///< the newest frame is shown; App waits only while the walls hold all slots (live)
 };
 
 struct Lease {
@@ -65,9 +65,7 @@ private:
     std::size_t readers = 0;
     std::uint64_t serial = 0;
     std::chrono::steady_clock::time_point since{};
-
-    std::uint64_t written =
-        0;  ///< number of frames written before; a paused frame is written again
+    std::uint64_t written = 0;  ///< number of frames written before; a paused frame is written again
   };
   struct Selection {
     std::uint64_t serial = 0;

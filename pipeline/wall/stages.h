@@ -23,10 +23,10 @@
 
 namespace stadion {
 
-/// The cause of a run that cannot go on.
+/// The origin of a failure.
 enum class FailureKind {
-  Fault,    ///< ours, or OpenGL's
-  Refusal,  ///< the user's: a full disk, a size that cannot be drawn
+  Fault,    ///< in Stadion or OpenGL
+  Refusal,  ///< the user can mend it: a full disk, a picture that is too large
 };
 
 /// Why a stage could not go on.
@@ -53,13 +53,13 @@ public:
   /// The show is paused after frame `now`: publishes what there is once more. A scene that was put back while
   /// it is paused has not been published yet.
   virtual void still(const TimeSignature& now, std::size_t slot) { (void)now, (void)slot; }
-  /// Whether anybody looks at this frame; else it is neither culled nor drawn. Asked after app().
+  /// Whether this frame is needed; else it is neither culled nor drawn. Asked after app().
   virtual bool wantsDrawn(const FrameTicket&) const { return true; }
   /// Fills `list` with what wall `wall` shows of the frame in `slot`, in all its views.
   virtual void cull(std::size_t wall, std::size_t slot, DrawList& list) = 0;
 
-  /// When the head's pose was measured that app() or still() has just taken; nothing: it is not known, and
-  /// the start of the frame counts. On the App thread.
+  /// When the head's pose was measured that app() or still() has just taken. If that is not known, the start
+  /// of the frame counts. On the App thread.
   virtual std::optional<std::chrono::steady_clock::time_point> headMeasured() const { return {}; }
   /// The same of the picture that the wall shows, asked while all are swapped; nothing: that of the frame.
   virtual std::optional<std::chrono::steady_clock::time_point> posed(std::size_t wall) const {

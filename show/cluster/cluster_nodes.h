@@ -2,14 +2,15 @@
 /// The processes that play all hosts of a cluster on this machine.
 ///
 /// - A process that crashes, or ends with kFailed, is restarted: at once the first time, later after growing
-/// pauses.
+///   pauses.
 /// - A follower that ends with kOtherFiles is restarted every few seconds, because its files may be changing.
 /// - When the leader has ended for good, the followers are asked to end.
 /// - A process that was asked to end and still runs after `patience` is killed.
 /// - A leader that shows nothing is killed. The leader itself notices a follower that hangs.
 ///
 /// Ownership  owns the processes, and kills those that still run when it is destroyed. The reporter must
-/// outlive it. Threads    main.
+///            outlive it.
+/// Threads    main.
 
 #include "pipeline/cluster/cluster_file.h"
 #include "pipeline/platform/child_process.h"

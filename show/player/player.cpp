@@ -21,7 +21,7 @@
 namespace stadion {
 namespace {
 
-/// A room without a visitor: no tracker reports anything.
+/// There is no visitor: every tracker is silent.
 class NoInput final : public InputDevice {
 public:
   using InputDevice::sampleAt;
@@ -166,7 +166,7 @@ bool Player::openScene(Diagnostics& findings) {
   } else if (!scene_->open(options_.script)) {
     return false;
   }
-  // Reading a show of a million nodes takes more memory than holding it. Here the time to give it back delays no frame.
+  // Reading a show of a million nodes takes more memory than holding it. Here no frame waits for its release.
   malloc_trim(0);
   return true;
 }

@@ -15,7 +15,7 @@ namespace {
 
 using namespace show_nodes;
 
-TEST(ThreadsCrew, EveryPieceIsDoneOnce) {
+TEST(ThreadsWorkerPool, EveryPieceIsDoneOnce) {
   for (const std::size_t threads : {1, 2, 5}) {
     WorkerPool pool(threads);
     for (std::size_t count = 0; count < 40; ++count) {
@@ -26,7 +26,7 @@ TEST(ThreadsCrew, EveryPieceIsDoneOnce) {
   }
 }
 
-TEST(ThreadsCrew, WhatAPieceThrowsIsThrownWhenAllAreDone) {
+TEST(ThreadsWorkerPool, WhatAPieceThrowsIsThrownWhenAllAreDone) {
   for (const std::size_t threads : {1, 4}) {
     WorkerPool pool(threads);
     std::atomic<int> done = 0;
@@ -56,7 +56,7 @@ void closeAddressSpace() {
 }
 
 // In a process of its own; more threads than the C library keeps stacks for.
-TEST(ProgramCrew, WithoutRoomForItsThreadsTheSameIsDone) {
+TEST(ProgramWorkerPool, WithoutRoomForItsThreadsTheSameIsDone) {
   const auto work = [] {
     closeAddressSpace();
     WorkerPool pool(64);

@@ -204,7 +204,7 @@ public:
   LookingNode(NodeRef self, std::string name, const PlacedNode& at)
       : Node(kGroupType, self, std::move(name)), at_(at) {}
   Rank rank() const override { return Rank::Outcome; }
-  Course way;  ///< in the last of them
+  PoseTrack way;  ///< in the last of them
 
 protected:
   void onEnter(Scene& scene) override {
@@ -213,7 +213,8 @@ protected:
   }
   void simulate(FrameContext& frame) override {
     const Placements& placements = frame.scene.placements();
-    way = frame.scene.poseTracks().within(at_.placement(), before_, frame.start(), frame.now.time, placements);
+    way =
+        frame.scene.poseTracks().within(at_.placement(), before_, frame.start(), frame.now.time, placements);
     before_ = poseOf(placements.world(at_.placement()));
   }
 
@@ -317,7 +318,7 @@ TEST(LoadControl, WhatAPathHasMissedIsAWayThroughTheFrameInWhichItRuns) {
     const Nanoseconds start = f.scene.now();
     f.frame();
     if (f.x() == before) continue;
-    const Course& way = f.looking->way;
+    const PoseTrack& way = f.looking->way;
     ASSERT_EQ(way.size(), 2U);
     EXPECT_EQ(way[0].time, start);
     EXPECT_NEAR(way[0].X.p.x(), before, 1e-9);

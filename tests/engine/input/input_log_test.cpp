@@ -1,9 +1,9 @@
 #include "engine/base/plain_file.h"
-#include "engine/plain_text/text_line.h"
 #include "engine/input/input_log.h"
 #include "engine/input/input_recorder.h"
 #include "engine/input/scripted_input.h"
 #include "engine/maths/functions.h"
+#include "engine/plain_text/text_line.h"
 #include "tests/mutations.h"
 
 #include <gtest/gtest.h>
@@ -78,7 +78,7 @@ TEST(InputLog, TellsTheSameWayHoweverItIsCutIntoFrames) {
   ASSERT_TRUE(log);
   InputReplay replay(*log);
   const auto wayAt = [&](double rate) {
-    Course way;
+    PoseTrack way;
     for (std::uint64_t n = 0; n <= static_cast<std::uint64_t>(rate); ++n) {
       const TimeSignature now = signatureAt(n, rate);
       InputSample sample;
@@ -90,7 +90,7 @@ TEST(InputLog, TellsTheSameWayHoweverItIsCutIntoFrames) {
     }
     return way;
   };
-  const Course slow = wayAt(7), fast = wayAt(240);
+  const PoseTrack slow = wayAt(7), fast = wayAt(240);
   for (const double t : {0.005, 0.05, 0.1036, 0.1038, 0.2001, 0.2998, 0.305, 0.4110, 0.4112, 0.5}) {
     const Pose a = poseOn(slow, fromSeconds(t), Limit::After), b = poseOn(fast, fromSeconds(t), Limit::After);
     EXPECT_LE((a.p - b.p).norm(), 1e-12) << t;

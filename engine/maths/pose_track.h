@@ -2,7 +2,7 @@
 /// A motion inside a frame: straight ways and even turns between knots, and jumps.
 ///
 /// Times    non-decreasing. Before the first knot it is at that knot's pose, after the last one likewise.
-/// Frames   given by the owner; all knots of a course are in the same one.
+/// Frames   given by the owner; all knots of a pose track are in the same one.
 
 #include "engine/base/time_signature.h"
 #include "engine/maths/maths.h"
@@ -32,7 +32,7 @@ struct PoseKnot {
   }
 };
 
-using Course = std::vector<PoseKnot>;
+using PoseTrack = std::vector<PoseKnot>;
 
 /// Turning or curved ways are approximated by chords of this length, on a grid of show time [ns].
 constexpr Nanoseconds kChord = 2'000'000;
@@ -41,12 +41,12 @@ constexpr Nanoseconds kChord = 2'000'000;
 enum class Limit { Before, After };
 
 /// Expects at least one knot.
-Pose poseOn(const Course& course, Nanoseconds time, Limit limit);
+Pose poseOn(const PoseTrack& track, Nanoseconds time, Limit limit);
 
 /// Returns true if it is ever at another place than at first.
-bool moves(const Course& course);
+bool moves(const PoseTrack& track);
 
 /// Returns true if it jumps at exactly `time`.
-bool jumpsAt(const Course& course, Nanoseconds time);
+bool jumpsAt(const PoseTrack& track, Nanoseconds time);
 
 }  // namespace stadion

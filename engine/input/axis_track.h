@@ -23,14 +23,14 @@ struct AxisKnot {
     f("time", k.time), f("value", k.value);
   }
 };
-using AxisCourse = std::vector<AxisKnot>;
+using AxisTrack = std::vector<AxisKnot>;
 
 /// Returns the device's axis from `start` to `end`, the time of the sample. It is 0 for a device that is lost
 /// or unknown. Never empty.
-AxisCourse axisCourse(const InputSample& input, std::string_view device, std::size_t axis, Nanoseconds start,
-                      Nanoseconds end);
+AxisTrack axisTrack(const InputSample& input, std::string_view device, std::size_t axis, Nanoseconds start,
+                    Nanoseconds end);
 
 /// Expects at least one knot.
-double axisOn(const AxisCourse& course, Nanoseconds time, Limit limit);
+double axisOn(const AxisTrack& track, Nanoseconds time, Limit limit);
 
 }  // namespace stadion
