@@ -13,7 +13,8 @@
 namespace stadion {
 
 bool isBench(int argc, char** argv) {
-  return argc > 1 && std::string_view(argv[1]) == "bench";
+  const auto isWord = [&](int at, std::string_view word) { return argc > at && argv[at] == word; };
+  return isWord(1, "bench") || (isWord(1, "complete") && isWord(2, "bench") && argc > 3);
 }
 
 int startBench(char** argv) {

@@ -8,6 +8,7 @@ class App;
 
 namespace stadion {
 
+/// Whether the words are `bench ...`, or ask how `bench ...` may go on.
 bool isBench(int argc, char** argv);
 
 /// Goes on as `stadion-bench` with the same words. Returns an exit status only if that fails, and says why.

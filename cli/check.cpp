@@ -4,6 +4,7 @@
 #include "engine/asset/check.h"
 #include "cli/commands.h"
 #include "cli/exit_code.h"
+#include "cli/options/command_options.h"
 #include "cli/options/plugin_option.h"
 #include "show/player/show_check.h"
 #include "show/player/show_of_part.h"
@@ -80,13 +81,14 @@ void addCheckCommand(CLI::App& app, int& code) {
   };
   auto o = std::make_shared<Options>();
   CLI::App* command = app.add_subcommand("check", "Look for mistakes in scripts and assets; draws nothing");
-  command->add_option(
-      "SHOW", o->scripts,
-      "scripts to check, with the sub-scenes and assets they name; one that a show loads is checked in it");
-  command->add_option("--assets", o->models, "try to import every model below this folder and count");
-  command->add_option("--asset-root", o->roots, "further folder to look for assets in; may be repeated")
-      ->allow_extra_args(false);  // what follows the folder is a script
+  CommandOptions options(*command);
+  options.add("SHOW", o->scripts);
+  options.add("--assets", o->models);
+  options.add("--asset-root", o->roots);
   addPluginOption(*command, o->plugins, o->types);
+  command->footer("Sub-scenes and assets that a script names are checked with it. A script that a show loads "
+                  "is checked in "
+                  "that show.");
   command->callback([o, &code] {
     if (o->scripts.empty() && o->models.empty()) {
       std::fprintf(stderr, "check: name a script, or a folder with --assets DIR\n");

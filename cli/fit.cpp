@@ -4,7 +4,7 @@
 #include "dynamics/flight/fit.h"
 #include "cli/commands.h"
 #include "cli/exit_code.h"
-#include "cli/options/number_option.h"
+#include "cli/options/command_options.h"
 #include "cli/options/plugin_option.h"
 #include "cli/terminal.h"
 #include "engine/base/plain_file.h"
@@ -34,7 +34,7 @@ struct FitOptions {
   std::optional<double> mass;
   std::vector<double> wind{0, 0, 0}, inertia, centre;
   double gravity = 9.80665, density = 1.225;
-  std::string table;
+  std::string out;  ///< folder of the table
 };
 
 int refuse(const Diagnostic& why) {
@@ -140,6 +140,8 @@ std::string attributesOf(const FittedRung& rung, const std::string& table) {
 }
 
 bool writeTable(const FittedRung& rung, int axis, const std::string& path) {
+  std::error_code exists;
+  std::filesystem::create_directories(std::filesystem::path(path).parent_path(), exists);
   std::ofstream file(path, std::ios::binary);
   file << flightTableText(rung.rows, rung.area, rung.length, axis);
   file.close();
@@ -148,11 +150,10 @@ bool writeTable(const FittedRung& rung, int axis, const std::string& path) {
 }
 
 std::string tableFileOf(const FitOptions& o) {
-  if (!o.table.empty()) return o.table;
   const std::size_t colon = o.object.rfind(".evs:");
   const std::string stem = colon != std::string::npos ? o.object.substr(colon + 5)
                                                       : std::filesystem::path(o.object).stem().string();
-  return stem + "-flight.csv";
+  return (std::filesystem::path(o.out) / (stem + "-flight.csv")).string();
 }
 
 void printRungs(const std::vector<FittedRung>& rungs, bool round) {
@@ -196,7 +197,7 @@ bool keepsWhatIsRead(const FitOptions& o) {
   std::vector<NamedFile> files{
       {"OBJECT", colon != std::string::npos ? o.object.substr(0, colon + 4) : o.object, false}};
   for (const std::string& flight : o.references) files.push_back({"--reference", flight, false});
-  files.push_back({"--table", tableFileOf(o)});
+  files.push_back({"--out's " + std::filesystem::path(tableFileOf(o)).filename().string(), tableFileOf(o)});
   Diagnostics findings;
   refuseSameFiles(files, findings);
   tell(findings);
@@ -240,33 +241,23 @@ void addFitCommand(CLI::App& app, int& code) {
   auto o = std::make_shared<FitOptions>();
   CLI::App* command =
       app.add_subcommand("fit", "Find the cheapest flight model that follows recorded flights");
-  command->add_option("OBJECT", o->object, "a model file, or SCRIPT.evs:NAME for a dynobject")->required();
-  command->add_option("--reference", o->references, "recorded flights (.csv, see docs/flight.md)")
-      ->required();
-  command->add_option("--tolerance", o->landing, "how far off it may land, in % of the range (1)")
-      ->check(numberFrom(1e-6, 1000));
-  command
-      ->add_option("--attitude", o->attitude,
-                   "how far off its axis may point, mean over a flight [degrees] (any)")
-      ->check(numberFrom(1e-6, 180));
-  command->add_option("--mass", o->mass, "[kg]; else the script's, else 1000 kg/m3")
-      ->check(numberFrom(1e-9, 1e9));
-  command
-      ->add_option("--inertia", o->inertia, "moments along the axis and across it [kg m2]; else the model's")
-      ->expected(2)
-      ->check(numberFrom(1e-15, 1e15));
-  command->add_option("--centre", o->centre, "centre of mass in the model [m]; else the model's")
-      ->expected(3)
-      ->check(numberFrom(-1e6, 1e6));
-  command->add_option("--wind", o->wind, "of the flights, x y z [m/s] (0 0 0)")
-      ->expected(3)
-      ->check(numberFrom(-1e3, 1e3));
-  command->add_option("--gravity", o->gravity, "[m/s2] (9.80665)")->check(numberFrom(0, 1e3));
-  command->add_option("--density", o->density, "of the air [kg/m3] (1.225)")->check(numberFrom(0, 1e4));
-  command->add_option("--table", o->table, "where to write a table, if that is chosen (OBJECT-flight.csv)");
-  command->add_option("--asset-root", o->roots, "further folder to look for the model in; may be repeated")
-      ->allow_extra_args(false);
+  CommandOptions options(*command);
+  options.add("OBJECT", o->object).required();
+  options.add("--reference", o->references).required();
+  options.add("--within", o->landing);
+  options.add("--attitude", o->attitude);
+  options.add("--mass", o->mass);
+  options.add("--inertia", o->inertia);
+  options.add("--centre", o->centre);
+  options.add("--wind", o->wind);
+  options.add("--gravity", o->gravity);
+  options.add("--density", o->density);
+  options.add("--out", o->out);
+  options.add("--asset-root", o->roots);
   addPluginOption(*command, o->plugins, o->types);
+  command->footer(
+      "--within is the allowed distance of the landing, in percent of the range. If a table is chosen, it is "
+      "written to\nOBJECT-flight.csv in --out DIR, else in this folder.");
   command->callback([o, &code] { code = fit(*o); });
 }
 

@@ -2,11 +2,12 @@
 
 #include "cli/commands.h"
 #include "cli/exit_code.h"
+#include "cli/options/command_options.h"
 #include "cli/options/plugin_option.h"
 #include "engine/base/atomic_file.h"
 #include "engine/base/diagnostic.h"
-#include "engine/script/reference.h"
 #include "engine/plain_text/suggestion.h"
+#include "engine/script/reference.h"
 #include "show/base/standard_nodes.h"
 
 #include <CLI/CLI.hpp>
@@ -44,19 +45,22 @@ int writeEditorFiles(const NodeRegistry& types, const std::string& folder) {
 
 void addNodesCommand(CLI::App& app, int& code) {
   struct Options {
-    std::string type, editor;
+    std::string type, out;
     std::vector<std::string> plugins;
     SharedTypes types = standardNodes();
   };
   auto o = std::make_shared<Options>();
   CLI::App* command =
       app.add_subcommand("nodes", "Print the language reference: node types, attributes, events, commands");
-  command->add_option("TYPE", o->type, "only this node type");
-  command->add_option("--editor", o->editor,
-                      "write a TextMate grammar and a completion file into this folder");
+  CommandOptions options(*command);
+  options.add("TYPE", o->type);
+  options.add("--out", o->out);
   addPluginOption(*command, o->plugins, o->types);
+  command->footer(
+      "--out DIR receives a TextMate grammar, evs.tmLanguage.json, and a completion file for editors, "
+      "evs.completion.json.");
   command->callback([o, &code] {
-    code = o->editor.empty() ? printReference(*o->types, o->type) : writeEditorFiles(*o->types, o->editor);
+    code = o->out.empty() ? printReference(*o->types, o->type) : writeEditorFiles(*o->types, o->out);
   });
 }
 

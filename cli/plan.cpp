@@ -2,7 +2,7 @@
 
 #include "cli/commands.h"
 #include "cli/exit_code.h"
-#include "cli/options/number_option.h"
+#include "cli/options/command_options.h"
 #include "cli/options/show_options.h"
 #include "cli/terminal.h"
 #include "engine/base/atomic_file.h"
@@ -36,20 +36,12 @@ constexpr double kQuietPlan = 0.5;  ///< threads of others for each core
 
 struct PlanOptions {
   PlanRunOptions run;
-  std::string walls = "cave4", mode = "all", stereo = "pair", pace = "free", provider = "osmesa", from, svg;
+  std::string walls = "cave4", mode = "all", stereo = "pair", pace = "free", provider = "osmesa", from, out;
   std::optional<std::size_t> count;  ///< of walls to plan, if known before the costs are
   double cores = 0;                  ///< 0 = as here
-  std::size_t machines = 1;
+  std::size_t machines = 1, wallCount = 0;
   bool processes = false, json = false;
 };
-
-/// A number of walls, if that is what was said.
-std::optional<std::size_t> countIn(const std::string& text) {
-  std::size_t count = 0;
-  const auto [end, wrong] = std::from_chars(text.data(), text.data() + text.size(), count);
-  if (wrong != std::errc() || end != text.data() + text.size()) return std::nullopt;
-  return count;
-}
 
 double coresHere() {
   return std::max(1u, std::thread::hardware_concurrency());
@@ -139,15 +131,18 @@ void refuseMeasuring(const CLI::App& command, Diagnostics& findings) {
 
 int planShow(PlanOptions o, const CLI::App& command) {
   Diagnostics findings;
-  o.count = countIn(o.walls);
+  if (o.wallCount > 0) o.count = o.wallCount;
   o.run.show.walls = o.count ? "cave6" : o.walls;
-  const std::vector<NamedFile> files{{"--from", o.from, false}, {"--svg", o.svg}};
+  const std::string diagram = o.out.empty() ? "" : o.out + "/plan.svg";
+  const std::vector<NamedFile> files{{"--from", o.from, false}, {"--out's plan.svg", diagram}};
   refuseOverwriting({&o.run.show, 1}, files, findings);
   if (!o.from.empty()) refuseMeasuring(command, findings);
   if (!o.from.empty() && !o.count && command.count("--walls") > 0) countWallsOf(o, findings);
   if (findings.hasErrors()) return tell(findings), kBadInput;
   std::optional<AtomicFile> svg;  // opened before anything is measured
-  if (!o.svg.empty() && svg.emplace(o.svg).error()) findings.add(*svg->error());
+  std::error_code unmade;         // reported when the file is opened
+  if (!o.out.empty()) std::filesystem::create_directories(o.out, unmade);
+  if (!o.out.empty() && svg.emplace(diagram).error()) findings.add(*svg->error());
   if (findings.hasErrors()) return tell(findings), kBadInput;
   const auto costs = o.from.empty() ? measure(o, findings) : readFrom(o.from, findings);
   tell(findings);
@@ -174,13 +169,13 @@ Draw is measured; of Draw, what its calls take and what the software rasteriser'
 loop is played through without it, event by event: threads that share the processors alike, three slots of scene state, two
 draw lists a wall, walls that take turns with their calls, one rasteriser for all of them, a swap for all walls together.
 
-`--walls 4` means the first four walls of cave6; beyond six, those again. With a wall file all of its walls are measured; beside
+`--wall-count 4` means the first four walls of cave6; beyond six, those again. With --walls all of its walls are measured; beside
 --from it says how many are planned for. `what
 would change it` plays the same frames on other machines: the rasteriser then has a thread for each core (32 at most) and keeps
 the same part of them busy. A rasteriser for each wall is what walls as processes would have.
 
-  ./stadion plan scripts/kick.evs --walls 6
-  ./stadion plan scripts/olympia.evs --walls cave4 --cores 16 --svg plan.svg
+  ./stadion plan scripts/kick.evs --wall-count 6
+  ./stadion plan scripts/olympia.evs --walls cave4 --cores 16 --out plan    # plan/plan.svg: a timing diagram
   ./stadion plan scripts/kick.evs --json > costs.json; ./stadion plan --from costs.json --cores 8 --pace lock --rate 60
 
 ./stadion bench plan compares what is predicted with what comes.)";
@@ -192,44 +187,23 @@ void addPlanCommand(CLI::App& app, int& code) {
   CLI::App* command =
       app.add_subcommand("plan", "Predict frames a second and latency for other machines, walls and modes");
   ShowOptions& show = o->run.show;
-  CLI::Option* script = command->add_option("SHOW", show.script, "the script to measure (.evs)");
-  command->add_option("--from", o->from, "plan with the costs in this file instead, that --json wrote")
-      ->excludes(script);
-  command->add_option("--walls", o->walls, "a wall file or its name, or a number of walls")
-      ->check([](const std::string& text) -> std::string {
-        const auto count = countIn(text);
-        const bool isName = !count && !text.empty() && !parseNumber(text);
-        return isName || (count && *count >= 1 && *count <= kMostWalls)
-                   ? ""
-                   : "from 1 to " + std::to_string(kMostWalls) + " walls can be planned";
-      })
-      ->capture_default_str();
-  command->add_option("--cores", o->cores, "of the machine that is planned for (default: as here)")
-      ->check(numberFrom(1, 1024));
-  command->add_option("--machines", o->machines, "alike, that have the walls in turn")
-      ->check(wholeNumberFrom(1, 24))
-      ->capture_default_str();
-  command->add_flag("--processes", o->processes, "walls are processes, each with a rasteriser of its own");
-  command->add_option("--mode", o->mode, "pipelined, sequential, or all")
-      ->check(CLI::IsMember({"pipelined", "sequential", "all"}))
-      ->capture_default_str();
-  command
-      ->add_option("--pace", o->pace, "free: every frame, as fast as it goes; lock or float: live, at --rate")
-      ->check(CLI::IsMember({"free", "lock", "float"}))
-      ->capture_default_str();
-  command->add_option("--stereo", o->stereo, "pair, or off for one eye")
-      ->check(CLI::IsMember({"pair", "off"}))
-      ->capture_default_str();
-  command->add_option(
-      "--size", show.size,
-      "WIDTHxHEIGHT in pixels of one eye's picture (default: what the wall file says, else 800x600)");
-  addLookOption(*command, show);
+  CommandOptions options(*command);
+  options.add("SHOW", show.script);
+  options.add("--from", o->from).excludes("SHOW");
+  options.add("--walls", o->walls);
+  options.add("--wall-count", o->wallCount, {.most = kMostWalls}).excludes("--walls");
+  options.add("--cores", o->cores);
+  options.add("--machines", o->machines);
+  options.add("--processes", o->processes);
+  options.add("--mode", o->mode);
+  options.add("--pace", o->pace);
+  options.add("--stereo", o->stereo, {.words = "pair|off"});
+  options.add("--size", show.size);
+  options.add("--look", show.look);
   addLengthOptions(*command, show);
-  command->add_option("--gl", o->provider, "the driver that draws: osmesa or egl")
-      ->check(CLI::IsMember({"osmesa", "egl"}))
-      ->capture_default_str();
-  command->add_option("--svg", o->svg, "write a timing diagram to this file");
-  command->add_flag("--json", o->json, "one JSON object, that --from reads");
+  options.add("--gl", o->provider, {.words = "osmesa|egl"});
+  options.add("--out", o->out);
+  options.add("--json", o->json);
   command->footer(kPlanFooter);
   command->callback([o, command, &code] {
     if (o->from.empty() && o->run.show.script.empty()) throw CLI::RequiredError("SHOW");

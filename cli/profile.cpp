@@ -3,7 +3,7 @@
 
 #include "cli/commands.h"
 #include "cli/exit_code.h"
-#include "cli/options/number_option.h"
+#include "cli/options/command_options.h"
 #include "cli/options/run_options.h"
 #include "cli/options/show_options.h"
 #include "cli/terminal.h"
@@ -17,6 +17,7 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdio>
+#include <filesystem>
 #include <fmt/format.h>
 #include <memory>
 #include <unistd.h>
@@ -31,7 +32,9 @@ struct ProfileOptions {
   std::size_t nodes = 25;
   double millimetres = 1;
   CLI::Option* blackBox = nullptr;
-  bool fidelityAsked = false, json = false, csv = false, undrawn = false;
+  std::string blackBoxFile;
+  std::string out;
+  bool fidelityAsked = false, json = false, csv = false;
 };
 
 /// "frame 812: 16.7 ms after the one before; App 1.1, Cull 0.3, Draw 9.8 ms, of the slowest walls".
@@ -108,15 +111,18 @@ int profileFrames(ProfileOptions o) {
   ProfileRunOptions& options = o.run;
   options.show = o.fidelity.show;
   options.layout = *stereoLayout(options.stereo);
-  options.drawn = !o.undrawn;
+  options.drawn = options.provider != "none";
+  if (!o.out.empty()) options.html = o.out + "/profile.html";
   options.fidelity = o.fidelity, options.fidelity.report = tell, options.fidelityAsked = o.fidelityAsked;
   options.fidelity.tolerance = 1e-3 * o.millimetres;
   Diagnostics findings;
-  const std::vector<NamedFile> files{{"--html", options.html}, {"--trace", o.trace.file}};
+  const std::vector<NamedFile> files{{"--out's profile.html", options.html}, {"--trace", o.trace.file}};
   refuseOverwriting({&options.show, 1}, files, findings);
   options.trace = o.trace.settle(findings);
   const bool settled = options.show.settle(findings) && !findings.hasErrors();
   TerminalReporter terminal;
+  std::error_code unmade;  // reported when the page is opened
+  if (settled && !o.out.empty()) std::filesystem::create_directories(o.out, unmade);
   const auto figures = settled ? profileShow(options, terminal, findings) : std::nullopt;
   tell(findings);
   if (!figures) return kBadInput;
@@ -133,7 +139,7 @@ bool asksForRecord(const CLI::App& command) {
     if (command.count(option) > 0)
       findings.error({}, std::string(option) +
                              " tells of frames, which --fidelity does not record: leave one "
-                             "of them out, or add --html FILE, which has both");
+                             "of them out, or add --out DIR, whose page has both");
   tell(findings);
   return findings.hasErrors();
 }
@@ -164,12 +170,12 @@ place in the frame, until every node has had its turn. `visitor` stands for the 
 `explained` says how much of what the stages took is found with nodes, or with parts of the stages themselves.
 The first four frames are not recorded. `-` (JSON: null, CSV: empty) is what was not measured, for want of frames.
 
-With --html FILE a page for a browser is written, one file: each thread in the frames around the longest, costs along the
+--out DIR receives profile.html, a page for a browser: each thread in the frames around the longest, costs along the
 scene tree, histograms, walls and eyes, late frames with their causes, bodies' costs beside their errors. With --trace
 FILE every span is written, for ui.perfetto.dev; App, Cull and Draw of a frame are joined by arrows. docs/profiling.md
 teaches to read both.
 
-  ./stadion profile scripts/kick.evs --html kick.html --trace kick.json --trace-frames 100..160
+  ./stadion profile scripts/kick.evs --out kick --trace kick.json --trace-frames 100..160
 
 With --fidelity, every dynobject is listed with what stands for it: the shape that collides, the fields it is hooked to, how its
 flight is computed (in closed form; by a series of order 16, in one medium; by steps of order 5, under other fields),
@@ -200,61 +206,29 @@ void addProfileCommand(CLI::App& app, int& code) {
       "bodies are");
   ShowOptions& show = o->fidelity.show;
   addShowOptions(*command, show);
-  command->add_option("--stereo", o->run.stereo, "pair, or off for one eye")
-      ->check(CLI::IsMember({"pair", "off"}))
-      ->capture_default_str();
-  command->add_option("--gl", o->run.provider, "the driver that draws: osmesa or egl")
-      ->check(CLI::IsMember({"osmesa", "egl"}))
-      ->capture_default_str();
-  o->blackBox =
-      command
-          ->add_option("--black-box",
-                       "say instead why frames were late: FILE has the last frames of a run; without it, "
-                       "the newest in ~/.local/state/stadion/last-frames (or $XDG_STATE_HOME)")
-          ->type_name("[FILE]")
-          ->expected(0, 1);
-  command->add_flag("--no-draw", o->undrawn, "App and Cull alone");
-  command->add_option("--nodes", o->nodes, "how many nodes are listed, the dearest first")
-      ->check(wholeNumberFrom(0, 1000000))
-      ->capture_default_str();
-  command->add_option("--html", o->run.html,
-                      "write a page for a browser to FILE: frames, nodes, stages, walls, late frames; with "
-                      "--fidelity the bodies' errors too");
-  addTraceOptions(*command, o->trace, "--trace");
-  CLI::Option* csv = command->add_flag("--csv", o->csv, "a row a node, stage, wall and eye");
-  command->add_flag("--fidelity", o->fidelityAsked,
-                    "each body's model, its error against the finest, and its cost");
-  command->add_option("--tolerance", o->millimetres, "how far off a body may ever be [mm]")
-      ->check(numberFrom(1e-6, 1e6))
-      ->capture_default_str();
-  command
-      ->add_option("--body", o->fidelity.bodies,
-                   "only this body is played with other models; may be repeated")
-      ->allow_extra_args(false);
-  command
-      ->add_option(
-          "--finest", o->fidelity.finest,
-          "the shape that bodies have in truth: a drawn ball may be meant to be round (default: mesh)")
-      ->check(CLI::IsMember({"mesh", "convex", "cylinder", "box", "capsule", "sphere"}));
-  command->add_option("--most", o->fidelity.most, "how many bodies are, the dearest first")
-      ->check(wholeNumberFrom(0, 1000000))
-      ->capture_default_str();
-  command
-      ->add_option("--rounds", o->fidelity.rounds,
-                   "how often each model but the finest is played; the least time counts")
-      ->check(wholeNumberFrom(1, 99))
-      ->capture_default_str();
-  command->add_flag("--json", o->json, "one JSON object")->excludes(csv);
+  CommandOptions options(*command);
+  options.add("--stereo", o->run.stereo, {.words = "pair|off"});
+  options.add("--gl", o->run.provider, {.words = "osmesa|egl|none"});
+  o->blackBox = options.add("--black-box", o->blackBoxFile).valueMayBeMissing().option();
+  options.add("--nodes", o->nodes);
+  options.add("--out", o->out);
+  addTraceOptions(*command, o->trace);
+  options.add("--csv", o->csv);
+  options.add("--json", o->json).excludes("--csv");
+  options.add("--fidelity", o->fidelityAsked);
+  options.add("--tolerance", o->millimetres);
+  options.add("--body", o->fidelity.bodies);
+  options.add("--finest", o->fidelity.finest);
+  options.add("--most", o->fidelity.most);
+  options.add("--rounds", o->fidelity.rounds, {.most = 99});
   command->footer(kProfileFooter);
   command->get_option("SHOW")->required(false);
   command->callback([o, command, &code] {
     if (o->blackBox->count() > 0)
-      code = !isAlone(*o->blackBox, *command)
-                 ? kBadInput
-                 : showBlackBox(o->blackBox->empty() ? "" : o->blackBox->as<std::string>());
+      code = !isAlone(*o->blackBox, *command) ? kBadInput : showBlackBox(o->blackBoxFile);
     else if (o->fidelity.show.script.empty())
       throw CLI::RequiredError("SHOW");
-    else if (!o->fidelityAsked || !o->run.html.empty())
+    else if (!o->fidelityAsked || !o->out.empty())
       code = profileFrames(*o);
     else
       code = asksForRecord(*command) ? kBadInput : profileModels(*o);

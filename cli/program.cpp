@@ -1,6 +1,8 @@
 #include "cli/program.h"
 
 #include "cli/exit_code.h"
+#include "cli/options/command_reference.h"
+#include "cli/options/retired_spellings.h"
 #include "engine/plain_text/suggestion.h"
 #include "pipeline/sound/sound_libraries.h"
 #include "pipeline/target/rasteriser_settings.h"
@@ -39,6 +41,10 @@ int obey(int argc, char** argv, const AddCommands& addCommands, std::optional<un
   app.set_version_flag("--version", std::string("stadion ") + kVersion);
   int code = kOk;
   addCommands(app, code, rasteriserThreads);
+  const std::vector<std::string> words(argv + std::min(argc, 1), argv + argc);
+  if (const auto answer = referenceAnswer(app, words)) return std::fputs(answer->c_str(), stdout), kOk;
+  if (const auto retired = retiredSpellingIn(words))
+    return std::fprintf(stderr, "stadion: %s\n", retired->c_str()), kBadInput;
   try {
     app.parse(argc, argv);
   } catch (const CLI::RequiredError& e) {

@@ -2,7 +2,7 @@
 
 #include "cli/commands.h"
 #include "cli/exit_code.h"
-#include "cli/options/number_option.h"
+#include "cli/options/command_options.h"
 #include "cli/options/plugin_option.h"
 #include "cli/terminal.h"
 #include "engine/base/installed_files.h"
@@ -317,23 +317,16 @@ void addSoakCommand(CLI::App& app, int& code) {
   CLI::App* command = app.add_subcommand(
       "soak",
       "Play shows for very many frames, as fast as possible, and look whether anything grows or changes");
-  command->add_option("SHOW", o->shows,
-                      "scripts to play, in turns (default: one that loads, unloads and throws)");
-  command->add_option("--frames", o->frames, "how many in all")
-      ->check(wholeNumberFrom(1000, 1'000'000'000'000))
-      ->capture_default_str();
-  command->add_option("--visit", o->visit, "after so many frames a show begins anew")
-      ->check(wholeNumberFrom(100, 1'000'000'000))
-      ->capture_default_str();
-  command->add_option("--record", o->record,
-                      "a file that keeps what was found: a run with the same file goes on");
-  command->add_option("--look", o->look, "full or plain")
-      ->check(CLI::IsMember({"full", "plain"}))
-      ->capture_default_str();
+  CommandOptions options(*command);
+  options.add("SHOW", o->shows);
+  options.add("--frames", o->frames, {.least = 1000});
+  options.add("--visit", o->visit);
+  options.add("--record", o->record);
+  options.add("--look", o->look);
   addPluginOption(*command, o->plugins, o->types);
-  command->add_flag("--no-memory", o->noMemory,
-                    "do not judge memory, handles and threads: a short soak cannot");
+  options.add("--no-memory", o->noMemory);
   command->footer(
+      "Without SHOW a show is played that loads, unloads and throws. Shows are played in turns.\n"
       "Fails (exit code 1) if memory grows by 1 KiB or more in 10 000 frames of a visit, or by 4 KiB from\n"
       "visit to visit, or could not be judged; if handles or threads become more, if a frame is not one "
       "tick\n"

@@ -2,6 +2,7 @@
 
 #include "cli/commands.h"
 #include "cli/exit_code.h"
+#include "cli/options/command_options.h"
 #include "cli/test_results.h"
 
 #include <CLI/CLI.hpp>
@@ -70,14 +71,10 @@ void addTestCommand(CLI::App& app, int& code) {
   };
   auto options = std::make_shared<Options>();
   CLI::App* command = app.add_subcommand("test", "Run the test suite");
-  command->add_flag(
-      "--full", options->full,
-      "the acceptance counts as well: 10 000 damaged scripts, models, input logs and wall files each, "
-      "1000 reloads, 300 frames of every comparison, and the tests that measure time; takes long");
-  command->add_option("--only", options->only, "only tests whose name matches this regular expression");
-  command->add_option(
-      "--summarize", options->summarize,
-      "runs nothing: prints the results in this file, which ctest has written with --output-junit");
+  CommandOptions bound(*command);
+  bound.add("--full", options->full);
+  bound.add("--only", options->only);
+  bound.add("--summarize", options->summarize);
   command->callback([options, &code] {
     const auto conclude = [&code](const TestResults& results, bool ended) {
       printResults(results);

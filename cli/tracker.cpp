@@ -2,7 +2,7 @@
 
 #include "cli/commands.h"
 #include "cli/exit_code.h"
-#include "cli/options/number_option.h"
+#include "cli/options/command_options.h"
 #include "cli/options/run_options.h"
 #include "cli/terminal.h"
 #include "engine/base/atomic_file.h"
@@ -193,17 +193,14 @@ void addTrackerCommand(CLI::App& app, int& code) {
   CLI::App* command = app.add_subcommand("tracker", "Show what live trackers say, and calibrate them");
   addTrackerOptions(*command, o->trackers);
   command->get_option("--tracker")->required();
-  command->add_option("--seconds", o->seconds, "stop after so long (default: at Ctrl-C)")
-      ->check(numberFrom(0.1, 1e6));
-  command->add_flag("--json", o->json, "one JSON object a line, twice a second");
-  command->add_flag("--calibrate", o->calibrate, "measure a few poses and write --rig FILE");
-  command->add_option("--floor-tracker", o->floorTracker, "which one is laid on the floor")
-      ->capture_default_str();
-  command->add_option("--head-tracker", o->headTracker, "which one is on the glasses")->capture_default_str();
-  command
-      ->add_option("--eye-height", o->eyeHeight,
-                   "of the person who wears the glasses, in metres: measures where the eyes are from the sensor, too")
-      ->check(numberFrom(0.5, 2.5));
+  CommandOptions options(*command);
+  options.add("--seconds", o->seconds, {.least = 0.1, .most = 1e6});
+  options.add("--json", o->json);
+  options.add("--calibrate", o->calibrate);
+  options.add("--floor-tracker", o->floorTracker);
+  options.add("--head-tracker", o->headTracker);
+  options.add("--eye-height", o->eyeHeight);
+  command->footer("Ends at Ctrl-C or after --seconds. --json prints twice a second.");
   command->callback([o, &code] { code = trackerTool(*o); });
 }
 

@@ -12,6 +12,21 @@ install(DIRECTORY assets DESTINATION ${CMAKE_INSTALL_DATADIR}/stadion COMPONENT 
 install(DIRECTORY docs/ DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT runtime)
 install(FILES README.md CHANGELOG.md packaging/copyright DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT runtime)
 
+# The programs write their man pages when they are installed.
+install(CODE "
+  file(MAKE_DIRECTORY \"\$ENV{DESTDIR}\${CMAKE_INSTALL_PREFIX}/${CMAKE_INSTALL_MANDIR}/man1\")
+  foreach(program stadion stadion-bench)
+    if(EXISTS \"$<TARGET_FILE_DIR:stadion>/\${program}\")
+      execute_process(COMMAND \"$<TARGET_FILE_DIR:stadion>/\${program}\" manual man COMMAND_ERROR_IS_FATAL ANY
+        OUTPUT_FILE \"\$ENV{DESTDIR}\${CMAKE_INSTALL_PREFIX}/${CMAKE_INSTALL_MANDIR}/man1/\${program}.1\")
+    endif()
+  endforeach()" COMPONENT runtime)
+set(completion ${PROJECT_SOURCE_DIR}/packaging/completion)
+install(FILES ${completion}/stadion.bash DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions RENAME stadion
+  COMPONENT runtime)
+install(FILES ${completion}/_stadion DESTINATION ${CMAKE_INSTALL_DATADIR}/zsh/vendor-completions COMPONENT runtime)
+install(FILES ${completion}/stadion.fish DESTINATION ${CMAKE_INSTALL_DATADIR}/fish/vendor_completions.d COMPONENT runtime)
+
 install(TARGETS stadion_options stadion_sanitize stadion_plugin stadion_engine stadion_wire stadion_pipeline stadion_dynamics
   stadion_profiling stadion_show EXPORT StadionTargets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT development)
 foreach(floor engine pipeline dynamics profiling show)

@@ -11,6 +11,7 @@
 #include "cli/bench/bench_walls.h"
 #include "cli/commands.h"
 #include "cli/exit_code.h"
+#include "cli/options/command_options.h"
 #include "profiling/bench/overlap.h"
 
 #include <CLI/CLI.hpp>
@@ -58,7 +59,7 @@ void addBenchCommand(CLI::App& app, int& code) {
   command->require_subcommand(1);
   CLI::App* overlap =
       command->add_subcommand("overlap", "Do App, Cull and Draw overlap? Stages that only wait");
-  overlap->add_flag("--json", *json, "one JSON object a line");
+  CommandOptions(*overlap).add("--json", *json);
   overlap->callback([json, &code] { code = benchOverlap(*json); });
   addBenchDynamics(*command, code);
   addBenchFlight(*command, code);

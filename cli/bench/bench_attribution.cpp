@@ -1,6 +1,6 @@
 #include "cli/bench/bench_recording.h"
 #include "cli/exit_code.h"
-#include "cli/options/number_option.h"
+#include "cli/options/command_options.h"
 #include "cli/terminal.h"
 #include "engine/base/atomic_file.h"
 #include "engine/base/installed_files.h"
@@ -120,10 +120,9 @@ void addBenchAttribution(CLI::App& bench, int& code) {
   CLI::App* command = bench.add_subcommand(
       "attribution",
       "How much of the frames of kick, Olympia and a grid of 10 000 nodes is found with nodes?");
-  command->add_option("--frames", o->frames, "of each show")
-      ->check(wholeNumberFrom(24, 100000))
-      ->capture_default_str();
-  command->add_flag("--json", o->json, "one JSON object a line");
+  CommandOptions options(*command);
+  options.add("--frames", o->frames, {.least = 24, .most = 1e5});
+  options.add("--json", o->json);
   command->callback([o, &code] { code = benchAttribution(*o); });
 }
 

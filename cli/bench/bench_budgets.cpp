@@ -2,7 +2,7 @@
 
 #include "cli/bench/planted_stall.h"
 #include "cli/exit_code.h"
-#include "cli/options/number_option.h"
+#include "cli/options/command_options.h"
 #include "cli/terminal.h"
 #include "engine/base/installed_files.h"
 #include "engine/input/input_log.h"
@@ -250,18 +250,11 @@ void addBenchBudgets(CLI::App& bench, int& code) {
   auto o = std::make_shared<BenchBudgetsOptions>();
   CLI::App* command = bench.add_subcommand(
       "budgets", "A node stalls: is it named, does the show keep its rate, does it recover and stay quiet?");
-  command->add_option("--stall", o->length, "of the node in each frame [ms]")
-      ->check(wholeNumberFrom(1, 1000))
-      ->capture_default_str();
-  command->add_option("--seconds", o->stall, "for so long")
-      ->check(numberFrom(0.1, 600))
-      ->capture_default_str();
-  command->add_option("--recovery", o->recovery, "time to recover in [s]")
-      ->check(numberFrom(1, 600))
-      ->capture_default_str();
-  command->add_option("--quiet", o->quiet, "and to stay quiet in after that [s]")
-      ->check(numberFrom(1, 600))
-      ->capture_default_str();
+  CommandOptions options(*command);
+  options.add("--stall", o->length);
+  options.add("--stall-time", o->stall);
+  options.add("--recovery", o->recovery);
+  options.add("--quiet", o->quiet);
   command->callback([o, &code] { code = benchBudgets(*o); });
 }
 

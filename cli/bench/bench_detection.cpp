@@ -1,7 +1,7 @@
 #include "cli/bench/bench_detection.h"
 
 #include "cli/exit_code.h"
-#include "cli/options/number_option.h"
+#include "cli/options/command_options.h"
 #include "engine/base/installed_files.h"
 #include "engine/base/plain_file.h"
 #include "engine/core/state_hash.h"
@@ -248,24 +248,13 @@ void addBenchDetection(CLI::App& bench, int& code) {
   CLI::App* command = bench.add_subcommand(
       "detection",
       "Are slowdowns found that were planted in a node, in Cull and in Draw, and nothing where nothing is?");
-  command->add_option("--trials", o->planted, "of each kind of slowdown")
-      ->check(wholeNumberFrom(0, 1000))
-      ->capture_default_str();
-  command->add_option("--same", o->same, "comparisons of the program with itself")
-      ->check(wholeNumberFrom(0, 10000))
-      ->capture_default_str();
-  command->add_option("--share", o->share, "by how much a stage is lengthened [%]")
-      ->check(numberFrom(0.01, 1000))
-      ->capture_default_str();
-  command->add_option("--by", o->by, "what decides: instructions (callgrind) or times (rounds in turns)")
-      ->check(CLI::IsMember({"instructions", "times"}))
-      ->capture_default_str();
-  command->add_option("--rounds", o->rounds, "of times")
-      ->check(wholeNumberFrom(10, 80))
-      ->capture_default_str();
-  command->add_option(
-      "--record", o->record,
-      "keep each trial's result in this file; an experiment that was interrupted goes on from there");
+  CommandOptions options(*command);
+  options.add("--trials", o->planted);
+  options.add("--same", o->same);
+  options.add("--share", o->share);
+  options.add("--by", o->by);
+  options.add("--rounds", o->rounds, {.least = 10, .most = 80});
+  options.add("--record", o->record);
   command->callback([o, &code] { code = benchDetection(*o); });
 }
 

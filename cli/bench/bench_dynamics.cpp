@@ -1,7 +1,7 @@
 #include "cli/bench/bench_dynamics.h"
 
 #include "cli/exit_code.h"
-#include "cli/options/number_option.h"
+#include "cli/options/command_options.h"
 #include "engine/plain_text/suggestion.h"
 #include "profiling/bench/comparison/comparison_report.h"
 #include "profiling/bench/comparison/work_precision_plot.h"
@@ -114,17 +114,16 @@ void addBenchDynamics(CLI::App& bench, int& code) {
   auto o = std::make_shared<BenchDynamicsOptions>();
   CLI::App* command =
       bench.add_subcommand("dynamics", "How exact and how fast bodies move, beside Bullet, ODE and MuJoCo");
-  command->add_option("CASE", o->comparison.cases,
-                      "cases whose names contain this, as C05 or bounce; else all");
-  command->add_flag("--all", o->comparison.everyStep,
-                    "the others at 1, 2, 4, 8 and 16 steps a frame, not just 1 and 4");
-  command->add_option("--rounds", o->comparison.rounds, "how often; the median counts (3)")
-      ->check(wholeNumberFrom(1, 99));
-  command->add_option("--limit", o->comparison.limit, "processor seconds for one case on one engine (30)")
-      ->check(wholeNumberFrom(1, 3600));
-  command->add_option("--out", o->out,
-                      "folder for results.json and a plot of error against cost for each case");
-  command->add_flag("--json", o->json, "one JSON object a line for each measurement");
+  CommandOptions options(*command);
+  options.add("CASE", o->comparison.cases);
+  options.add("--all", o->comparison.everyStep);
+  options.add("--rounds", o->comparison.rounds, {.most = 99});
+  options.add("--limit", o->comparison.limit, {.most = 3600});
+  options.add("--out", o->out);
+  options.add("--json", o->json);
+  command->footer("--limit counts processor seconds. --out DIR receives results.json and a plot of error "
+                  "against cost for "
+                  "each case.");
   command->callback([o, &code] { code = benchDynamics(*o); });
 }
 

@@ -1,7 +1,7 @@
 #include "cli/bench/bench_flight.h"
 
 #include "cli/exit_code.h"
-#include "cli/options/number_option.h"
+#include "cli/options/command_options.h"
 #include "engine/base/installed_files.h"
 #include "profiling/bench/comparison/work_precision_plot.h"
 #include "profiling/bench/flight/flight_report.h"
@@ -19,7 +19,8 @@ namespace {
 
 struct BenchFlightOptions {
   int held = 100, rounds = 1000;
-  std::string json, out;
+  std::string out;
+  bool json = false;
 };
 
 using NamedPlot = std::pair<std::string, std::string>;  ///< file name and content
@@ -53,7 +54,7 @@ std::vector<NamedPlot> picturesOf(const bench::FlightReport& report,
   return pictures;
 }
 
-bool writePlot(const std::string& path, const std::string& content) {
+bool writeText(const std::string& path, const std::string& content) {
   std::ofstream file(path, std::ios::binary);
   file << content;
   file.close();
@@ -61,13 +62,13 @@ bool writePlot(const std::string& path, const std::string& content) {
   return static_cast<bool>(file);
 }
 
-bool writePictures(OutputFolder& folder, const std::vector<NamedPlot>& pictures) {
-  for (const auto& [name, content] : pictures) {
+bool writeFiles(OutputFolder& folder, const std::vector<NamedPlot>& files) {
+  for (const auto& [name, content] : files) {
     if (const auto wrong = folder.note(name)) {
       std::fprintf(stderr, "stadion: %s\n", wrong->message.c_str());
       return false;
     }
-    if (!writePlot(folder.pathOf(name), content)) return false;
+    if (!writeText(folder.pathOf(name), content)) return false;
   }
   return true;
 }
@@ -97,9 +98,12 @@ int benchFlight(const BenchFlightOptions& o) {
                                    bench::measureIntegrators(references.value()),
                                    bench::measureCosts(o.rounds), bench::measurePublished(),
                                    bench::measureHardCases()};
-  std::printf("%s", bench::textOf(report).c_str());
-  if (!o.json.empty() && !writePlot(o.json, bench::jsonOf(report))) return kBadInput;
-  if (out && !writePictures(*out, picturesOf(report, references.value()))) return kBadInput;
+  const std::string text = bench::textOf(report), json = bench::jsonOf(report);
+  std::fputs(text.c_str(), o.json ? stderr : stdout);
+  if (o.json) std::printf("%s", json.c_str());
+  std::vector<NamedPlot> files = out ? picturesOf(report, references.value()) : std::vector<NamedPlot>();
+  files.emplace_back("flight.json", json);
+  if (out && !writeFiles(*out, files)) return kBadInput;
   return bench::allMet(report) ? kOk : kCheckFailed;
 }
 
@@ -109,12 +113,12 @@ void addBenchFlight(CLI::App& bench, int& code) {
   auto o = std::make_shared<BenchFlightOptions>();
   CLI::App* command =
       bench.add_subcommand("flight", "How exact and how dear the flight models and integrators are");
-  command->add_option("--flights", o->held, "random flights for each object (100)")
-      ->check(wholeNumberFrom(1, 10000));
-  command->add_option("--rounds", o->rounds, "rounds of the cost measurement; the median counts (1000)")
-      ->check(wholeNumberFrom(1, 100000));
-  command->add_option("--json", o->json, "file for everything that was measured");
-  command->add_option("--out", o->out, "folder for plots of the flights and of error against cost");
+  CommandOptions options(*command);
+  options.add("--flights", o->held);
+  options.add("--rounds", o->rounds);
+  options.add("--json", o->json);
+  options.add("--out", o->out);
+  command->footer("--out DIR receives flight.json and plots of the flights and of error against cost.");
   command->callback([o, &code] { code = benchFlight(*o); });
 }
 

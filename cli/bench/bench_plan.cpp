@@ -1,7 +1,7 @@
 #include "cli/bench/bench_plan.h"
 
 #include "cli/exit_code.h"
-#include "cli/options/number_option.h"
+#include "cli/options/command_options.h"
 #include "cli/terminal.h"
 #include "engine/base/installed_files.h"
 #include "profiling/plan/forecast.h"
@@ -184,23 +184,17 @@ void addBenchPlan(CLI::App& bench, int& code) {
   CLI::App* command = bench.add_subcommand(
       "plan",
       "Does what `stadion plan` predicts come true on this machine? Measures, predicts and plays, in turns");
-  command->add_option("SHOW", o->shows, "shows to play (default: kick and olympia)");
-  command->add_option("--counts", o->walls, "numbers of walls of cave6 to play on")
-      ->check(wholeNumberFrom(1, 6))
-      ->delimiter(',')
-      ->capture_default_str();
-  command->add_option("--size", o->size, "WIDTHxHEIGHT in pixels of one eye's picture")
-      ->capture_default_str();
-  command->add_option("--frames", o->frames, "of each run at least; quick shows play a second")
-      ->check(wholeNumberFrom(12, 100000))
-      ->capture_default_str();
-  command->add_option("--rounds", o->rounds, "the middle one counts, of how far off each is")
-      ->check(wholeNumberFrom(1, 99))
-      ->capture_default_str();
-  command->add_option("--within", o->within, "how far off the period may be [%]")
-      ->check(numberFrom(0.01, 1000))
-      ->capture_default_str();
-  command->add_flag("--json", o->json, "one JSON object a line");
+  CommandOptions options(*command);
+  options.add("SHOW", o->shows);
+  options.add("--counts", o->walls);
+  options.add("--size", o->size);
+  options.add("--frames", o->frames, {.least = 12, .most = 1e5});
+  options.add("--rounds", o->rounds, {.most = 99});
+  options.add("--within", o->within, {.least = 0.01});
+  options.add("--json", o->json);
+  command->footer("Plays kick and olympia if no SHOW is named. Quick shows play at least a second. --within "
+                  "limits the error "
+                  "of the\npredicted period in the middle round.");
   command->callback([o, &code] { code = benchPlan(*o); });
 }
 

@@ -1,7 +1,7 @@
 #include "cli/bench/bench_prediction.h"
 
 #include "cli/exit_code.h"
-#include "cli/options/number_option.h"
+#include "cli/options/command_options.h"
 #include "cli/terminal.h"
 #include "engine/base/installed_files.h"
 #include "engine/input/input_log.h"
@@ -165,18 +165,12 @@ void addBenchPrediction(CLI::App& bench, int& code) {
       "prediction",
       "How far off is a head that is drawn now when its picture is seen, with run --predict and "
       "without? At 50 ms it must halve what 95 % of the frames are off by");
-  command->add_option("logs", o->logs, "input logs with the way of a head, besides that of bench walls")
-      ->capture_default_str();
-  command->add_option("--tracker-rate", o->trackerRate, "measurements a second")
-      ->check(numberFrom(20, 1000))
-      ->capture_default_str();
-  command->add_option("--noise", o->noise, "of a measurement in each axis [mm], and a tenth of it in degrees")
-      ->check(numberFrom(0, 100))
-      ->capture_default_str();
-  command->add_option("--seconds", o->seconds, "of each way")
-      ->check(numberFrom(2, 3600))
-      ->capture_default_str();
-  command->add_flag("--json", o->json, "one JSON object a line");
+  CommandOptions options(*command);
+  options.add("LOG", o->logs);
+  options.add("--tracker-rate", o->trackerRate);
+  options.add("--noise", o->noise);
+  options.add("--seconds", o->seconds, {.least = 2, .most = 3600});
+  options.add("--json", o->json);
   command->callback([o, &code] { code = benchPrediction(*o); });
 }
 

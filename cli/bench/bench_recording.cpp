@@ -2,7 +2,7 @@
 
 #include "cli/bench/bench_recording_instructions.h"
 #include "cli/exit_code.h"
-#include "cli/options/number_option.h"
+#include "cli/options/command_options.h"
 #include "cli/terminal.h"
 #include "engine/base/atomic_file.h"
 #include "engine/base/installed_files.h"
@@ -36,7 +36,7 @@ struct BenchRecordingOptions {
   std::size_t rounds = 4;
   std::string size = "400x300";
   double most = 1;  ///< [%]
-  bool json = false, instructions = true;
+  bool json = false, noInstructions = false;
 };
 
 double processMs() {
@@ -206,7 +206,7 @@ int benchRecording(const BenchRecordingOptions& o) {
   }
   const double more = medianOfRounds(ratios) - 1;
   std::optional<double> executed;
-  if (o.instructions && !(executed = moreInstructions(show, folder, findings)))
+  if (!o.noInstructions && !(executed = moreInstructions(show, folder, findings)))
     return tell(findings), kBadInput;
   const bool ok = more <= o.most / 100 && executed.value_or(0) <= o.most / 100;
   if (o.json)
@@ -234,19 +234,14 @@ void addBenchRecording(CLI::App& bench, int& code) {
   auto o = std::make_shared<BenchRecordingOptions>();
   CLI::App* command = bench.add_subcommand(
       "recording", "What does recording nodes' costs cost? A show with it and without, in turns");
-  command->add_option("--frames", o->frames, "of each round")
-      ->check(wholeNumberFrom(32, 100000))
-      ->capture_default_str();
-  command->add_option("--rounds", o->rounds, "the middle one counts")
-      ->check(wholeNumberFrom(1, 99))
-      ->capture_default_str();
-  command->add_option("--size", o->size, "WIDTHxHEIGHT in pixels of one eye's picture")
-      ->capture_default_str();
-  command->add_option("--most", o->most, "how much more a frame may take [%]")
-      ->check(numberFrom(0.001, 1000))
-      ->capture_default_str();
-  command->add_flag("!--no-instructions", o->instructions, "the clock alone, without callgrind");
-  command->add_flag("--json", o->json, "one JSON object");
+  CommandOptions options(*command);
+  options.add("--frames", o->frames, {.least = 32, .most = 1e5});
+  options.add("--rounds", o->rounds, {.most = 99});
+  options.add("--size", o->size);
+  options.add("--within", o->most, {.least = 0.001});
+  options.add("--no-instructions", o->noInstructions);
+  options.add("--json", o->json);
+  command->footer("--within is the share of a frame that recording may cost.");
   command->callback([o, &code] { code = benchRecording(*o); });
 }
 

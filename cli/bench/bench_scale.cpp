@@ -1,7 +1,7 @@
 #include "cli/bench/bench_scale.h"
 
 #include "cli/exit_code.h"
-#include "cli/options/number_option.h"
+#include "cli/options/command_options.h"
 #include "cli/terminal.h"
 #include "engine/base/prefetch.h"
 #include "pipeline/record/run_summary.h"
@@ -164,12 +164,12 @@ int benchScale(const BenchScaleOptions& o) {
 void addBenchScale(CLI::App& bench, int& code) {
   auto o = std::make_shared<BenchScaleOptions>();
   CLI::App* command = bench.add_subcommand("scale", "A million nodes that stand still, and a few that move");
-  command->add_option("--still", o->city.still, "nodes that stand still")
-      ->check(wholeNumberFrom(1, 10'000'000));
-  command->add_option("--moving", o->city.moving, "nodes that move")->check(wholeNumberFrom(0, 100'000));
-  command->add_option("--frames", o->frames, "frames that are measured")->check(wholeNumberFrom(1, 100'000));
-  command->add_flag("--cold", o->cold, "before each frame other memory is read and written, as by drawing");
-  command->add_flag("--json", o->json, "one JSON object");
+  CommandOptions options(*command);
+  options.add("--still", o->city.still);
+  options.add("--moving", o->city.moving, {.most = 1e5});
+  options.add("--frames", o->frames, {.most = 1e5});
+  options.add("--cold", o->cold);
+  options.add("--json", o->json);
   command->callback([o, &code] { code = benchScale(*o); });
 }
 

@@ -4,7 +4,7 @@
 #include "cli/bench/walls_record_head.h"
 #include "cli/bench/walls_rounds.h"
 #include "cli/exit_code.h"
-#include "cli/options/number_option.h"
+#include "cli/options/command_options.h"
 #include "engine/base/atomic_file.h"
 #include "profiling/bench/walls/wall_files.h"
 #include "profiling/bench/walls/walls_judge.h"
@@ -120,11 +120,11 @@ std::string ignoredIn(const CLI::App& command, const BenchWallsOptions& o) {
   const auto isGiven = [&](const std::string& name) { return command.count(name) > 0; };
   const WallsSetting& one = o.one;
   if (!o.measureOne) {
-    if (o.scaling && isGiven("--only"))
-      return "--scaling has scenes of its own: leave out --only, or --scaling for the table";
+    if (o.scaling && isGiven("--scenes"))
+      return "--scaling has scenes of its own: leave out --scenes, or --scaling for the table";
     return {};
   }
-  for (const char* name : {"--only", "--rounds", "--minutes", "--scaling", "--out", "--record"})
+  for (const char* name : {"--scenes", "--rounds", "--minutes", "--scaling", "--record"})
     if (isGiven(name))
       return std::string(name) + " is for the table, and --one measures one setting: leave one of them out";
   if (o.control)
@@ -139,66 +139,55 @@ std::string ignoredIn(const CLI::App& command, const BenchWallsOptions& o) {
            "out";
   if (const std::size_t nodes = sceneOf(one).nodes(); one.moving > nodes)
     return "--moving " + std::to_string(one.moving) + " is more than the " + std::to_string(nodes) +
-           " nodes that there are: say --nodes " + std::to_string(one.moving) + ", or move fewer";
+           " nodes that there are: say --scene-nodes " + std::to_string(one.moving) + ", or move fewer";
   return {};
 }
 
 int benchWalls(const CLI::App& command, const BenchWallsOptions& o) {
   if (const std::string ignored = ignoredIn(command, o); !ignored.empty()) return refuse(ignored);
   if (!o.measureOne) return benchTable(o);
-  if (const std::string why = unwritable(o.one); !why.empty()) return refuse(why);
   WallsSetting one = o.one;
+  std::error_code unmade;  // reported as a picture that cannot be written
+  if (!o.out.empty()) std::filesystem::create_directories(o.out, unmade), one.pictures = o.out + "/picture";
+  if (const std::string why = unwritable(one); !why.empty()) return refuse(why);
   one.flat = o.layout == "flat";
   if (!o.workers.empty()) one.workers = o.workers;
   return measureOne(std::move(one), o.control);
 }
 
-void addTableTo(CLI::App& command, BenchWallsOptions& o) {
-  command.add_option("--only", o.scenes, "scenes of the table: a, b, c or several, as in a,c")
-      ->delimiter(',')
-      ->check(CLI::IsMember({"a", "b", "c"}));
-  command.add_option("--rounds", o.rounds, "how often everything is measured; the median counts (5)")
-      ->check(wholeNumberFrom(1, 99));
-  command.add_option("--minutes", o.minutes, "no further round that would not end by then (14)")
-      ->check(numberFrom(0.1, 1e5));
-  command.add_flag("--scaling", o.scaling, "curves instead: 1000 to 1 000 000 nodes, 1 to 6 walls");
-  command.add_flag("--json", o.json, "one JSON object a line for each run");
-  command.add_option("--out", o.out, "folder for the rows and a plot");
-  command.add_option("--record", o.record,
-                     "keep the rows in this file; what it has already is not measured again");
+void addTableTo(CommandOptions& options, BenchWallsOptions& o) {
+  options.add("--scenes", o.scenes);
+  options.add("--rounds", o.rounds, {.most = 99});
+  options.add("--minutes", o.minutes);
+  options.add("--scaling", o.scaling);
+  options.add("--json", o.json);
+  options.add("--out", o.out);
+  options.add("--record", o.record);
 }
 
-void addOneTo(CLI::App& command, BenchWallsOptions& o) {
+void addOneTo(CommandOptions& options, BenchWallsOptions& o) {
   WallsSetting& one = o.one;
-  command.add_flag("--one", o.measureOne, "measure one setting in this process and print it as JSON:");
-  const auto add = [&](const char* name, auto& value, const char* what) {
-    return command.add_option(name, value, what)->needs("--one");
+  options.add("--one", o.measureOne);
+  const auto add = [&](const char* name, auto& value, const OptionLimits& limits = {}) {
+    options.add(name, value, limits).needs("--one");
   };
-  add("--scene", one.scene, "a, b or c")->check(CLI::IsMember({"a", "b", "c"}));
-  add("--class", one.kind, "STRICT, OPEN or SUBMIT")->check(CLI::IsMember({"STRICT", "OPEN", "SUBMIT"}));
-  add("--without", one.without,
-      "OPEN, SUBMIT without a trick: unseen (nothing goes to OpenGL that no pixel would show), small (small "
-      "things are "
-      "drawn without OpenGL)")
-      ->check(CLI::IsMember({"unseen", "small"}));
-  add("--mode", one.mode, "pipelined or sequential")->check(CLI::IsMember({"pipelined", "sequential"}));
-  add("--pace", one.pace, "free, or lock: frames begin on ticks of 1/60 s")
-      ->check(CLI::IsMember({"free", "lock"}));
-  add("--latency", one.latency, "frames under way at most between pose and picture; 1: the youngest")
-      ->check(wholeNumberFrom(1, 4));
-  add("--gl", one.gl, "osmesa or egl")->check(CLI::IsMember({"osmesa", "egl"}));
-  add("--layout", o.layout, "flat, or grid: nodes in cells with a group each")
-      ->check(CLI::IsMember({"flat", "grid"}));
-  add("--walls", one.walls, "1 to 6")->check(wholeNumberFrom(1, 6));
-  add("--width", one.width, "[pixels]")->check(wholeNumberFrom(8, 16384));
-  add("--height", one.height, "[pixels]")->check(wholeNumberFrom(8, 16384));
-  add("--warm", one.warm, "frames before those that are measured")->check(wholeNumberFrom(1, 100));
-  add("--frames", one.frames, "frames that are measured")->check(wholeNumberFrom(1, 1000));
-  add("--nodes", one.nodes, "so many nodes instead of the scene's own")->check(wholeNumberFrom(1, 4'000'000));
-  add("--moving", one.moving, "so many of them move")->check(wholeNumberFrom(1, 4'000'000));
-  add("--far", one.far, "how far is seen instead of as far as in the scene [m]")->check(numberFrom(1, 1000));
-  add("--pictures", one.pictures, "write the next frame's pictures to PREFIX_WALL_EYE.ppm");
-  command.add_flag("--control", o.control, "only wait for ticks: how even is this machine?")->needs("--one");
+  add("--scene", one.scene);
+  add("--class", one.kind);
+  add("--without", one.without);
+  add("--mode", one.mode, {.words = "pipelined|sequential"});
+  add("--pace", one.pace, {.words = "free|lock"});
+  add("--latency", one.latency);
+  add("--gl", one.gl, {.words = "osmesa|egl"});
+  add("--layout", o.layout);
+  add("--wall-count", one.walls, {.most = 6});
+  add("--width", one.width);
+  add("--height", one.height);
+  add("--warm", one.warm);
+  add("--frames", one.frames, {.most = 1000});
+  add("--scene-nodes", one.nodes);
+  add("--moving", one.moving, {.least = 1});
+  add("--far", one.far);
+  add("--control", o.control);
 }
 
 }  // namespace
@@ -207,11 +196,13 @@ void addBenchWalls(CLI::App& bench, int& code) {
   auto o = std::make_shared<BenchWallsOptions>();
   CLI::App* command =
       bench.add_subcommand("walls", "A room of stereo walls beside OpenSceneGraph and bare OpenGL");
-  addTableTo(*command, *o);
-  addOneTo(*command, *o);
-  command
-      ->add_option("--wall-workers", o->workers, "thread or process: each of Stadion's walls is drawn by one")
-      ->check(CLI::IsMember({"thread", "process"}));
+  CommandOptions options(*command);
+  addTableTo(options, *o);
+  addOneTo(options, *o);
+  options.add("--wall-workers", o->workers, {.words = "thread|process"});
+  command->footer("--out DIR receives the rows and a plot; with --one the pictures of the next frame, "
+                  "picture_WALL_EYE.ppm.\n"
+                  "With --pace lock, frames begin on ticks of 1/60 s.");
   command->callback([o, command, &code] { code = benchWalls(*command, *o); });
 }
 

@@ -127,8 +127,7 @@ std::string unwritable(const WallsSetting& s) {
       const bool there = fs::exists(file, error);
       const bool opens = static_cast<bool>(std::ofstream(file, std::ios::binary | std::ios::app));
       if (opens && !there) fs::remove(file, error);
-      if (!opens)
-        return "--pictures: " + file + " cannot be written: its folder must be there, and yours to write to";
+      if (!opens) return "--out: " + file + " cannot be written";
     }
   return {};
 }

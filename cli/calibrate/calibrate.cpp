@@ -2,7 +2,7 @@
 
 #include "cli/commands.h"
 #include "cli/exit_code.h"
-#include "cli/options/number_option.h"
+#include "cli/options/command_options.h"
 #include "cli/terminal.h"
 #include "pipeline/platform/calibration_file.h"
 #include "show/base/stop_signal.h"
@@ -145,25 +145,20 @@ void addCalibrateCommand(CLI::App& app, int& code) {
   auto o = std::make_shared<CalibrateOptions>();
   CLI::App* command = app.add_subcommand(
       "calibrate", "Measure how walls are drawn fastest on this machine, and remember it (a minute)");
-  command
-      ->add_option("--walls", o->walls,
-                   "the rooms to measure, as in cave4,powerwall (the default): wall "
-                   "files' names; a run takes the one with the nearest number of walls")
-      ->delimiter(',');
-  command->add_option("--size", o->size, "WIDTHxHEIGHT in pixels of one eye's picture")
-      ->capture_default_str();
-  command->add_option("--look", o->look, "full or plain: measure what your shows are drawn with")
-      ->check(CLI::IsMember({"full", "plain"}))
-      ->capture_default_str();
-  command->add_option("--seconds", o->seconds, "how long it may take; the more, the surer")
-      ->check(numberFrom(1, 3600))
-      ->capture_default_str();
-  command->add_flag("--forget", o->forget, "measure nothing: remove what is remembered");
-  command->add_flag("--json", o->json, "what was measured, as one JSON object (docs/formats.md)");
-  command->add_option("--one", o->one)->group("");  // for the command itself
-  command->add_option("--folder", o->folder)->group("");
-  command->add_option("--window", o->window)->group("");
+  CommandOptions options(*command);
+  options.add("--walls", o->walls);
+  options.add("--size", o->size);
+  options.add("--look", o->look);
+  options.add("--seconds", o->seconds, {.least = 1, .most = 3600});
+  options.add("--forget", o->forget);
+  options.add("--json", o->json);
+  options.add("--measured-setting", o->one);
+  options.add("--measured-folder", o->folder);
+  options.add("--measured-time", o->window);
   command->footer(
+      "--walls may be repeated: a run takes the measured room with the nearest number of walls. --seconds is "
+      "the time for\n"
+      "all measurements; more make the result surer. Use the --size and --look of your shows.\n\n"
       "With software (Mesa's llvmpipe) all contexts of a process share one rasteriser. Which is faster then, "
       "a\n"
       "thread for each wall in one process, with rasteriser threads that help it, or a process for each "

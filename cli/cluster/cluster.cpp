@@ -4,6 +4,7 @@
 #include "cli/cluster/cluster_arguments.h"
 #include "cli/commands.h"
 #include "cli/exit_code.h"
+#include "cli/options/command_options.h"
 #include "cli/options/run_options.h"
 #include "cli/terminal.h"
 #include "pipeline/cluster/cluster_leader.h"
@@ -118,6 +119,8 @@ handed on to all nodes, and the exit code is 130 or 143; one that has not ended 
   ./stadion cluster walls/four.cluster scripts/kick.evs --frames 300 --out pictures
   ./stadion cluster walls/four.cluster scripts/olympia.evs --size 320x240
 
+--out DIR receives a folder for each host. --json prints one object with each host's summary under its name.
+
 docs/cluster.md has the file's format, and what happens when a machine or the network fails.)";
 
 /// What clusters refuse (RunOptions::settle() says why) is not in the help.
@@ -135,8 +138,6 @@ const char* groupOf(const RunOptions& run, const std::string& option) {
 void addRunOptions(RunOptions& run, CLI::App& command) {
   addRunOptions(command, run);
   for (const char* ours : {"--cluster", "--node"}) command.remove_option(command.get_option(ours));
-  command.get_option("--out")->description("folder for each node's folder of pictures");
-  command.get_option("--json")->description("one JSON object on stdout: each node's summary under its name");
   for (CLI::Option* option : command.get_options())
     if (option->nonpositional() && !option->get_group().empty())
       option->group(groupOf(run, option->get_name()));
@@ -148,9 +149,9 @@ void addClusterCommand(CLI::App& app, int& code) {
   auto o = std::make_shared<ClusterOptions>();
   CLI::App* command =
       app.add_subcommand("cluster", "Play a show on all nodes of a cluster at once, on this machine");
-  command->add_option("FILE", o->file, "the cluster file")->required();
+  CommandOptions(*command).add("CLUSTER", o->file).required();
   addRunOptions(o->run, *command);
-  command->add_flag("--once", o->once, "a node that dies is not begun again");
+  CommandOptions(*command).add("--once", o->once);
   command->footer(kClusterFooter);
   command->callback([o, command, &code] { code = playCluster(*o, *command); });
 }

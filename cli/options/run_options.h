@@ -23,8 +23,8 @@ struct RunOptions {
   SessionSettings settings;
   std::string stereo = "pair", pace, pictures = "last", provider = "osmesa";
   std::string cullDraw = "overlap", predict = "off", wallWorkers = "auto", pin = "auto";
-  TraceRequest trace;           ///< --trace-events
-  HeadReach reach{0.05, 0.25};  ///< --latch-reach
+  TraceRequest trace;
+  std::vector<double> reach{0.05, 0.25};  ///< --latch-reach [m], [rad]
   bool stereoGiven = false, cullDrawGiven = false, loadAsked = false, lateLatch = false;
   bool supervise = false;  ///< another process plays, and is replaced if it crashes
   int endsWith = -1;       ///< the process that started this one; -1: none
@@ -60,8 +60,7 @@ void addHeadOptions(CLI::App& command, RunOptions& o);
 void addLoadOptions(CLI::App& command, RunOptions& o);
 void addBlackBoxOption(CLI::App& command, RecordSettings& o);
 void addSupervisionOptions(CLI::App& command, RunOptions& o);
-/// `option` names the trace's file: --trace or --trace-events.
-void addTraceOptions(CLI::App& command, TraceRequest& o, const std::string& option);
+void addTraceOptions(CLI::App& command, TraceRequest& o);
 void addSpanOptions(CLI::App& command, SpanOptions& o);
 void addTrackerOptions(CLI::App& command, TrackerOptions& o);
 

@@ -1,6 +1,6 @@
 #include "cli/options/run_options.h"
 
-#include "engine/plain_text/number_text.h"
+#include "cli/options/value_grammar.h"
 #include "show/output/output_folder.h"
 #include "show/player/output_conflicts.h"
 
@@ -50,8 +50,7 @@ void RunOptions::refuseInSupervision(Diagnostics& findings) const {
   refuse(!r.input.empty(), "--record-input",
          "a record that begins in the middle of a show cannot be played; leave one out");
   refuse(!r.spans.file.empty() || r.countWork || r.profile || !trace.file.empty(),
-         "--spans, --count-work, --profile and --trace-events",
-         "what is measured is one process's; leave one out");
+         "--spans, --count-work, --profile and --trace", "what is measured is one process's; leave one out");
   refuse(!settings.cluster.file.empty(), "--cluster",
          "a node that dies joins the others again by itself; `stadion cluster` begins it anew");
 }
@@ -63,7 +62,7 @@ void RunOptions::settleDrawing(Diagnostics& findings) {
   const bool display = s.play.display, measures = r.profile || !trace.file.empty();
   const bool inTurn = s.show.mode == "sequential";
   if (wallWorkers == "process" && (measures || !r.spans.file.empty() || r.countWork))
-    findings.error({}, "--profile, --trace-events, --spans and --count-work look into the drawing, which "
+    findings.error({}, "--profile, --trace, --spans and --count-work look into the drawing, which "
                        "--wall-workers process gives to others: say --wall-workers thread");
   if (wallWorkers == "process" && display)
     findings.error({}, "--display draws into windows of this program: say --wall-workers thread");
@@ -98,22 +97,17 @@ void RunOptions::settleMeasuring(Diagnostics& findings) const {
     findings.error({}, "--count-work is for runs in which every frame counts: say --frames N, --seconds S or "
                        "--input FILE");
   if (r.countWork && (measures || spans))
-    findings.error(
-        {}, "--profile, --trace-events and --spans time what --count-work counts; leave the one or the "
-            "other out");
+    findings.error({}, "--profile, --trace and --spans time what --count-work counts; leave the one or the "
+                       "other out");
   if (measures && spans)
-    findings.error(
-        {}, "--profile and --trace-events time the nodes, as --spans does; leave the one or the other out");
+    findings.error({},
+                   "--profile and --trace time the nodes, as --spans does; leave the one or the other out");
 }
 
 bool RunOptions::settle(Diagnostics& findings) {
   SessionSettings& s = settings;
   RecordSettings& r = s.record;
-  if (const auto choice = PictureChoice::parse(pictures))
-    r.pictures = *choice;
-  else
-    findings.error({}, "--pictures: \"" + pictures +
-                           "\" is not last, all, none or a whole number N from 1 (every Nth frame)");
+  r.pictures = *PictureChoice::parse(pictures);
   if (s.play.display && !r.out.empty())
     findings.error(
         {}, "--display plays live, and --out writes every frame that is asked for; leave one of them out");
@@ -123,7 +117,7 @@ bool RunOptions::settle(Diagnostics& findings) {
   settleDrawing(findings);
   r.trace = trace.settle(findings);
   if (!r.nodes.empty() && r.out.empty())
-    findings.error({}, "--trace needs --out DIR to know where the table goes");
+    findings.error({}, "--track needs --out DIR to know where the table goes");
   if (r.hashes && r.out.empty()) findings.error({}, "--hashes needs --out DIR to know where they go");
   if (r.video && r.out.empty()) findings.error({}, "--video needs --out DIR to know where the video goes");
   if (s.play.stress.low > s.play.stress.high)
@@ -141,7 +135,7 @@ std::vector<NamedFile> RunOptions::namedFiles() const {
   const RecordSettings& r = settings.record;
   return {{"--rig", settings.console.trackers.rig, false},
           {"--record-input", r.input},
-          {"--trace-events", trace.file},
+          {"--trace", trace.file},
           {"--spans", r.spans.file},
           {"--black-box", r.blackBox},
           {"--journal", settings.supervision.journal}};
@@ -180,14 +174,11 @@ void RunOptions::settleLive(Diagnostics& findings) {
 /// Pictures that depend on the moment at which they are drawn need a head that moves meanwhile.
 void RunOptions::settleHead(Diagnostics& findings) {
   std::optional<Nanoseconds>& ahead = settings.draw.ahead;
-  const auto milliseconds = parseNumber(predict);
   if (predict == "auto")
     ahead = HeadTiming::kToSwap;
-  else if (milliseconds && *milliseconds >= 0 && *milliseconds <= 100)
-    ahead = fromSeconds(1e-3 * *milliseconds);
   else if (predict != "off")
-    findings.error({}, "--predict: \"" + predict + "\" is not off, auto or milliseconds from 0 to 100");
-  if (lateLatch) settings.draw.latch = reach;
+    ahead = fromSeconds(1e-3 * *readDecimal(predict));
+  if (lateLatch) settings.draw.latch = HeadReach{reach[0], reach[1]};
   const auto needsTracker = [&](bool asked, const char* option) {
     if (asked && asksForEveryFrame())
       findings.error({}, std::string(option) + " is for live runs, whose pictures are never the same twice: "

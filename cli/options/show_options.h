@@ -12,7 +12,6 @@ class App;
 namespace stadion {
 
 void addShowOptions(CLI::App& command, ShowOptions& o);
-void addLookOption(CLI::App& command, ShowOptions& o);
 /// Only those that say what is played and how long: rate, length, input, assets.
 void addLengthOptions(CLI::App& command, ShowOptions& o);
 

@@ -107,7 +107,6 @@ void refuseOverwriting(const RegressOptions& o, const std::vector<regression::Su
     show.script = c.show, show.walls = c.walls, show.input = c.input, show.assetRoots = c.assetRoots;
   }
   files.push_back({o.baselineGiven ? "--baseline" : "the suite's baseline", o.baseline, o.update});
-  files.push_back({"--junit", o.junit});
   if (!o.out.empty())
     for (const char* name : {"report.html", "results.json", "junit.xml", "history.jsonl", "progress.jsonl"})
       files.push_back({std::string("--out's ") + name, o.out + "/" + name});
@@ -126,8 +125,7 @@ int regress(RegressOptions o) {
   std::vector<std::string> gone;
   if (ready && with.baseline) gone = regression::othersThan(*suite, *with.baseline);
   const bool chosen = ready && o.choose(*suite, findings);
-  Output baseline(chosen && o.update, o.baseline, findings),
-      junit(chosen && !o.junit.empty(), o.junit, findings);
+  Output baseline(chosen && o.update, o.baseline, findings);
   tell(findings);
   if (!chosen || findings.hasErrors()) return kBadInput;
   if (!o.update) tellGone(gone, o);
@@ -174,7 +172,6 @@ int regress(RegressOptions o) {
   } else if (o.update) {
     std::fprintf(stderr, "%s stays as it was: not all cases could be played\n", o.baseline.c_str());
   }
-  if (!o.junit.empty()) written = junit.write(regression::junitOf(result)) && written;
   if (!o.out.empty() && written) folder.forgetProgress();
   const std::string text = o.json ? regression::benchmarkJsonOf(result) + "\n" : regression::tableOf(result);
   std::printf("%s", text.c_str());

@@ -1,6 +1,6 @@
 #include "cli/regress/regress_options.h"
 
-#include "cli/options/number_option.h"
+#include "cli/options/command_options.h"
 #include "engine/plain_text/suggestion.h"
 
 #include <CLI/CLI.hpp>
@@ -20,7 +20,10 @@ constexpr const char* kRegressFooter =
   ./stadion regress scripts/suites/basic.suite                    # with the baseline that lies beside it
   ./stadion regress my.suite --update                             # writes that baseline: look at its changes
   ./stadion regress my.suite --against ../before/build/release/bin/stadion --out report
-  ./stadion regress my.suite --compare state,counts --junit results.xml                            # in CI
+  ./stadion regress my.suite --compare state,counts --out report                                   # in CI
+
+--out DIR receives report.html with plots of all runs so far, results.json, junit.xml and history.jsonl. --json prints the
+results in Google Benchmark's layout.
 
 Times are processor times of the typical frame, stage by stage. With --against the two builds play the same case in turns,
 frame by frame, in several rounds; a stage is slower if the ranks of the rounds say so (Wilcoxon, p <= 5 % over all
@@ -58,36 +61,20 @@ void checkProgram(std::string& path, const char* option, Diagnostics& findings) 
 }  // namespace
 
 void RegressOptions::addTo(CLI::App& command) {
-  command.add_option("SUITE", suite, "the suite file")->required();
-  command.add_option("--stadion", program, "the program to try; this one if not given");
-  command.add_option("--against", against, "another build's program, to compare with");
-  command.add_option(
-      "--baseline", baseline,
-      "the file to compare with, or to write; SUITE.baseline.json beside the suite if not given");
-  command.add_flag("--update", update,
-                   "write the baseline, instead of comparing with it; what --case and --compare leave out "
-                   "stays in it as it was");
-  command.add_option("--case", cases, "only these cases");
-  command
-      .add_option("--compare", compare,
-                  "only this, of what the suite compares: state, images, counts, instructions, times")
-      ->delimiter(',')
-      ->check(CLI::IsMember({"state", "images", "counts", "instructions", "times"}));
-  command.add_flag(
-      "--instructions", instructions,
-      "count instructions where the suite compares them also where the processor has no counter of them that "
-      "can be read: under callgrind, half a minute a case");
-  command.add_option("--rounds", rounds, "of times, instead of the suite's number")
-      ->check(wholeNumberFrom(12, 80));
-  command.add_option("--limit", limit, "seconds that a program may take to play a case once")
-      ->check(wholeNumberFrom(1, 100000))
-      ->capture_default_str();
-  command.add_option("--junit", junit, "write the results to this file as JUnit XML");
-  command.add_option(
-      "--out", out,
-      "folder for report.html with plots of all runs so far, results.json, junit.xml and history.jsonl");
-  command.add_flag("--resume", resume, "go on where the run into the same --out DIR was interrupted");
-  command.add_flag("--json", json, "the results as JSON in Google Benchmark's layout on stdout");
+  CommandOptions options(command);
+  options.add("SUITE", suite).required();
+  options.add("--stadion", program);
+  options.add("--against", against);
+  options.add("--baseline", baseline);
+  options.add("--update", update);
+  options.add("--case", cases);
+  options.add("--compare", compare);
+  options.add("--instructions", instructions);
+  options.add("--rounds", rounds, {.least = 12, .most = 80});
+  options.add("--limit", limit);
+  options.add("--out", out);
+  options.add("--resume", resume);
+  options.add("--json", json);
   command.footer(kRegressFooter);
 }
 

@@ -20,7 +20,7 @@ struct RegressOptions {
   std::string suite;
   std::string program;            ///< --stadion; empty: this one
   std::string against, baseline;  ///< another program; a file
-  std::string junit, out;
+  std::string out;
   std::vector<std::string> cases, compare;
   bool baselineGiven = false;  ///< by --baseline: then it has to be there
   std::size_t rounds = 0;      ///< 0: as the suite says

@@ -10,7 +10,7 @@ namespace stadion {
 
 struct ViewOptions {
   RunOptions run;  ///< script, walls, rate, input, records
-  std::string windows = "one", stereo = "mono", window = "1200x800", provider = "auto";
+  std::string windows = "one", stereo = "off", window = "1200x800", provider = "auto";
   ViewSettings settings{};
 
   /// Expects that this object stays where it is until the command line has been read.

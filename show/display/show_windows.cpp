@@ -1,24 +1,21 @@
 #include "show/display/show_windows.h"
 
-#include <array>
-
 namespace stadion {
 namespace {
 
 constexpr std::int32_t kMargin = 8;  ///< of what lies over the walls [pixels]
-constexpr std::array<const char*, 6> kStereoNames{"mono",     "side-by-side", "top-bottom",
-                                                  "anaglyph", "interlaced",   "quad"};
-
 }  // namespace
 
-std::optional<WindowStereo> windowStereo(const std::string& name) {
-  for (std::size_t i = 0; i < kStereoNames.size(); ++i)
-    if (name == kStereoNames[i]) return static_cast<WindowStereo>(i);
-  return std::nullopt;
-}
-
-std::vector<std::string> windowStereoNames() {
-  return {kStereoNames.begin(), kStereoNames.end()};
+WindowStereo windowStereo(StereoLayout layout) {
+  switch (layout) {
+  case StereoLayout::Pair: return WindowStereo::Quad;
+  case StereoLayout::SideBySide: return WindowStereo::SideBySide;
+  case StereoLayout::TopBottom: return WindowStereo::TopBottom;
+  case StereoLayout::Anaglyph: return WindowStereo::Anaglyph;
+  case StereoLayout::Interlaced: return WindowStereo::Interlaced;
+  case StereoLayout::Off: break;
+  }
+  return WindowStereo::Mono;
 }
 
 Result<std::unique_ptr<ShowWindow>> ShowWindow::open(WindowSystem& system, const WindowPlan& plan,

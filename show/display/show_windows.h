@@ -7,6 +7,7 @@
 #include "engine/display/unfolding.h"
 #include "pipeline/draw/passes/output_pass.h"
 #include "pipeline/loop/show_stages.h"
+#include "pipeline/picture/stereo.h"
 #include "pipeline/target/window.h"
 
 #include <optional>
@@ -18,9 +19,8 @@ namespace stadion {
 /// Interlaced: the even rows of the monitor, counted from its top from 0, are for the left eye.
 enum class WindowStereo { Mono, SideBySide, TopBottom, Anaglyph, Interlaced, Quad };
 
-/// "mono", "side-by-side", ...
-std::optional<WindowStereo> windowStereo(const std::string& name);
-std::vector<std::string> windowStereoNames();
+/// The way that a window shows a layout. For Pair it needs a buffer for each eye.
+WindowStereo windowStereo(StereoLayout layout);
 
 /// A wall in a window.
 struct WindowPane {

@@ -1,8 +1,8 @@
 #include "show/measure/calibrate_rooms.h"
 
 #include "engine/base/installed_files.h"
-#include "engine/plain_text/number_text.h"
 #include "engine/display/wall_file.h"
+#include "engine/plain_text/number_text.h"
 #include "pipeline/platform/setting_trials.h"
 #include "show/regress/regress_child.h"
 
@@ -53,9 +53,9 @@ std::optional<RoomFigures> measure(const RoomToMeasure& room, const DrawSetting&
                                    const std::atomic<bool>& stop) {
   std::vector<std::string> words{std::filesystem::canonical("/proc/self/exe"),
                                  "calibrate",
-                                 "--one",
+                                 "--measured-setting",
                                  wordOf(setting),
-                                 "--folder",
+                                 "--measured-folder",
                                  folder,
                                  "--walls",
                                  room.walls,
@@ -63,7 +63,7 @@ std::optional<RoomFigures> measure(const RoomToMeasure& room, const DrawSetting&
                                  room.size,
                                  "--look",
                                  room.room.look,
-                                 "--window",
+                                 "--measured-time",
                                  fmt::format("{}", window)};
   // All symbols are bound at the start: else the first frames pay for the linking.
   return figuresOf(runChild(words, limit, stop, {"LD_BIND_NOW=1"}).out);

@@ -1,5 +1,5 @@
 #pragma once
-/// What `stadion profile --html` tells beyond what was recorded: how the show was played, and how exact its
+/// What `stadion profile --out` tells beyond what was recorded: how the show was played, and how exact its
 /// bodies' models are.
 
 #include "profiling/report/report_data.h"

@@ -38,9 +38,9 @@ std::vector<std::string> namesIn(const std::string& list) {
   return names;
 }
 
-/// "front-left-000012.png", "trace-ball.csv"
+/// "front-left-000012.png", "track-ball.csv"
 bool isNameOfRuns(std::string_view name) {
-  if (name.starts_with("trace-") && name.ends_with(".csv")) return true;
+  if (name.starts_with("track-") && name.ends_with(".csv")) return true;
   constexpr std::size_t kDigits = 6;
   if (!name.ends_with(".png")) return false;
   name.remove_suffix(4);

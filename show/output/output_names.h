@@ -10,7 +10,7 @@
 namespace stadion {
 
 struct NamedFile {
-  std::string option;  ///< "--html", "the log beside the show"
+  std::string option;  ///< "--trace", "the log beside the show"
   std::string file;    ///< empty: not asked for
   bool written = true;
 };

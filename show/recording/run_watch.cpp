@@ -45,7 +45,7 @@ std::unique_ptr<RunWatch> RunWatch::create(const RecordSettings& record, const P
     const NodeRef ref = player.scene().tree().resolve(node, {1, 0});
     // What stands in a sub-scene may come later.
     if (node.find('/') == node.npos && !player.scene().find(ref))
-      findings.error({player.script(), 0, 0}, "--trace: the show has no node \"" + node + "\"");
+      findings.error({player.script(), 0, 0}, "--track: the show has no node \"" + node + "\"");
     watch->traces_.emplace_back(node);
   }
   if (findings.hasErrors()) return nullptr;

@@ -55,6 +55,24 @@ TEST_F(ProgramInstall, AnInstalledCopyPlaysAShow) {
   EXPECT_TRUE(fs::exists(out + "/contact-sheet.png")) << r.err;
 }
 
+TEST_F(ProgramInstall, HasManPagesAndCompletion) {
+  const std::string page = fileContent(prefix() + "/share/man/man1/stadion.1");
+  EXPECT_TRUE(page.starts_with(".TH stadion 1")) << page.substr(0, 80);
+  for (const char* script :
+       {"/share/bash-completion/completions/stadion", "/share/zsh/vendor-completions/_stadion",
+        "/share/fish/vendor_completions.d/stadion.fish"})
+    EXPECT_TRUE(has(fileContent(prefix() + script), "stadion")) << script;
+}
+
+// bash calls the function with the words and where the cursor is.
+TEST_F(ProgramInstall, BashCompletesAnOption) {
+  const std::string line =
+      "source " + prefix() +
+      "/share/bash-completion/completions/stadion; COMP_WORDS=(stadion run --stress-m); COMP_CWORD=2; "
+      "_stadion; echo \"${COMPREPLY[@]}\"";
+  EXPECT_EQ(runProgram({{"bash", "-c", line}, {path()}}).out, "--stress-max\n");
+}
+
 TEST_F(ProgramInstall, NamesNoPathOfTheCheckout) {
   for (const char* program : {"/bin/stadion", "/lib/stadion/stadion-import", "/lib/stadion/stadion-wall"})
     EXPECT_FALSE(has(fileContent(prefix() + program), kRoot + "/")) << program;

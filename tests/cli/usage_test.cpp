@@ -247,7 +247,7 @@ TEST(ProgramUsage, OptionsThatMayBeRepeatedMayStandBeforeTheScript) {
     EXPECT_FALSE(has(r.err + r.out, "stand-in")) << command;
   }
   const ProgramResult traced =
-      stadionProgram({"run", "--out", folder.path() / "out", "--trace", "a", script, "--asset-root",
+      stadionProgram({"run", "--out", folder.path() / "out", "--track", "a", script, "--asset-root",
                       assetFolder(), "--frames", "2", "--size", "32x24", "--walls", "desktop"});
   EXPECT_EQ(traced.status, 0) << traced.err;
   const ProgramResult nowhere = stadionProgram({"check", "--asset-root", "/nowhere", script});

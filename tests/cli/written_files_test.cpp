@@ -108,12 +108,22 @@ TEST(ProgramUsage, NothingButAnInputLogIsReplacedByAnInputLog) {
   EXPECT_FALSE(has(fileContent(log), "1.7"));
 }
 
+/// A folder for --out in which the file `name` is a link to `file`.
+std::string outLinkedTo(const TemporaryFolder& folder, const std::string& name, const std::string& file) {
+  static int made = 0;
+  const std::filesystem::path out = folder.path() / ("linked" + std::to_string(++made));
+  std::filesystem::create_directory(out);
+  std::filesystem::create_symlink(file, out / name);
+  return out;
+}
+
 TEST(ProgramUsage, WhatIsReadIsNotWrittenOver) {
   const TemporaryFolder folder;
   const std::string show = folder.write("a.evs", "group( name=a )\n"),
                     suite = folder.write("a.suite", "case( name=a, show=a.evs )\n");
-  for (const ProgramResult& r : {stadionProgram({"plan", show, "--svg", show}),
-                                 stadionProgram({"regress", suite, "--junit", suite})}) {
+  for (const ProgramResult& r :
+       {stadionProgram({"plan", show, "--out", outLinkedTo(folder, "plan.svg", show)}),
+        stadionProgram({"regress", suite, "--out", outLinkedTo(folder, "junit.xml", suite)})}) {
     EXPECT_EQ(r.status, 2) << r.err;
     EXPECT_TRUE(has(r.err, "name the same file")) << r.err;
   }
@@ -137,19 +147,21 @@ TEST(ProgramUsage, WhatIsReadWithoutBeingNamedIsNotWrittenOver) {
   const std::string show = at("a.evs"), suite = at("a.suite");
   std::vector<std::vector<std::string>> all;
   for (const std::string output : {"a.input", "./my.walls", "linked", "a.evs"}) {
-    for (const char* option : {"--html", "--trace"})
+    const auto linked = [&](const char* name) { return outLinkedTo(folder, name, at(output)); };
+    for (const auto& [option, value] : {std::pair{"--out", linked("profile.html")}, {"--trace", at(output)}})
       all.push_back(
-          {"profile", show, "--frames", "9", "--no-draw", "--walls", at("my.walls"), option, at(output)});
-    for (const char* option : {"--trace-events", "--black-box", "--record-input", "--spans"})
+          {"profile", show, "--frames", "9", "--gl", "none", "--walls", at("my.walls"), option, value});
+    for (const char* option : {"--trace", "--black-box", "--record-input", "--spans"})
       all.push_back(
           {"run", show, "--frames", "9", "--gl", "none", "--walls", at("my.walls"), option, at(output)});
-    all.push_back({"plan", show, "--walls", at("my.walls"), "--frames", "3", "--svg", at(output)});
-    all.push_back({"regress", suite, "--junit", at(output)});
+    all.push_back({"plan", show, "--walls", at("my.walls"), "--frames", "3", "--out", linked("plan.svg")});
+    all.push_back({"regress", suite, "--out", linked("junit.xml")});
   }
-  all.push_back({"regress", suite, "--junit", at("a.baseline.json")});
-  all.push_back({"regress", suite, "--against", stadionPath(), "--junit", at("a.baseline.json")});
+  const std::string overBaseline = outLinkedTo(folder, "junit.xml", at("a.baseline.json"));
+  all.push_back({"regress", suite, "--out", overBaseline});
+  all.push_back({"regress", suite, "--against", stadionPath(), "--out", overBaseline});
   all.push_back({"regress", suite, "--update", "--baseline", at("o/results.json"), "--out", at("o")});
-  all.push_back({"run", show, "--frames", "9", "--walls", "desktop", "--out", at("o"), "--trace-events",
+  all.push_back({"run", show, "--frames", "9", "--walls", "desktop", "--out", at("o"), "--trace",
                  at("o/summary.json")});
   for (const auto& words : all) {
     const ProgramResult r = stadionProgram(words);
@@ -189,16 +201,18 @@ TEST(ProgramUsage, WhatSubScenesAndModelsReadIsNotWrittenOver) {
     EXPECT_TRUE(has(r.err, why) && has(r.err, "name the same file")) << words.back() << "\n" << r.err;
   };
   for (const auto& [name, why] : read) {
-    for (const char* option : {"--html", "--trace"})
-      refused({"profile", show, "--frames", "9", "--no-draw", option, at(name)}, why + option);
-    for (const char* option : {"--trace-events", "--black-box", "--record-input", "--spans"})
+    const auto linked = [&](const char* output) { return outLinkedTo(folder, output, at(name)); };
+    refused({"profile", show, "--frames", "9", "--gl", "none", "--trace", at(name)}, why + "--trace");
+    refused({"profile", show, "--frames", "9", "--gl", "none", "--out", linked("profile.html")},
+            why + "--out's profile.html");
+    for (const char* option : {"--trace", "--black-box", "--record-input", "--spans"})
       refused({"run", show, "--frames", "9", "--gl", "none", option, at(name)}, why + option);
-    refused({"plan", show, "--frames", "3", "--svg", at(name)}, why + "--svg");
-    refused({"regress", at("show/main.suite"), "--junit", at(name)}, why + "--junit");
+    refused({"plan", show, "--frames", "3", "--out", linked("plan.svg")}, why + "--out's plan.svg");
+    refused({"regress", at("show/main.suite"), "--out", linked("junit.xml")}, why + "--out's junit.xml");
   }
   for (const auto& [name, content] : files) EXPECT_EQ(fileContent(at(name)), content) << name;
-  const ProgramResult beside = stadionProgram({"profile", show, "--frames", "9", "--no-draw", "--walls",
-                                               "desktop", "--html", at("assets/ball/skins/leather.pn")});
+  const ProgramResult beside = stadionProgram({"profile", show, "--frames", "9", "--gl", "none", "--walls",
+                                               "desktop", "--trace", at("assets/ball/skins/leather.pn")});
   EXPECT_EQ(beside.status, 0) << "the show does not read that one\n" << beside.err;
 }
 
@@ -207,9 +221,10 @@ TEST(ProgramUsage, PicturesWhoseNamesAModelWritesInPercentsAreNotWrittenOver) {
   const std::string picture = folder.write("leaf gold.png", "a picture");
   folder.write("a.gltf", R"({"asset": {"version": "2.0"}, "images": [{"uri": "leaf%20gold.png"}]})");
   const std::string show = folder.write("a.evs", "rig( name=r )\nobject( name=a, file=a.gltf )\n");
-  const ProgramResult r = stadionProgram({"plan", show, "--frames", "3", "--svg", picture});
+  const ProgramResult r =
+      stadionProgram({"plan", show, "--frames", "3", "--out", outLinkedTo(folder, "plan.svg", picture)});
   EXPECT_EQ(r.status, 2) << r.out;
-  EXPECT_TRUE(has(r.err, "a.gltf and --svg name the same file")) << r.err;
+  EXPECT_TRUE(has(r.err, "a.gltf and --out's plan.svg name the same file")) << r.err;
   EXPECT_EQ(fileContent(picture), "a picture");
 }
 

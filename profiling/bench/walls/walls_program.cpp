@@ -72,8 +72,10 @@ std::vector<std::string> wordsFor(const WallsCase& c, const WallsPrograms& progr
   };
   add("--frames", c.frames);
   if (c.engine == "control") return words;
-  add("--walls", c.walls), add("--width", c.width), add("--height", c.height), add("--warm", c.warm);
-  if (c.nodes) add("--nodes", c.nodes);
+  const bool ours = !osg && !floor;
+  add(ours ? "--wall-count" : "--walls", c.walls), add("--width", c.width), add("--height", c.height),
+      add("--warm", c.warm);
+  if (c.nodes) add(ours ? "--scene-nodes" : "--nodes", c.nodes);
   if (c.moving) add("--moving", c.moving);
   if (c.far > 0) add("--far", c.far);
   return words;
@@ -123,9 +125,9 @@ Result<nlohmann::json> comparePictures(const PicturesCase& c, const WallsProgram
     words.insert(words.end(), {option, prefix});
     return !objectIn(outputOf({words, {environmentOf(of)}, kLimit})).is_null();
   };
-  if (!draw(ours, "--pictures", our)) return problem("Stadion drew no pictures of " + c.scene);
+  if (!draw(ours, "--out", our)) return problem("Stadion drew no pictures of " + c.scene);
   if (!draw(theirs, "--dump", their)) return problem("OpenSceneGraph drew no pictures of " + c.scene);
-  const auto apart = differenceOfViews(their, our, ours.walls);
+  const auto apart = differenceOfViews(their, our + "/picture", ours.walls);
   if (!apart) return apart.error();
   return nlohmann::json{{"case", "pictures " + c.scene + " " + c.kind},
                         {"engine", "pictures"},

@@ -42,7 +42,7 @@ public:
 private:
   void writeTable(const NodeTrace& trace, SessionReport& report) {
     OutputFolder& folder = *session_.folder;
-    const std::string name = "trace-" + trace.fileName() + ".csv";
+    const std::string name = "track-" + trace.fileName() + ".csv";
     auto wrong = folder.note(name);
     if (!wrong) wrong = writeFile(folder.pathOf(name), trace.table());
     if (!wrong)

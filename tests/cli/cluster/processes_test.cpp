@@ -380,7 +380,7 @@ TEST(ProgramClusterProcesses, FilesGetTheNodesNamesAndWhatTheInputWasIsWrittenOn
   const TemporaryFolder folder;
   const auto file = [&](const std::string& name) { return (folder.path() / name).string(); };
   const ProgramResult r = stadionProgram(
-      shortCluster(fourNodes(folder), {"--frames", "5", "--trace-events=" + file("trace.json"), "--journal",
+      shortCluster(fourNodes(folder), {"--frames", "5", "--trace=" + file("trace.json"), "--journal",
                                        file("journal"), "--record-input", file("said.input")}));
   ASSERT_EQ(r.status, 0) << r.out << r.err;
   for (const std::string node : kFourNodes) {
@@ -481,8 +481,7 @@ TEST(ProgramClusterProcesses, FilesThatCannotBeWrittenAreToldOnceBeforeAnyNodeIs
   };
   const std::string ofFront = folder.path() / "nowhere" / "x-front.log";
   const std::string gone = " cannot be written: No such file or directory";
-  for (const char* option : {"--journal", "--trace-events", "--black-box"})
-    refused(option, nowhere, ofFront + gone);
+  for (const char* option : {"--journal", "--trace", "--black-box"}) refused(option, nowhere, ofFront + gone);
   refused("--record-input", nowhere, nowhere + gone);
   refused("--journal", folder.path() / "there",
           (folder.path() / "there-front").string() + " cannot be written: Is a directory");
@@ -508,7 +507,7 @@ TEST(ProgramClusterProcesses, OptionsMayStandWhereverTheyLike) {
 TEST(ProgramClusterProcesses, HelpSaysWhatGoesWhere) {
   const ProgramResult r = stadionProgram({"cluster", "--help"});
   EXPECT_EQ(r.status, 0);
-  for (const char* word : {"--record-input", "--trace-events", "--tracker", "trace-NODE.json", "exit code 3"})
+  for (const char* word : {"--record-input", "--trace", "--tracker", "trace-NODE.json", "exit code 3"})
     EXPECT_TRUE(has(r.out, word)) << r.out;
   EXPECT_FALSE(has(r.out, "ClusterOptions"));
 }

@@ -13,9 +13,9 @@ const std::string kKick = STADION_SOURCE_DIR "/scripts/kick.evs";
 
 TEST(ProgramPlan, TellsEveryNumberOfWallsInBothModes) {
   const TemporaryFolder folder;
-  const std::string svg = folder.path() / "plan.svg";
+  const std::string out = folder.path() / "plan";
   const ProgramResult r = stadionProgram(
-      {"plan", kKick, "--walls", "3", "--frames", "12", "--size", "64x48", "--json", "--svg", svg});
+      {"plan", kKick, "--wall-count", "3", "--frames", "12", "--size", "64x48", "--json", "--out", out});
   ASSERT_EQ(r.status, 0) << r.err;
   const auto plan = nlohmann::json::parse(r.out);
   EXPECT_EQ(plan.at("table").size(), 6U);
@@ -25,11 +25,11 @@ TEST(ProgramPlan, TellsEveryNumberOfWallsInBothModes) {
   EXPECT_FALSE(plan.at("forecast").at("bottleneck").get<std::string>().empty());
   for (const auto& frame : plan.at("costs").at("frames"))
     for (const auto& wall : frame.at("walls")) EXPECT_EQ(wall.at("pictures").size(), 2U);
-  EXPECT_NE(fileContent(svg).find("</svg>"), std::string::npos);
+  EXPECT_NE(fileContent(out + "/plan.svg").find("</svg>"), std::string::npos);
 
   // The same costs once more, on a larger machine.
   const std::string costs = folder.write("costs.json", r.out);
-  const ProgramResult again = stadionProgram({"plan", "--from", costs, "--cores", "64", "--walls", "6"});
+  const ProgramResult again = stadionProgram({"plan", "--from", costs, "--cores", "64", "--wall-count", "6"});
   ASSERT_EQ(again.status, 0) << again.err;
   EXPECT_NE(again.out.find("6 walls, 64 cores"), std::string::npos) << again.out;
   EXPECT_NE(again.out.find("Draw 6"), std::string::npos);
@@ -39,16 +39,16 @@ TEST(ProgramPlan, SaysWhatIsWrong) {
   const TemporaryFolder folder;
   const ProgramResult none = stadionProgram({"plan"});
   EXPECT_EQ(none.status, 2);
-  const ProgramResult many = stadionProgram({"plan", kKick, "--walls", "257"});
+  const ProgramResult many = stadionProgram({"plan", kKick, "--wall-count", "257"});
   EXPECT_EQ(many.status, 2);
   EXPECT_NE(many.err.find("from 1 to 256"), std::string::npos) << many.err;
   const ProgramResult wrong = stadionProgram({"plan", "--from", folder.write("costs.json", "{}")});
   EXPECT_EQ(wrong.status, 2);
   EXPECT_NE(wrong.err.find("has no \"format\""), std::string::npos) << wrong.err;
-  const ProgramResult nowhere = stadionProgram({"plan", kKick, "--svg", "nowhere/plan.svg"});
+  const ProgramResult nowhere = stadionProgram({"plan", kKick, "--out", "/proc/nowhere"});
   EXPECT_EQ(nowhere.status, 2);
   EXPECT_EQ(nowhere.out, "") << "before anything is measured";
-  EXPECT_NE(nowhere.err.find("nowhere/plan.svg"), std::string::npos) << nowhere.err;
+  EXPECT_NE(nowhere.err.find("/proc/nowhere/plan.svg"), std::string::npos) << nowhere.err;
   const std::string free =
       R"({"format": "stadion-plan-costs 1", "show": "free", "size": "1x1", "eyes": 1, "walls": ["a"], "cores": 1,
           "raster_threads": 1, "waits_in_turn": false, "frames": [{"app": 0, "app_helpers": 0, "swap": 0,
@@ -71,8 +71,8 @@ TEST(ProgramPlan, SaysWhatIsWrong) {
 TEST(ProgramPlan, MeasuresTheLookThatIsAskedForAndSaysWhichItWas) {
   const TemporaryFolder folder;
   const auto measured = [&](const std::vector<std::string>& more) {
-    std::vector<std::string> words{"plan", kKick,    "--walls", "1",     "--frames",
-                                   "6",    "--size", "32x24",   "--json"};
+    std::vector<std::string> words{"plan", kKick,    "--wall-count", "1",     "--frames",
+                                   "6",    "--size", "32x24",        "--json"};
     words.insert(words.end(), more.begin(), more.end());
     const ProgramResult r = stadionProgram(words);
     EXPECT_EQ(r.status, 0) << r.err;
@@ -96,7 +96,7 @@ TEST(ProgramPlan, MeasuresTheLookThatIsAskedForAndSaysWhichItWas) {
 TEST(ProgramPlan, BesideMeasuredCostsWallsAreObeyedAndWhatMeasuresIsRefused) {
   const TemporaryFolder folder;
   const ProgramResult measured =
-      stadionProgram({"plan", kKick, "--walls", "2", "--frames", "6", "--size", "32x24", "--json"});
+      stadionProgram({"plan", kKick, "--wall-count", "2", "--frames", "6", "--size", "32x24", "--json"});
   ASSERT_EQ(measured.status, 0) << measured.err;
   const std::string costs = folder.write("costs.json", measured.out);
   const auto planned = [&](std::vector<std::string> more) {
@@ -109,13 +109,16 @@ TEST(ProgramPlan, BesideMeasuredCostsWallsAreObeyedAndWhatMeasuresIsRefused) {
     EXPECT_NE(r.err.find(why), std::string::npos) << r.err;
   };
   EXPECT_NE(planned({}).out.find("2 walls,"), std::string::npos) << "as measured";
-  for (const char* six : {"6", "cave6", STADION_SOURCE_DIR "/walls/cave6.walls"}) {
-    const ProgramResult r = planned({"--walls", six});
+  for (const auto& [option, six] : std::vector<std::pair<const char*, const char*>>{
+           {"--wall-count", "6"},
+           {"--walls", "cave6"},
+           {"--walls", STADION_SOURCE_DIR "/walls/cave6.walls"}}) {
+    const ProgramResult r = planned({option, six});
     EXPECT_EQ(r.status, 0) << r.err;
     EXPECT_NE(r.out.find("6 walls,"), std::string::npos) << six << r.out;
   }
-  for (const char* number : {"-3", "0", "2.5", "", "99999999999999999999999"})
-    refused({"--walls", number}, "from 1 to 256 walls");
+  for (const char* count : {"-3", "0", "2.5", "", "99999999999999999999999"})
+    refused({"--wall-count", count}, "is not a whole number from 1 to 256");
   refused({"--walls", "nonsense"}, "there are no walls named");
   for (const auto& [option, value] : std::map<std::string, std::string>{{"--size", "64x48"},
                                                                         {"--stereo", "off"},

@@ -132,7 +132,7 @@ TEST(ProgramProfile, TheShadowsRingsAreTheLights) {
   std::string out;
   for (int frames = 64; ms == 0 && frames < 10'000; frames *= 4) {
     const ProgramResult r =
-        stadionProgram({"profile", show, "--asset-root", assetFolder(), "--no-draw", "--frames",
+        stadionProgram({"profile", show, "--asset-root", assetFolder(), "--gl", "none", "--frames",
                         std::to_string(frames), "--walls", "desktop", "--json"});
     ASSERT_EQ(r.status, 0) << r.err;
     out = r.out;
@@ -144,12 +144,12 @@ TEST(ProgramProfile, TheShadowsRingsAreTheLights) {
 }
 
 TEST(ProgramProfile, WithoutDrawingAppAndCullAreLeft) {
-  const ProgramResult r = profileKick({"--no-draw"});
+  const ProgramResult r = profileKick({"--gl", "none"});
   ASSERT_EQ(r.status, 0) << r.err;
   EXPECT_NE(r.out.find("sim_kick"), std::string::npos);
   EXPECT_EQ(r.out.find("alone"), std::string::npos) << r.out;
   EXPECT_NE(r.out.find("- not measured: nothing was drawn"), std::string::npos) << r.out;
-  EXPECT_NE(profileKick({"--csv", "--no-draw"}).out.find("path,file,line"), std::string::npos);
+  EXPECT_NE(profileKick({"--csv", "--gl", "none"}).out.find("path,file,line"), std::string::npos);
 }
 
 TEST(ProgramProfile, WhatHadNoTurnInSoFewFramesIsToldAsSuch) {
@@ -174,8 +174,8 @@ TEST(ProgramProfile, WhatHadNoTurnInSoFewFramesIsToldAsSuch) {
 
 TEST(ProgramProfile, ARunOfWhichNothingIsRecordedIsRefused) {
   for (const char* frames : {"1", "4"}) {
-    const ProgramResult r =
-        stadionProgram({"profile", STADION_SOURCE_DIR "/scripts/kick.evs", "--no-draw", "--frames", frames});
+    const ProgramResult r = stadionProgram(
+        {"profile", STADION_SOURCE_DIR "/scripts/kick.evs", "--gl", "none", "--frames", frames});
     EXPECT_EQ(r.status, 2) << r.out;
     EXPECT_NE(r.err.find("play at least 5"), std::string::npos) << r.err;
   }
@@ -189,7 +189,7 @@ TEST(ProgramProfile, WhatCannotBeToldOfARunThatWasIsRefusedBesideItsLastFrames) 
                 .status,
             0);
   for (const auto& beside : std::vector<std::vector<std::string>>{
-           {"--json"}, {"--csv"}, {"--html", file}, {"--trace", file}, {"--fidelity"}, {"--frames", "9"}})
+           {"--json"}, {"--csv"}, {"--out", file}, {"--trace", file}, {"--fidelity"}, {"--frames", "9"}})
     for (const bool named : {true, false}) {
       std::vector<std::string> words = {"profile"};
       words.insert(words.end(), beside.begin(), beside.end());
@@ -209,7 +209,7 @@ TEST(ProgramProfile, WhatWouldNotBeObeyedIsRefused) {
            {{"--json", "--csv"}, "--csv excludes --json"},
            {{"--fidelity", "--csv"}, "--csv tells of frames"},
            {{"--fidelity", "--trace", "x.json"}, "--trace tells of frames"}}) {
-    std::vector<std::string> all{"profile", show, "--frames", "9", "--no-draw"};
+    std::vector<std::string> all{"profile", show, "--frames", "9", "--gl", "none"};
     all.insert(all.end(), words.begin(), words.end());
     const ProgramResult r = stadionProgram(all);
     EXPECT_EQ(r.status, 2) << r.out;
@@ -218,21 +218,31 @@ TEST(ProgramProfile, WhatWouldNotBeObeyedIsRefused) {
   }
 }
 
+/// A folder in which `name` is a link to `file`.
+std::string linkTo(const TemporaryFolder& folder, const std::string& name, const std::string& file) {
+  const std::filesystem::path made =
+      folder.path() / ("links" + std::to_string(std::hash<std::string>{}(name + file)));
+  std::filesystem::create_directories(made);
+  std::filesystem::create_symlink(file, made / name);
+  return made;
+}
+
 TEST(ProgramProfile, TwoOutputsAreNotOneFile) {
   const TemporaryFolder folder;
   const std::string file = folder.path() / "out", show = STADION_SOURCE_DIR "/scripts/kick.evs";
   const std::string same = (folder.path() / "." / "out").string();
   for (const auto& words : std::vector<std::vector<std::string>>{
-           {"profile", show, "--trace", file, "--html", same},
+           {"profile", show, "--trace", file, "--out", linkTo(folder, "profile.html", same)},
            {"run", show, "--black-box", file, "--record-input", same},
-           {"run", show, "--frames", "5", "--trace-events", file, "--record-input", same}}) {
+           {"run", show, "--frames", "5", "--trace", file, "--record-input", same}}) {
     const ProgramResult r = stadionProgram(words);
     EXPECT_EQ(r.status, 2) << r.err;
     EXPECT_NE(r.err.find("name the same file"), std::string::npos) << r.err;
     EXPECT_FALSE(std::filesystem::exists(file));
   }
   const std::string mine = folder.write("mine.evs", "rig( name=stand )\n");
-  const ProgramResult r = stadionProgram({"profile", mine, "--frames", "9", "--no-draw", "--html", mine});
+  const ProgramResult r = stadionProgram(
+      {"profile", mine, "--frames", "9", "--gl", "none", "--out", linkTo(folder, "profile.html", mine)});
   EXPECT_EQ(r.status, 2) << r.err;
   EXPECT_EQ(fileContent(mine), "rig( name=stand )\n") << "a show is not written over";
 }

@@ -1,4 +1,4 @@
-/// `stadion profile --html` and `--trace`: the page in a real browser, the trace of a real run.
+/// `stadion profile --out` and `--trace`: the page in a real browser, the trace of a real run.
 
 #include "tests/profiling/trace/trace_checks.h"
 #include "tests/programs/program.h"
@@ -68,8 +68,8 @@ protected:
 };
 
 TEST_F(ProgramReport, ABrowserFillsItsTablesAndPlotsWithoutAComplaint) {
-  const fs::path page = folder_.path() / "kick.html";
-  const ProgramResult r = profile(kKickShow, {"--html", page.string()}, "90");
+  const fs::path page = folder_.path() / "profile.html";
+  const ProgramResult r = profile(kKickShow, {"--out", folder_.path().string()}, "90");
   ASSERT_EQ(r.status, 0) << r.err;
   const Shown s = shown(page);
   EXPECT_EQ(s.complaints, "");
@@ -94,8 +94,10 @@ TEST_F(ProgramReport, ABrowserFillsItsTablesAndPlotsWithoutAComplaint) {
 }
 
 TEST_F(ProgramReport, WhatIsChosenInTheAddressIsShown) {
-  const fs::path page = folder_.path() / "kick.html";
-  ASSERT_EQ(profile(kKickShow, {"--html", page.string(), "--walls", "desktop", "--no-draw"}, "90").status, 0);
+  const fs::path page = folder_.path() / "profile.html";
+  ASSERT_EQ(profile(kKickShow, {"--out", folder_.path().string(), "--walls", "desktop", "--gl", "none"}, "90")
+                .status,
+            0);
   const Shown s = shown(page, "stage=app&view=one&sort=path");
   EXPECT_EQ(s.complaints, "");
   EXPECT_NE(part(s.dom, "nodes-table").find("aria-sort=\"ascending\""), std::string::npos);
@@ -107,9 +109,9 @@ TEST_F(ProgramReport, AScriptsNamesAreShownAsTheyAreWritten) {
   const std::string name = "a<script>alert(1)<b onclick=x>&amp;.evs";
   const std::string show =
       folder_.write(name, "object( name=stone, file=\"football.3ds\", position=\"0, 4, 1\" )\n");
-  const fs::path page = folder_.path() / "hostile.html";
+  const fs::path page = folder_.path() / "profile.html";
   const ProgramResult r =
-      profile(show, {"--html", page.string(), "--walls", "desktop", "--asset-root", assetFolder()});
+      profile(show, {"--out", folder_.path().string(), "--walls", "desktop", "--asset-root", assetFolder()});
   ASSERT_EQ(r.status, 0) << r.err;
   const Shown s = shown(page);
   EXPECT_EQ(s.complaints, "");
@@ -130,9 +132,9 @@ void ProgramReportOfMany::expectAllInTheTable(int pillars) const {
     script += "object( name=pillar_" + std::to_string(i) +
               ", file=suites/pillar.obj, scale=0.4, position=\"" + std::to_string(0.1 * (i % 50 - 25)) +
               ", " + std::to_string(8 + i / 50) + ", 0\" )\n";
-  const fs::path page = folder_.path() / "many.html";
+  const fs::path page = folder_.path() / "profile.html";
   const ProgramResult r = profile(folder_.write("many.evs", script),
-                                  {"--html", page.string(), "--walls", "desktop", "--asset-root",
+                                  {"--out", folder_.path().string(), "--walls", "desktop", "--asset-root",
                                    STADION_SOURCE_DIR "/scripts", "--asset-root", assetFolder()});
   ASSERT_EQ(r.status, 0) << r.err;
   EXPECT_LT(fs::file_size(page), 1500U * pillars);
@@ -175,7 +177,7 @@ TEST(ProgramTrace, ALiveRunIsTracedToo) {
   const TemporaryFolder folder;
   const fs::path file = folder.path() / "live.json";
   const ProgramResult r = stadionProgram({"run", kKickShow, "--frames", "40", "--size", "96x72", "--walls",
-                                          "desktop", "--look", "plain", "--trace-events", file.string()});
+                                          "desktop", "--look", "plain", "--trace", file.string()});
   ASSERT_EQ(r.status, 0) << r.err;
   const TraceChecks seen(fileContent(file));
   EXPECT_EQ(seen.complaints(), std::vector<std::string>());
@@ -185,10 +187,10 @@ TEST(ProgramTrace, ALiveRunIsTracedToo) {
 TEST(ProgramTrace, FramesAfterTheRunsEndAreSaidToBeMissing) {
   const TemporaryFolder folder;
   const std::string file = folder.path() / "trace.json";
-  for (const auto& [command, option] : {std::pair{"profile", "--trace"}, {"run", "--trace-events"}}) {
+  for (const char* command : {"profile", "run"}) {
     const ProgramResult r =
         stadionProgram({command, kKickShow, "--frames", "20", "--size", "32x24", "--walls", "desktop",
-                        "--look", "plain", option, file, "--trace-frames", "100..160"});
+                        "--look", "plain", "--trace", file, "--trace-frames", "100..160"});
     EXPECT_EQ(r.status, 0) << r.err;
     EXPECT_NE(r.err.find("warning: the trace leaves out frames 100 to 160: the run ended with frame 19"),
               std::string::npos)
@@ -200,7 +202,7 @@ TEST(ProgramTrace, WhatCannotBeWrittenIsSaidBeforeAnythingIsPlayed) {
   const ProgramResult r = profile(kKickShow, {"--trace", "/nowhere/trace.json"});
   EXPECT_EQ(r.status, 2);
   EXPECT_NE(r.err.find("/nowhere/trace.json"), std::string::npos) << r.err;
-  EXPECT_EQ(profile(kKickShow, {"--html", "/nowhere/page.html"}).status, 2);
+  EXPECT_EQ(profile(kKickShow, {"--out", "/proc/nowhere"}).status, 2);
   EXPECT_EQ(profile(kKickShow, {"--trace", "x.json", "--trace-frames", "9..3"}).status, 2);
   EXPECT_EQ(profile(kKickShow, {"--trace-frames", "3..9"}).status, 2);
 }

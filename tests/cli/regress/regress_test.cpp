@@ -143,12 +143,12 @@ TEST(ProgramRegress, WhatAShowWarnsOfIsToldOnceAndFailsNothing) {
                               "modes sequential pipelined\ncase one\n  show w.evs\n"
                               "case two\n  show w.evs\n");
   ASSERT_EQ(regress({suite, "--update"}).status, 0);
-  const std::string junit = folder.path() / "r.xml", out = folder.path() / "out";
+  const std::string out = folder.path() / "out", junit = out + "/junit.xml";
   const std::regex warning("w\\.evs:2:[0-9]+: warning: [^\n]*gone\\.obj");
   const auto times = [&](const std::string& text) {
     return std::distance(std::sregex_iterator(text.begin(), text.end(), warning), std::sregex_iterator());
   };
-  const ProgramResult table = regress({suite, "--junit", junit, "--out", out});
+  const ProgramResult table = regress({suite, "--out", out});
   EXPECT_EQ(table.status, 0) << table.out << table.err;
   EXPECT_EQ(times(table.out), 1) << table.out;
   EXPECT_NE(table.out.find("1 warnings of shows"), std::string::npos) << table.out;
@@ -191,9 +191,9 @@ TEST(ProgramRegress, AShowThatChangedIsFoundAgainstItsOldBaseline) {
 
 TEST(ProgramRegress, ReportsForMachinesAreWhatTheyClaimToBe) {
   const TemporaryFolder folder;
-  const std::string suite = smallSuite(folder), junit = folder.path() / "r.xml";
+  const std::string suite = smallSuite(folder), out = folder.path() / "out", junit = out + "/junit.xml";
   ASSERT_EQ(regress({suite, "--update"}).status, 0);
-  const ProgramResult r = regress({suite, "--json", "--junit", junit});
+  const ProgramResult r = regress({suite, "--json", "--out", out});
   ASSERT_EQ(r.status, 0) << r.err;
   const Json j = Json::parse(r.out);
   EXPECT_TRUE(j["context"].contains("num_cpus"));

@@ -62,10 +62,10 @@ public:
                                    "--out",      folder_.path(),
                                    "--input",    std::filesystem::exists(log) ? log : "none",
                                    "--pictures", "none"};
-    if (!body.empty()) words.insert(words.end(), {"--trace", body});
+    if (!body.empty()) words.insert(words.end(), {"--track", body});
     result_ = stadionProgram(words);
     EXPECT_EQ(result_.status, 0) << result_.err;
-    if (!body.empty()) read(folder_.path() / ("trace-" + body + ".csv"));
+    if (!body.empty()) read(folder_.path() / ("track-" + body + ".csv"));
   }
   const BodyTrack& track() const { return track_; }
   /// When each node told of something, as the report says it [s].

@@ -92,11 +92,10 @@ TEST(ProgramFullManyViews, AreTheSameFromWorkerProcesses) {
 TEST(ProgramFullManyViews, OfMonoWallsAreProfiledOneByOne) {
   const TemporaryFolder folder;
   const std::string walls = folder.write("hall.walls", ringOf(64));
-  const ProgramResult profile =
-      played("profile", walls, {"--stereo", "off", "--html", folder.path() / "report.html"});
+  const ProgramResult profile = played("profile", walls, {"--stereo", "off", "--out", folder.path()});
   ASSERT_EQ(profile.status, 0) << profile.err;
   EXPECT_EQ(json::parse(profile.out)["walls"].size(), 64U);
-  const std::string page = fileContent(folder.path() / "report.html");
+  const std::string page = fileContent(folder.path() / "profile.html");
   for (const char* last : {"Cull w63", "Draw w63"}) EXPECT_TRUE(has(page, last)) << last;
 }
 

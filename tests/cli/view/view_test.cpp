@@ -71,7 +71,7 @@ private:
     if (std::ranges::find(more, "--look") == more.end()) more.insert(more.end(), {"--look", "plain"});
     std::vector<std::string> w{
         "view",    std::move(show), "--asset-root",           assetFolder(),    "--window",
-        "400x300", "--shots",       folder_.path() / "shots", "--record-input", log()};
+        "400x300", "--out",         folder_.path() / "shots", "--record-input", log()};
     w.insert(w.end(), more.begin(), more.end());
     return w;
   }
@@ -195,14 +195,14 @@ TEST_P(ProgramViewThrow, FliesWithTheHandsSpeedAndTheRecordRepeatsIt) {
   const std::string out = view.folder() / "again";
   const ProgramResult again = stadionProgram(
       {"run", t.show, "--asset-root", assetFolder(), "--walls", "desktop", "--size", "32x24", "--look",
-       "plain", "--pictures", "none", "--input", view.log(), "--out", out, "--trace", t.thrown});
+       "plain", "--pictures", "none", "--input", view.log(), "--out", out, "--track", t.thrown});
   EXPECT_EQ(again.status, 0) << again.err;
   EXPECT_NE(fileContent(out + "/summary.json").find(hashIn(told)), std::string::npos) << told << "\nagainst\n"
                                                                                       << again.out;
   // Held, then in flight, upwards: only the hand can have done that.
   std::string file = t.thrown;
   std::ranges::replace(file, '/', '_');
-  std::ifstream table(out + "/trace-" + file + ".csv");
+  std::ifstream table(out + "/track-" + file + ".csv");
   bool wasHeld = false;
   double fastest = 0;
   for (std::string line; std::getline(table, line);) {

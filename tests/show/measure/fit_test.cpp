@@ -44,9 +44,12 @@ TEST(ProgramFit, WritesItsTableOverNothingThatItReads) {
                     flight = folder.write("flight.csv", fileContent(kFlights + "disc_25_35_s40_a-10.csv"));
   for (const std::string& read : {object, flight}) {
     const std::string before = fileContent(read);
-    const ProgramResult r = stadionProgram({"fit", object, "--reference", flight, "--table", read});
+    const std::string out = folder.path() / ("out" + std::to_string(read.size()));
+    std::filesystem::create_directory(out);
+    std::filesystem::create_symlink(read, out + "/discus-flight.csv");
+    const ProgramResult r = stadionProgram({"fit", object, "--reference", flight, "--out", out});
     EXPECT_EQ(r.status, 2) << r.out;
-    EXPECT_NE(r.err.find("and --table name the same file"), std::string::npos) << r.err;
+    EXPECT_NE(r.err.find("and --out's discus-flight.csv name the same file"), std::string::npos) << r.err;
     EXPECT_EQ(fileContent(read), before);
   }
 }
@@ -54,7 +57,7 @@ TEST(ProgramFit, WritesItsTableOverNothingThatItReads) {
 TEST(ProgramFit, FindsAPlateForADiscusAndSaysWhatToWrite) {
   const TemporaryFolder folder;
   auto words = fitWords(folder.write("discus.obj", discus()), "disc_25_35_s40_a-10.csv");
-  words.insert(words.end(), {"--tolerance", "0.5", "--attitude", "2"});
+  words.insert(words.end(), {"--within", "0.5", "--attitude", "2"});
   const ProgramResult r = stadionProgram(words);
   EXPECT_EQ(r.status, 0) << r.out << r.err;
   EXPECT_NE(r.out.find("flat, 2 kg, 1 flight"), std::string::npos) << r.out;
@@ -64,12 +67,12 @@ TEST(ProgramFit, FindsAPlateForADiscusAndSaysWhatToWrite) {
 TEST(ProgramFit, WritesATableThatCanBeReadWhereNothingCheaperIsGoodEnough) {
   const TemporaryFolder folder;
   auto words = fitWords(folder.write("discus.obj", discus()), "disc_25_35_s40_a-10_head5.csv");
-  const std::string table = (folder.path() / "air.csv").string();
+  const std::string table = (folder.path() / "discus-flight.csv").string();
   words.insert(words.end(),
-               {"--wind", "-5", "0", "0", "--tolerance", "0.5", "--attitude", "0.05", "--table", table});
+               {"--wind", "-5", "0", "0", "--within", "0.5", "--attitude", "0.05", "--out", folder.path()});
   const ProgramResult r = stadionProgram(words);
   EXPECT_EQ(r.status, 0) << r.out << r.err;
-  EXPECT_NE(r.out.find("flight=table, flighttable=\"air.csv\""), std::string::npos) << r.out;
+  EXPECT_NE(r.out.find("flight=table, flighttable=\"discus-flight.csv\""), std::string::npos) << r.out;
   const auto read = readFlightTable(fileContent(table), table, 2);
   EXPECT_TRUE(read) << format(read.error());
 }
@@ -133,12 +136,11 @@ struct FlownThing {
 
 void expectThePromiseOf(const FlownThing& thing, const std::string& tolerance) {
   const TemporaryFolder folder;
-  const std::string table = (folder.path() / "air.csv").string();
   std::vector<std::string> words{"fit",         assetFolder() + "/" + thing.model,
                                  "--gravity",   "9.81",
                                  "--density",   "1.2",
-                                 "--table",     table,
-                                 "--tolerance", tolerance,
+                                 "--out",       folder.path(),
+                                 "--within",    tolerance,
                                  "--reference", kFlights + thing.flight};
   words.insert(words.end(), thing.matter.begin(), thing.matter.end());
   const ProgramResult fitted = stadionProgram(words);
@@ -279,12 +281,12 @@ TEST(ProgramCheck, WhatFliesAsIfMatterFilledItEvenlyIsToldWithTheNumbers) {
 
 TEST(ProgramBenchFlight, PrintsItsLimitsAndWritesNumbersAndPlots) {
   const TemporaryFolder folder;
-  const std::string report = (folder.path() / "flight.json").string(),
-                    plots = (folder.path() / "plots").string();
-  const ProgramResult r = stadionProgram(
-      {"bench", "flight", "--flights", "20", "--rounds", "20", "--json", report, "--out", plots});
+  const std::string plots = folder.path() / "plots";
+  const ProgramResult r =
+      stadionProgram({"bench", "flight", "--flights", "20", "--rounds", "20", "--json", "--out", plots});
   EXPECT_TRUE(r.status == 0 || r.status == 1) << r.err;  // its costs may miss their limits on a busy machine
-  const auto all = nlohmann::json::parse(fileContent(report));
+  const auto all = nlohmann::json::parse(r.out);
+  EXPECT_EQ(nlohmann::json::parse(fileContent(plots + "/flight.json")), all);
   std::size_t missed = 0;
   for (const auto& limit : all["limits"]) {
     const bool cost = limit["what"].get<std::string>().find(" / ") != std::string::npos;
@@ -296,7 +298,7 @@ TEST(ProgramBenchFlight, PrintsItsLimitsAndWritesNumbersAndPlots) {
   for (const char* name :
        {"flights-javelin.svg", "flights-discus.svg", "flights-ball.svg", "work-precision-discus.svg"})
     EXPECT_NE(fileContent(std::filesystem::path(plots) / name).find("</svg>"), std::string::npos) << name;
-  EXPECT_NE(r.out.find("limits met, "), std::string::npos);
+  EXPECT_NE(r.err.find("limits met, "), std::string::npos);
 }
 
 }  // namespace

@@ -1,0 +1,239 @@
+#include "cli/options/command_reference.h"
+
+#include "cli/options/option_table.h"
+#include "engine/base/installed_files.h"
+#include "show/base/version.h"
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <cstdio>
+#include <map>
+#include <memory>
+#include <vector>
+
+namespace stadion {
+namespace {
+
+/// A command that is called with options of its own, such as "run" or "bench walls".
+struct NamedCommand {
+  std::string name;
+  const CLI::App* app;
+};
+
+void addCommandsBelow(const CLI::App& app, const std::string& prefix, std::vector<NamedCommand>& commands) {
+  for (const CLI::App* below : app.get_subcommands([](const CLI::App*) { return true; })) {
+    const std::string name = prefix + below->get_name();
+    if (below->get_subcommands([](const CLI::App*) { return true; }).empty())
+      commands.push_back({name, below});
+    else
+      addCommandsBelow(*below, name + " ", commands);
+  }
+}
+
+std::vector<NamedCommand> commandsOf(const CLI::App& program) {
+  std::vector<NamedCommand> commands;
+  addCommandsBelow(program, "", commands);
+  return commands;
+}
+
+std::string nameOfOption(const CLI::Option& option) {
+  return option.get_positional()       ? option.get_name(true, false)
+         : option.get_lnames().empty() ? ""
+                                       : "--" + option.get_lnames().front();
+}
+
+/// All but --help.
+std::vector<const CLI::Option*> ownOptions(const CLI::App& command) {
+  return command.get_options([&](const CLI::Option* o) { return o != command.get_help_ptr(); });
+}
+
+std::string usesOf(const CLI::App& program) {
+  std::string text;
+  for (const NamedCommand& command : commandsOf(program))
+    for (const CLI::Option* option : ownOptions(*command.app))
+      text += fmt::format("{}\t{}\t{}\n", nameOfOption(*option), command.name, option->get_description());
+  return text;
+}
+
+/// Those of the program of `stadion bench`, which has been built.
+std::string usesOfBench() {
+  const std::string line = fmt::format("'{}' manual uses", helperProgram("stadion-bench").string());
+  const std::unique_ptr<std::FILE, int (*)(std::FILE*)> bench(popen(line.c_str(), "r"), pclose);
+  std::string text;
+  char block[4096];
+  while (const std::size_t size = bench ? std::fread(block, 1, sizeof block, bench.get()) : 0)
+    text.append(block, size);
+  return text;
+}
+
+/// The commands that have each option.
+std::map<std::string, std::vector<std::string>> commandsByOption(const std::string& uses) {
+  std::map<std::string, std::vector<std::string>> commands;
+  for (std::size_t begin = 0; begin < uses.size(); begin = uses.find('\n', begin) + 1) {
+    const std::size_t first = uses.find('\t', begin), second = uses.find('\t', first + 1);
+    commands[uses.substr(begin, first - begin)].push_back(uses.substr(first + 1, second - first - 1));
+  }
+  return commands;
+}
+
+std::string inMarkdown(std::string_view text) {
+  std::string escaped;
+  for (const char c : text) escaped += c == '|' ? "\\|" : std::string(1, c);
+  return escaped;
+}
+
+std::string valueText(const ValueGrammar& g) {
+  const std::string limits = g.limits();
+  return g.notation() + (limits.empty() ? "" : ", " + limits);
+}
+
+std::string markdownRow(const OptionRow& row, const std::vector<std::string>& commands) {
+  const std::string value = row.isPositional() ? "" : inMarkdown(valueText(row.value));
+  return fmt::format("| `{}` | {} | {} | {} |\n", row.name, value, inMarkdown(row.fullText()),
+                     fmt::join(commands, ", "));
+}
+
+constexpr const char* kPageHead =
+    R"(# Options
+
+This page lists each option once: its value, its meaning and the commands that have it. `stadion manual options` writes
+it. An option means the same in every command. Some commands accept fewer values or other limits; `--help` shows them
+with the default.
+
+- `--json` takes no value. Standard output is JSON, all else is on standard error.
+- `--out DIR` receives everything that a command writes, but the files that have options of their own.
+- `--trace FILE` is the event trace, `--track NODE` the path of a body.
+
+An earlier spelling is an error (exit code 2) that names the present one.
+)";
+
+std::string optionsPage(const CLI::App& program) {
+  const auto commands = commandsByOption(usesOf(program) + usesOfBench());
+  std::string page = kPageHead;
+  std::string_view heading;
+  for (const OptionRow& row : optionTable()) {
+    const auto used = commands.find(std::string(row.name));
+    if (row.isInternal() || used == commands.end()) continue;
+    if (heading != headingOf(row.group))
+      page += fmt::format("\n## {}\n\n| option | value | meaning | commands |\n|---|---|---|---|\n",
+                          heading = headingOf(row.group));
+    page += markdownRow(row, used->second);
+  }
+  return page;
+}
+
+/// For troff: hyphens are signs, and no line begins as a command of troff does.
+std::string inTroff(std::string_view text) {
+  std::string escaped;
+  for (const char c : text) {
+    const bool begins = escaped.empty() || escaped.back() == '\n';
+    if (begins && (c == '.' || c == '\'')) escaped += "\\&";
+    escaped += c == '-' ? "\\-" : c == '\\' ? "\\e" : std::string(1, c);
+  }
+  return escaped;
+}
+
+std::string manOfCommand(const NamedCommand& command) {
+  std::vector<std::string> options, arguments;
+  for (const CLI::Option* option : ownOptions(*command.app)) {
+    const OptionRow* row = findOption(nameOfOption(*option));
+    if (row && !row->isInternal()) (row->isPositional() ? arguments : options).emplace_back(row->name);
+  }
+  std::string text = fmt::format(".SS stadion {} {}\n{}.\n", inTroff(command.name), fmt::join(arguments, " "),
+                                 inTroff(command.app->get_description()));
+  if (!options.empty()) text += fmt::format(".PP\n{}\n", inTroff(fmt::format("{}", fmt::join(options, " "))));
+  const std::string footer = command.app->get_footer();
+  return footer.empty() ? text : text + ".PP\n.nf\n" + inTroff(footer) + "\n.fi\n";
+}
+
+std::string manOfOptions(const std::string& uses) {
+  const auto commands = commandsByOption(uses);
+  std::string text, heading;
+  for (const OptionRow& row : optionTable()) {
+    if (row.isInternal() || !commands.contains(std::string(row.name))) continue;
+    if (heading != headingOf(row.group)) text += fmt::format(".SS {}\n", heading = headingOf(row.group));
+    const std::string value = row.isPositional() ? "" : inTroff(valueText(row.value));
+    text += fmt::format(".TP\n.B {}\n.RI {}\n{}\n", inTroff(row.name),
+                        value.empty() ? "\"\"" : '"' + value + '"', inTroff(row.fullText()));
+  }
+  return text;
+}
+
+std::string manPage(const CLI::App& program) {
+  const bool benches = commandsOf(program).front().name.starts_with("bench ");
+  const std::string name = benches ? "stadion-bench" : "stadion";
+  std::string page = fmt::format(".TH {} 1 \"\" \"stadion {}\" \"User commands\"\n.SH NAME\n{} \\- {}\n",
+                                 name, kVersion, inTroff(name), inTroff(program.get_description()));
+  page += ".SH SYNOPSIS\nstadion COMMAND [OPTION...] [ARGUMENT...]\n.SH COMMANDS\n";
+  for (const NamedCommand& command : commandsOf(program)) page += manOfCommand(command);
+  page += ".SH OPTIONS\nAn option means the same in every command.\n" + manOfOptions(usesOf(program));
+  return page + ".SH EXIT STATUS\n.nf\n" + inTroff(program.get_footer()) + "\n.fi\n";
+}
+
+/// Those of `words` that begin like the last word of the command line.
+std::string beginningWith(const std::string& typed, const std::vector<std::string>& words) {
+  std::string text;
+  for (const std::string& word : words)
+    if (word.starts_with(typed)) text += word + "\n";
+  return text;
+}
+
+/// The command that the words before the last one name.
+const CLI::App& commandOf(const CLI::App& program, std::span<const std::string> words) {
+  const CLI::App* command = &program;
+  for (const std::string& word : words)
+    for (const CLI::App* below : command->get_subcommands([](const CLI::App*) { return true; }))
+      if (below->get_name() == word) {
+        command = below;
+        break;
+      }
+  return *command;
+}
+
+std::vector<std::string> namesIn(const CLI::App& command, bool options) {
+  std::vector<std::string> names;
+  for (const CLI::App* below : command.get_subcommands([](const CLI::App*) { return true; }))
+    if (!options) names.push_back(below->get_name());
+  for (const CLI::Option* option : command.get_options())
+    if (options && option->nonpositional() && !option->get_group().empty())
+      names.push_back(nameOfOption(*option));
+  return names;
+}
+
+/// Of the option's value: its words, or which files.
+std::string valuesOf(const CLI::Option& option, const OptionRow& row, const std::string& typed) {
+  if (row.value.kind == OptionValueKind::File) return ":files\n";
+  if (row.value.kind == OptionValueKind::Folder) return ":folders\n";
+  std::vector<std::string> words;
+  for (const std::string& word : CLI::detail::split(option.get_type_name(), '|'))
+    if (hasWord(row.value.words, word)) words.push_back(word);
+  return beginningWith(typed, words);
+}
+
+std::string completion(const CLI::App& program, std::span<const std::string> words) {
+  const std::string typed = words.empty() ? "" : words.back();
+  const CLI::App& command = commandOf(program, words.empty() ? words : words.first(words.size() - 1));
+  const std::string before = words.size() < 2 ? "" : words[words.size() - 2];
+  const CLI::Option* option = before.starts_with("--") ? command.get_option_no_throw(before) : nullptr;
+  const OptionRow* row = findOption(before);
+  if (option && row && row->value.kind != OptionValueKind::Flag) return valuesOf(*option, *row, typed);
+  if (typed.starts_with('-')) return beginningWith(typed, namesIn(command, true));
+  const std::vector<std::string> below = namesIn(command, false);
+  return below.empty() ? ":files\n" : beginningWith(typed, below);
+}
+
+}  // namespace
+
+std::optional<std::string> referenceAnswer(const CLI::App& program, std::span<const std::string> words) {
+  if (words.empty()) return std::nullopt;
+  if (words[0] == "complete") return completion(program, words.subspan(1));
+  if (words[0] != "manual" || words.size() != 2) return std::nullopt;
+  if (words[1] == "man") return manPage(program);
+  if (words[1] == "options") return optionsPage(program);
+  if (words[1] == "uses") return usesOf(program);
+  return std::nullopt;
+}
+
+}  // namespace stadion

@@ -1,0 +1,21 @@
+#pragma once
+/// What the program says of all its commands and options: man page, table for docs/options.md, shell completion.
+///
+/// `stadion manual man` prints the man page, `manual options` the page of all options, also those of `stadion
+/// bench`; `manual uses` prints a line for each option of each command: name, command, text, with tabs between.
+/// `stadion complete WORD...` prints how the last word may go on, a line each, or ":files" or ":folders".
+
+#include <optional>
+#include <span>
+#include <string>
+
+namespace CLI {
+class App;
+}
+
+namespace stadion {
+
+/// Nothing if the words after the program's name ask for none of these.
+std::optional<std::string> referenceAnswer(const CLI::App& program, std::span<const std::string> words);
+
+}  // namespace stadion

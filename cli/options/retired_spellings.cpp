@@ -1,0 +1,77 @@
+#include "cli/options/retired_spellings.h"
+
+#include "cli/options/value_grammar.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+
+namespace stadion {
+namespace {
+
+// Kinds of values: any other text is a word that the value is.
+constexpr std::string_view kNumber = "<number>", kList = "<list>", kWord = "<word>", kNodeName = "<node>";
+
+constexpr RetiredSpelling kRetired[] = {
+    {"run|cluster", "--trace-events", "", "--trace FILE"},
+    {"run|cluster", "--trace", kNodeName,
+     "--track NODE; --trace FILE is the event trace, FILE with an ending such as .json"},
+    {"profile", "--html", "", "--out DIR, which receives profile.html"},
+    {"profile", "--no-draw", "", "--gl none"},
+    {"plan", "--svg", "", "--out DIR, which receives plan.svg"},
+    {"plan", "--walls", kNumber, "--wall-count N"},
+    {"regress", "--junit", "", "--out DIR, which receives junit.xml"},
+    {"nodes", "--editor", "", "--out DIR"},
+    {"view", "--shots", "", "--out DIR"},
+    {"view|walls", "--stereo", "mono", "--stereo off"},
+    {"view|walls", "--stereo", "quad", "--stereo pair"},
+    {"fit", "--tolerance", "", "--within PERCENT"},
+    {"fit", "--table", "", "--out DIR, which receives the table"},
+    {"calibrate", "--walls", kList, "--walls once for each room"},
+    {"bench flight", "--json", kWord,
+     "--json without a file: it prints to standard output; --out DIR writes flight.json"},
+    {"bench budgets", "--seconds", "", "--stall-time S"},
+    {"bench recording", "--most", "", "--within PERCENT"},
+    {"bench walls", "--only", "", "--scenes a,b,c"},
+    {"bench walls", "--walls", "", "--wall-count N"},
+    {"bench walls", "--nodes", "", "--scene-nodes N"},
+    {"bench walls", "--pictures", "", "--out DIR"},
+};
+
+/// Names of nodes have no dots and begin with no slash; files of traces have an ending, or are devices.
+bool isOfKind(std::string_view kind, std::string_view value) {
+  if (kind == kNumber) return readDecimal(value).has_value();
+  if (kind == kList) return value.find(',') != value.npos;
+  if (kind == kWord) return !value.empty() && !value.starts_with('-');
+  if (kind == kNodeName) return !value.empty() && !value.starts_with('/') && value.find('.') == value.npos;
+  return kind.empty() || kind == value;
+}
+
+std::string commandIn(std::span<const std::string> words) {
+  if (words.empty()) return {};
+  return words[0] == "bench" && words.size() > 1 ? "bench " + words[1] : words[0];
+}
+
+}  // namespace
+
+std::span<const RetiredSpelling> retiredSpellings() {
+  return kRetired;
+}
+
+std::optional<std::string> retiredSpellingIn(std::span<const std::string> words) {
+  const std::string command = commandIn(words);
+  for (std::size_t i = 1; i < words.size() && words[i] != "--"; ++i) {
+    const std::string_view word = words[i];
+    if (!word.starts_with("--")) continue;
+    const std::size_t equals = word.find('=');
+    const std::string_view next = i + 1 < words.size() ? std::string_view(words[i + 1]) : "";
+    const std::string_view option = word.substr(0, equals),
+                           value = equals == word.npos ? next : word.substr(equals + 1);
+    for (const RetiredSpelling& r : kRetired)
+      if (r.option == option && hasWord(r.commands, command) && isOfKind(r.value, value))
+        return fmt::format("{}{} is an earlier spelling; the present one is {}", option,
+                           r.value.empty() ? "" : fmt::format(" {}", value), r.now);
+  }
+  return std::nullopt;
+}
+
+}  // namespace stadion

@@ -1,0 +1,213 @@
+/// Each option means one thing: in all commands, in help, man page, completion and documents.
+
+#include "cli/options/option_table.h"
+#include "cli/options/retired_spellings.h"
+#include "tests/programs/program.h"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <map>
+#include <set>
+#include <sstream>
+
+namespace stadion {
+namespace {
+
+std::string benchPath() {
+  return std::filesystem::path(stadionPath()).replace_filename("stadion-bench");
+}
+
+/// An option of a command, as the program itself has it.
+struct OptionUse {
+  std::string name, command, text;
+};
+
+std::vector<OptionUse> allUses() {
+  std::vector<OptionUse> uses;
+  for (const std::string& program : {stadionPath(), benchPath()}) {
+    std::istringstream lines(runProgram({{program, "manual", "uses"}}).out);
+    for (OptionUse use; std::getline(lines, use.name, '\t');) {
+      std::getline(lines, use.command, '\t'), std::getline(lines, use.text);
+      uses.push_back(use);
+    }
+  }
+  return uses;
+}
+
+/// The subcommands that help lists.
+std::set<std::string> commandsInHelp(const std::vector<std::string>& words, const std::string& prefix) {
+  std::istringstream lines(stadionProgram(words).out);
+  std::set<std::string> commands;
+  bool listed = false;
+  for (std::string line; std::getline(lines, line);) {
+    if (line == "Subcommands:") listed = true;
+    if (!listed || !line.starts_with("  ") || line[2] == ' ') continue;
+    commands.insert(prefix + line.substr(2, line.find(' ', 2) - 2));
+  }
+  return commands;
+}
+
+TEST(OptionTable, HasEachNameOnceAndNoTextTwice) {
+  std::set<std::string_view> names, texts;
+  for (const OptionRow& row : optionTable()) {
+    EXPECT_TRUE(names.insert(row.name).second) << row.name;
+    EXPECT_FALSE(row.text.empty()) << row.name;
+    const bool hasTwin = row.name == "--walls";  // the argument WALLS
+    EXPECT_TRUE(hasTwin || texts.insert(row.text).second) << row.name;
+  }
+}
+
+TEST(OptionTable, AnOptionMeansTheSameInEveryCommand) {
+  std::map<std::string, std::set<std::string>> texts;
+  for (const OptionUse& use : allUses()) {
+    const OptionRow* row = findOption(use.name);
+    ASSERT_TRUE(row) << use.command << " has " << use.name << ", which the table has not";
+    EXPECT_EQ(use.text, row->fullText()) << use.command << " " << use.name;
+    texts[use.name].insert(use.text);
+  }
+  for (const auto& [name, different] : texts) EXPECT_EQ(different.size(), 1u) << name;
+}
+
+TEST(OptionTable, EveryCommandIsLookedAtAndEveryRowIsUsed) {
+  std::set<std::string> commands = commandsInHelp({"--help"}, ""), used, names;
+  commands.erase("bench");
+  for (const std::string& bench : commandsInHelp({"bench", "--help"}, "bench ")) commands.insert(bench);
+  for (const OptionUse& use : allUses()) used.insert(use.command), names.insert(use.name);
+  EXPECT_EQ(used, commands);
+  EXPECT_GT(commands.size(), 20u);
+  for (const OptionRow& row : optionTable()) EXPECT_TRUE(names.contains(std::string(row.name))) << row.name;
+}
+
+TEST(OptionTable, CommandsTakeTheirOptionsFromIt) {
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(STADION_SOURCE_DIR "/cli")) {
+    if (entry.path().extension() != ".cpp" || entry.path().filename() == "command_options.cpp") continue;
+    const std::string code = fileContent(entry.path());
+    for (const char* call : {"add_option", "add_flag", "->description(", ".description("})
+      EXPECT_FALSE(has(code, call)) << entry.path() << ": " << call;
+  }
+}
+
+TEST(OptionTable, ThePageOfOptionsIsWhatTheProgramPrints) {
+  EXPECT_EQ(fileContent(STADION_SOURCE_DIR "/docs/options.md"), stadionProgram({"manual", "options"}).out)
+      << "write it anew: ./stadion manual options > docs/options.md";
+}
+
+std::string sampleOf(std::string_view value) {
+  if (value == "<number>") return "4";
+  if (value == "<list>") return "cave4,powerwall";
+  if (value == "<word>") return "results.json";
+  return value == "<node>" ? "ball" : value.empty() ? "1" : std::string(value);
+}
+
+TEST(RetiredSpellings, AreErrorsThatNameThePresentOne) {
+  for (const RetiredSpelling& r : retiredSpellings()) {
+    std::istringstream commands{std::string(r.commands)};
+    for (std::string command; std::getline(commands, command, '|');) {
+      std::vector<std::string> words;
+      std::istringstream parts(command);
+      for (std::string part; parts >> part;) words.push_back(part);
+      words.insert(words.end(), {std::string(r.option), sampleOf(r.value)});
+      const ProgramResult result = stadionProgram(words);
+      EXPECT_EQ(result.status, 2) << command << " " << r.option;
+      EXPECT_TRUE(has(result.err, std::string(r.option)) && has(result.err, std::string(r.now)))
+          << command << ": " << result.err;
+      EXPECT_EQ(result.out, "");
+    }
+  }
+}
+
+TEST(RetiredSpellings, NameOptionsThatTheCommandHas) {
+  std::set<std::pair<std::string, std::string>> present;
+  for (const OptionUse& use : allUses()) present.insert({use.command, use.name});
+  for (const RetiredSpelling& r : retiredSpellings()) {
+    const std::string command(r.commands.substr(0, r.commands.find('|')));
+    const std::string now(r.now.substr(0, r.now.find(' ')));
+    EXPECT_TRUE(present.contains({command, now})) << command << " " << now;
+    EXPECT_EQ(present.contains({command, std::string(r.option)}), !r.value.empty())
+        << command << " " << r.option;
+  }
+}
+
+TEST(RetiredSpellings, LeavePresentOnesAlone) {
+  const auto finds = [](const std::vector<std::string>& words) {
+    return retiredSpellingIn(words).has_value();
+  };
+  EXPECT_FALSE(finds({"run", "show.evs", "--trace", "events.json", "--track", "ball"}));
+  EXPECT_FALSE(finds({"run", "show.evs", "--trace=/dev/null"}));
+  EXPECT_FALSE(finds({"bench", "dynamics", "--json", "C05"}));
+  EXPECT_FALSE(finds({"plan", "show.evs", "--walls", "cave4"}));
+  EXPECT_FALSE(finds({"profile", "show.evs", "--tolerance", "5"}));
+  EXPECT_TRUE(finds({"run", "show.evs", "--trace=ball"}));
+  EXPECT_TRUE(finds({"run", "show.evs", "--trace", "stage/ball"}));
+}
+
+TEST(ValueGrammar, AMistakeNamesTheValueAndWhatIsAllowed) {
+  const auto mistake = [](const char* option, const char* value) {
+    return findOption(option)->value.mistakeIn(value);
+  };
+  EXPECT_EQ(mistake("--rate", "60Hz"), "\"60Hz\" is not a number from 1 to 1000");
+  EXPECT_EQ(mistake("--rate", "nan"), "\"nan\" is not a number from 1 to 1000");
+  EXPECT_EQ(mistake("--latency", "1.5"), "\"1.5\" is not a whole number from 1 to 4");
+  EXPECT_EQ(mistake("--look", "nice"), "\"nice\" is not full or plain");
+  EXPECT_EQ(mistake("--predict", "101"), "\"101\" is not auto or off, nor a number from 0 to 100");
+  EXPECT_EQ(mistake("--pictures", "0"),
+            "\"0\" is not last, all or none, nor a whole number from 1 to 1000000000");
+  EXPECT_EQ(mistake("--window", "12"),
+            "\"12\" is not WIDTHxHEIGHT in pixels from 1x1 to 16384x16384, such as 800x600");
+  EXPECT_EQ(mistake("--trace-frames", "9..3"), "\"9..3\" is not a range of frames A..B, such as 100..160");
+  EXPECT_EQ(mistake("--out", ""), "\"\" is not the name of a folder: it is empty");
+  EXPECT_EQ(mistake("--node", ""), "\"\" is not a NAME: it is empty");
+}
+
+TEST(ValueGrammar, AllowsWhatItNames) {
+  for (const auto& [option, value] :
+       std::vector<std::pair<const char*, const char*>>{{"--rate", "60"},
+                                                        {"--frames", "1000000000000"},
+                                                        {"--predict", "auto"},
+                                                        {"--predict", "12.5"},
+                                                        {"--pictures", "30"},
+                                                        {"--size", "800x600"},
+                                                        {"--trace-frames", "3..3"},
+                                                        {"--wind", "-5"},
+                                                        {"--stereo", "off"}})
+    EXPECT_EQ(findOption(option)->value.mistakeIn(value), "") << option;
+}
+
+TEST(Completion, KnowsCommandsOptionsAndValues) {
+  const auto complete = [](std::vector<std::string> words) {
+    words.insert(words.begin(), "complete");
+    return stadionProgram(words).out;
+  };
+  EXPECT_EQ(complete({"pr"}), "profile\n");
+  EXPECT_EQ(complete({"run", "--trace-"}), "--trace-frames\n--trace-limit\n");
+  EXPECT_EQ(complete({"run", "a.evs", "--mode", ""}), "pipelined\nsequential\n");
+  EXPECT_EQ(complete({"plan", "--mode", "a"}), "all\n");
+  EXPECT_EQ(complete({"run", "--pictures", ""}), "last\nall\nnone\n");
+  EXPECT_EQ(complete({"run", "--out", ""}), ":folders\n");
+  EXPECT_EQ(complete({"run", "--walls", ""}), ":files\n");
+  EXPECT_EQ(complete({"run", ""}), ":files\n");
+  EXPECT_EQ(complete({"bench", "wa"}), "walls\n");
+  EXPECT_EQ(complete({"bench", "walls", "--scene-"}), "--scene-nodes\n");
+  EXPECT_EQ(complete({"run", "--ends-"}), "") << "an internal option";
+}
+
+TEST(ManPage, HasEachOptionOnce) {
+  for (const std::string& program : {stadionPath(), benchPath()}) {
+    const std::string page = runProgram({{program, "manual", "man"}}).out;
+    EXPECT_TRUE(page.starts_with(program == stadionPath() ? ".TH stadion 1" : ".TH stadion-bench 1"));
+    const std::string entry = "\n.TP\n.B \\-\\-json\n";
+    ASSERT_NE(page.find(entry), std::string::npos);
+    EXPECT_EQ(page.find(entry), page.rfind(entry));
+  }
+}
+
+TEST(Options, AWrongValueNamesOptionValueAndWhatIsAllowed) {
+  const ProgramResult r = stadionProgram({"walls", "cave4", "--pattern", "--size", "12x12"});
+  EXPECT_EQ(r.status, 2);
+  EXPECT_TRUE(has(r.err, "--size: \"12x12\" is not WIDTHxHEIGHT in pixels from 16x16 to 16384x16384"))
+      << r.err;
+}
+
+}  // namespace
+}  // namespace stadion
