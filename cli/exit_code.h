@@ -8,7 +8,7 @@
 
 namespace stadion {
 
-/// kOtherFiles and kStopped are those of any process that plays a show.
+/// kOtherFiles, kWrongWrite and kStopped are those of any process that plays a show.
 enum ExitCode : int {
   kOk = kPlayed,
   kCheckFailed = 1,          ///< a check or comparison failed
@@ -17,8 +17,8 @@ enum ExitCode : int {
 };
 
 /// Of a run that could not go on.
-inline ExitCode exitCodeOf(const Reason& why) {
-  return why.kind == FailureKind::Refusal ? kBadInput : kInternalFault;
+inline int exitCodeOf(const Reason& why) {
+  return statusOf(why);
 }
 
 /// Writes to stderr why the program ends with `code`. Returns `code`.

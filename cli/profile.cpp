@@ -123,9 +123,10 @@ int profileFrames(ProfileOptions o) {
   TerminalReporter terminal;
   std::error_code unmade;  // reported when the page is opened
   if (settled && !o.out.empty()) std::filesystem::create_directories(o.out, unmade);
-  const auto figures = settled ? profileShow(options, terminal, findings) : std::nullopt;
+  Failure failure;
+  const auto figures = settled ? profileShow(options, terminal, findings, failure) : std::nullopt;
   tell(findings);
-  if (!figures) return kBadInput;
+  if (!figures) return failure ? exitCodeOf(*failure) : kBadInput;
   std::printf("%s", o.json  ? (toJson(*figures) + "\n").c_str()
                     : o.csv ? toCsv(*figures).c_str()
                             : toText(*figures, o.nodes).c_str());
@@ -210,6 +211,7 @@ void addProfileCommand(CLI::App& app, int& code) {
   options.add("--stereo", o->run.stereo, {.words = "pair|off"});
   options.add("--gl", o->run.provider, {.words = "osmesa|egl|none"});
   o->blackBox = options.add("--black-box", o->blackBoxFile).valueMayBeMissing().option();
+  addGuardOption(*command, o->run.guard);
   options.add("--nodes", o->nodes);
   options.add("--out", o->out);
   addTraceOptions(*command, o->trace);

@@ -104,7 +104,8 @@ int benchAttribution(const BenchAttributionOptions& o) {
     options.show.mode = "sequential";  // so that nothing else of the process is at work meanwhile
     options.show.frames = o.frames, options.show.assetRoots = {scripts};
     if (!options.show.settle(findings)) return tell(findings), kBadInput;
-    const auto figures = profileShow(options, terminal, findings);
+    Failure failure;
+    const auto figures = profileShow(options, terminal, findings, failure);
     tell(findings);
     if (!figures) return stopSignal() ? kStopped + stopSignal() : kBadInput;
     met = tellFigures(*figures, show, o.json) && met;

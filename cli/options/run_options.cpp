@@ -55,6 +55,10 @@ void addHeadOptions(CLI::App& command, RunOptions& o) {
   options.add("--predict", o.predict);
 }
 
+void addGuardOption(CLI::App& command, bool& guard) {
+  CommandOptions(command).add("--guard", guard);
+}
+
 void addBlackBoxOption(CLI::App& command, RecordSettings& o) {
   CommandOptions(command).add("--black-box", o.blackBox);
 }
@@ -113,6 +117,7 @@ void addRunOptions(CLI::App& command, RunOptions& o) {
   addDrawingOptions(options, o);
   addOutputOptions(options, o);
   addBlackBoxOption(command, settings.record);
+  addGuardOption(command, settings.play.guard);
   addTraceOptions(command, o.trace);
   addClusterOptions(command, settings.cluster);
   addLoadOptions(command, o);

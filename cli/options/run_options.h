@@ -58,6 +58,8 @@ void addOperatorOptions(CLI::App& command, RunOptions& o);
 void addClusterOptions(CLI::App& command, ClusterSettings& o);
 void addHeadOptions(CLI::App& command, RunOptions& o);
 void addLoadOptions(CLI::App& command, RunOptions& o);
+/// --guard, the same in all commands that play a show.
+void addGuardOption(CLI::App& command, bool& guard);
 void addBlackBoxOption(CLI::App& command, RecordSettings& o);
 void addSupervisionOptions(CLI::App& command, RunOptions& o);
 void addTraceOptions(CLI::App& command, TraceRequest& o);

@@ -24,6 +24,7 @@ void ViewOptions::addTo(CLI::App& command) {
   addOperatorOptions(command, run);
   addLoadOptions(command, run);
   addBlackBoxOption(command, session.record);
+  addGuardOption(command, session.play.guard);
   options.add("--gl", provider, {.words = "osmesa|egl|auto"});
   std::string keys = "Keys and mouse:\n";
   for (const std::string& line : viewKeys()) keys += "  " + line + "\n";

@@ -57,6 +57,20 @@ std::uint32_t numberOf(std::size_t wall) {
   return static_cast<std::uint32_t>(wall);
 }
 
+/// "Cull of wall 2, frame 17"
+std::string stageText(const char* what, std::size_t wall, std::uint64_t frame) {
+  std::string text = what;
+  if (wall != kAllWalls) text += " of wall " + std::to_string(wall + 1);
+  if (frame != kNoFrame) text += ", frame " + std::to_string(frame);
+  return text;
+}
+
+Reason reasonOf(const std::string& stage, const WrongWrite& wrong) {
+  Reason why(stage + ": wrote to " + wrong.what, FailureKind::WrongWrite);
+  why.node = wrong.node;
+  return why;
+}
+
 }  // namespace
 
 /// A pipelined run: what its threads share, and the work of each kind of thread.
@@ -160,7 +174,7 @@ FrameLoop::Pipeline::Pipeline(FrameLoop& loop)
     : loop_(loop), walls_(loop.options_.walls),
       slots_(walls_, loop.options_.orders ? Delivery::Every : loop.options_.delivery), swap_(walls_),
       opened_(walls_ + 1), warm_(walls_ + 1) {
-  while (queues_.size() < walls_) queues_.emplace_back(loop.options_.drawBeginsEarly);
+  while (queues_.size() < walls_) queues_.emplace_back(loop.options_.drawBeginsEarly && !loop.options_.watch);
 }
 
 void FrameLoop::Pipeline::app() {
@@ -178,12 +192,15 @@ void FrameLoop::Pipeline::app() {
   slots_.finish();
 }
 
+// A wall leases a slot only once it has an empty list. So the walls of a room never lease more than the two
+// frames after the one shown last, and App always finds the third slot.
 void FrameLoop::Pipeline::cull(std::size_t wall) {
   const auto nextLease = [&] { return slots_.lease(wall); };
-  while (const auto lease = loop_.waited(Span::ForFrame, kNoFrame, wall, nextLease)) {
-    const std::uint64_t frame = lease->ticket.signature.frame;
-    DrawList* list = loop_.waited(Span::ForList, frame, wall, [&] { return queues_[wall].takeEmpty(); });
-    if (!list || !loop_.cullStage(wall, lease->slot, lease->ticket, *list)) return;
+  const auto emptyList = [&] { return queues_[wall].takeEmpty(); };
+  while (DrawList* list = loop_.waited(Span::ForList, kNoFrame, wall, emptyList)) {
+    const auto lease = loop_.waited(Span::ForFrame, kNoFrame, wall, nextLease);
+    if (!lease) break;
+    if (!loop_.cullStage(wall, lease->slot, lease->ticket, *list)) return;
     list->filling->finish(!slots_.release(*lease));
   }
   queues_[wall].finish();
@@ -386,12 +403,21 @@ bool FrameLoop::guard(const char* what, std::size_t wall, std::uint64_t frame, c
   }
 }
 
+/// The same, and under a watch also if the stage writes to the published scene.
+template <class Work>
+bool FrameLoop::watched(const char* what, std::size_t wall, std::uint64_t frame, const Work& work) {
+  if (!options_.watch) return guard(what, wall, frame, work);
+  return guard(what, wall, frame, [&]() -> Failure {
+    const WriteGuard::Stage stage;
+    Failure f = work();
+    const auto wrong = f ? std::nullopt : options_.watch->inScene(stage);
+    return wrong ? Failure(reasonOf(stageText(what, wall, frame), *wrong)) : std::move(f);
+  });
+}
+
 bool FrameLoop::fail(const char* what, std::size_t wall, std::uint64_t frame, const char* why) noexcept {
   try {
-    std::string text = what;
-    if (wall != kAllWalls) text += " of wall " + std::to_string(wall + 1);
-    if (frame != kNoFrame) text += ", frame " + std::to_string(frame);
-    return fail(Reason(text + ": " + why));
+    return fail(Reason(stageText(what, wall, frame) + ": " + why));
   } catch (...) {
     return fail(Reason("out of memory"));  // not even enough memory for a message
   }
@@ -411,8 +437,8 @@ std::optional<FrameTicket> FrameLoop::appStage(const FrameOrder& order, std::siz
   FrameTicket ticket{now, Clock::now()};
   ticket.shown = order.shown;
   if (order.still != Standstill::None) {
-    if (!guard("App", kAllWalls, now.frame, [&]() -> Failure { return stages_.still(now, slot), Failure(); }))
-      return std::nullopt;
+    const auto still = [&]() -> Failure { return stages_.still(now, slot), Failure(); };
+    if (!watched("App", kAllWalls, now.frame, still)) return std::nullopt;
     ticket.last = ended_ = options_.orders ? order.last : noneFollows();
     ticket.drawn = order.drawn;
     ticket.posed = stages_.headMeasured().value_or(ticket.began);
@@ -420,8 +446,8 @@ std::optional<FrameTicket> FrameLoop::appStage(const FrameOrder& order, std::siz
   }
   {
     const StageSpan span(times_.app, probe_, Span::App, now.frame);
-    if (!guard("App", kAllWalls, now.frame, [&]() -> Failure { return stages_.app(now, slot), Failure(); }))
-      return std::nullopt;
+    const auto app = [&]() -> Failure { return stages_.app(now, slot), Failure(); };
+    if (!watched("App", kAllWalls, now.frame, app)) return std::nullopt;
   }
   ++outcome_.framesSimulated;
   ticket.posed = stages_.headMeasured().value_or(ticket.began);
@@ -436,7 +462,8 @@ bool FrameLoop::cullStage(std::size_t wall, std::size_t slot, const FrameTicket&
   list.ticket = ticket;
   if (ticket.drawn) {
     const StageSpan span(times_.cull[wall], probe_, Span::Cull, frame, numberOf(wall));
-    well = guard("Cull", wall, frame, [&]() -> Failure { return stages_.cull(wall, slot, list), Failure(); });
+    const auto cull = [&]() -> Failure { return stages_.cull(wall, slot, list), Failure(); };
+    well = watched("Cull", wall, frame, cull);
   }
   return well;
 }
@@ -474,14 +501,19 @@ bool FrameLoop::drawStage(std::size_t wall, DrawList& list) {
   if (!list.ticket.drawn) return true;
   const std::uint64_t frame = list.ticket.signature.frame;
   StageSpan span(times_.draw[wall], probe_, Span::Draw, frame, numberOf(wall));
-  const auto draw = [&] {
-    stages_.latch(wall, list);
-    return stages_.draw(wall, list);
-  };
-  if (guard("Draw", wall, frame, draw)) return true;
+  if (watched("Draw", wall, frame, [&] { return drawWall(wall, list); })) return true;
   span.leaveOut();
   broken_ = true;  // stops the run even without a failure: the other walls would wait for this one
   return false;
+}
+
+Failure FrameLoop::drawWall(std::size_t wall, DrawList& list) {
+  stages_.latch(wall, list);
+  if (!options_.watch) return stages_.draw(wall, list);
+  options_.watch->keep(wall, list);
+  if (Failure f = stages_.draw(wall, list)) return f;
+  const auto wrong = options_.watch->inList(wall, list);
+  return wrong ? Failure(reasonOf(stageText("Draw", wall, list.ticket.signature.frame), *wrong)) : Failure();
 }
 
 bool FrameLoop::swapStage(const FrameTicket& ticket) {

@@ -14,6 +14,7 @@
 #include "pipeline/frame/playback.h"
 #include "pipeline/loop/frame_orders.h"
 #include "pipeline/loop/pacer.h"
+#include "pipeline/loop/write_watch.h"
 #include "pipeline/operator/operator_desk.h"
 #include "pipeline/state/frame_slots.h"
 #include "pipeline/wall/stages.h"
@@ -56,6 +57,9 @@ struct FrameLoopOptions {
   OperatorDesk* desk = nullptr;    ///< its commands are taken at the start of each frame; null = none
   /// The other hosts that play this show, which is then shown frame by frame; null = there are none.
   FrameOrders* orders = nullptr;
+  /// Ends the run at the first write of a stage to what it may only read; null = nothing is watched. While it
+  /// watches, Draw waits for the whole list.
+  WriteWatch* watch = nullptr;
 };
 
 struct FrameLoopOutcome {
@@ -116,6 +120,9 @@ private:
   void closeStage(std::size_t wall);
   template <class Work>
   bool guard(const char* what, std::size_t wall, std::uint64_t frame, const Work& work);
+  template <class Work>
+  bool watched(const char* what, std::size_t wall, std::uint64_t frame, const Work& work);
+  Failure drawWall(std::size_t wall, DrawList& list);
   bool fail(const char* what, std::size_t wall, std::uint64_t frame, const char* why) noexcept;
   bool fail(Reason why);
 

@@ -3,6 +3,8 @@
 #include "pipeline/state/still_bounds.h"
 
 #include <cstring>
+#include <fcntl.h>
+#include <new>
 
 namespace stadion {
 namespace {
@@ -26,7 +28,7 @@ std::size_t bytesFor(std::size_t count) {
 
 }  // namespace
 
-ChunkArena::ChunkArena() : segment_("stadion-chunks", std::size_t{1} << 34) {}
+ChunkArena::ChunkArena() : segment_("stadion-chunks", kReserve) {}
 
 std::size_t ChunkArena::allocate(std::size_t bytes) {
   for (auto at = free_.begin(); at != free_.end(); ++at) {
@@ -98,12 +100,47 @@ ChunkView ChunkArena::find(ChunkId id, std::size_t slot) const {
   const auto at = chunks_.find(id);
   if (at == chunks_.end()) return {};
   const Extent& x = at->second;
-  std::byte* base = segment_.data() + x.offset;
-  const std::size_t words = hiddenWords(x.count);
-  auto* hidden = reinterpret_cast<std::uint64_t*>(base + x.count * sizeof(InstanceRecord)) + slot * words;
+  const std::byte* base = (readers_ ? *readers_ : segment_).data() + x.offset;
   return {{reinterpret_cast<const InstanceRecord*>(base), x.count},
-          {hidden, words},
+          {reinterpret_cast<const std::uint64_t*>(base + hiddenAt(x, slot)), hiddenWords(x.count)},
           stillBounds(base + boundsAt(x.count), x.count)};
+}
+
+/// Behind the records.
+std::size_t ChunkArena::hiddenAt(const Extent& x, std::size_t slot) {
+  return x.count * sizeof(InstanceRecord) + slot * hiddenWords(x.count) * sizeof(std::uint64_t);
+}
+
+std::span<std::uint64_t> ChunkArena::hidden(ChunkId id, std::size_t slot) {
+  const std::lock_guard lock(mutex_);
+  const auto at = chunks_.find(id);
+  if (at == chunks_.end()) return {};
+  const Extent& x = at->second;
+  return {reinterpret_cast<std::uint64_t*>(segment_.data() + x.offset + hiddenAt(x, slot)),
+          hiddenWords(x.count)};
+}
+
+std::span<std::byte> ChunkArena::separateReaders() {
+  const std::lock_guard lock(mutex_);
+  if (!readers_) {
+    const int descriptor = fcntl(segment_.descriptor(), F_DUPFD_CLOEXEC, 0);
+    if (descriptor < 0) throw std::bad_alloc();
+    readers_ = std::make_unique<SharedSegment>(descriptor, kReserve, SharedSegment::Access::Read);
+  }
+  return {readers_->data(), kReserve};
+}
+
+const InstanceRecord* ChunkArena::recordAt(const void* address) const {
+  const std::lock_guard lock(mutex_);
+  if (!readers_) return nullptr;
+  const auto* at = static_cast<const std::byte*>(address);
+  for (const auto& [id, x] : chunks_) {
+    const std::byte* first = readers_->data() + x.offset;
+    if (at < first || at >= first + x.count * sizeof(InstanceRecord)) continue;
+    const auto index = static_cast<std::size_t>(at - first) / sizeof(InstanceRecord);
+    return reinterpret_cast<const InstanceRecord*>(first) + index;
+  }
+  return nullptr;
 }
 
 std::size_t ChunkArena::bytesInUse() const {

@@ -5,6 +5,7 @@
 /// Frames    records are in World.
 /// Threads   add() and free() from any thread (the loader's); find() from any thread while the chunk lives.
 /// Lifetime  the caller of free() makes sure that no slot shows the chunk any more.
+/// Access    what find() returns is for reading; only hidden() is for writing, by App.
 
 #include "engine/published/records.h"
 #include "pipeline/state/bounds_tree.h"
@@ -12,6 +13,7 @@
 
 #include <array>
 #include <map>
+#include <memory>
 #include <mutex>
 #include <span>
 
@@ -22,9 +24,9 @@ constexpr std::size_t kSlots = 3;
 /// One chunk as the stages see it.
 struct ChunkView {
   std::span<const InstanceRecord> records;
-  std::span<std::uint64_t> hidden;  ///< one bit per record, for the requested slot: the object has left the
-                                    ///< chunk
-  BoundsTree bounds;                ///< of all shown records, including those that have left
+  std::span<const std::uint64_t> hidden;  ///< one bit per record, for the requested slot: the object has
+                                          ///< left the chunk
+  BoundsTree bounds;                      ///< of all shown records, including those that have left
 };
 
 class ChunkArena {
@@ -35,6 +37,14 @@ public:
   ChunkId add(std::span<const InstanceRecord> records);
   void free(ChunkId id);
   ChunkView find(ChunkId id, std::size_t slot) const;
+  /// The same bits as ChunkView::hidden, for App; empty if there is no such chunk.
+  std::span<std::uint64_t> hidden(ChunkId id, std::size_t slot);
+
+  /// From now on find() returns places in a second mapping, which is read-only. Returns all of it. Earlier
+  /// places remain good. Throws std::bad_alloc.
+  std::span<std::byte> separateReaders();
+  /// The record that contains this address of the second mapping; null: none does.
+  const InstanceRecord* recordAt(const void* address) const;
 
   std::size_t bytesInUse() const;
 
@@ -43,11 +53,15 @@ private:
     std::size_t offset = 0, bytes = 0, count = 0;
   };
 
+  static constexpr std::size_t kReserve = std::size_t{1} << 34;
+
+  static std::size_t hiddenAt(const Extent& x, std::size_t slot);
   Extent reserve(std::size_t count, ChunkId& id);
   std::size_t allocate(std::size_t bytes);
 
   mutable std::mutex mutex_;
   SharedSegment segment_;
+  std::unique_ptr<SharedSegment> readers_;  ///< the second mapping; null: there is one only
   std::map<ChunkId, Extent> chunks_;
   std::map<std::size_t, std::size_t> free_;  ///< offset to bytes, neighbours merged
   ChunkId next_ = 1;

@@ -3,6 +3,7 @@
 ///
 /// App asks for a slot to write. The Cull stages of all walls get the same frames in the same order, each as
 /// a lease on its slot. A leased slot is never written. The frame is chosen once, when the first wall asks.
+/// Walls should ask only when they can use a frame at once: then one slot always remains for App.
 ///
 /// Threads  every function from any thread; one thread per wall.
 

@@ -31,6 +31,21 @@ static_assert(kStamps * kInstancesAStamp * sizeof(InstanceRecord) >= kReserve);
 constexpr std::size_t kStampsAt = std::size_t{1} << 16;
 constexpr std::size_t kInstancesAt = kStampsAt + kStamps * sizeof(std::uint32_t);
 
+std::string_view publishedField(const InstanceRecord& r, const void* address) {
+  const auto* at = static_cast<const std::byte*>(address);
+  const auto in = [&](const auto& field) {
+    const auto* first = reinterpret_cast<const std::byte*>(&field);
+    return at >= first && at < first + sizeof field;
+  };
+  return in(r.model)    ? "model"
+         : in(r.centre) ? "centre"
+         : in(r.radius) ? "radius"
+         : in(r.mesh)   ? "mesh"
+         : in(r.flags)  ? "flags"
+         : in(r.owner)  ? "owner"
+                        : "lodFactor";
+}
+
 void setBit(std::span<std::uint64_t> words, std::uint32_t index, bool on) {
   const std::uint64_t bit = std::uint64_t{1} << (index % 64);
   words[index / 64] = on ? words[index / 64] | bit : words[index / 64] & ~bit;
@@ -108,9 +123,10 @@ std::size_t SceneState::catchUp(std::size_t slot) {
     Header& to = header(slot);
     const Header& from = header(newest_);
     for (const auto& [chunk, indices] : missed.statics) {
-      const ChunkView was = arena_.find(chunk, newest_), is = arena_.find(chunk, slot);
+      const ChunkView was = arena_.find(chunk, newest_);
       if (was.records.empty()) continue;
-      for (const std::uint32_t index : indices) setBit(is.hidden, index, bitOf(was.hidden, index));
+      const std::span<std::uint64_t> is = arena_.hidden(chunk, slot);
+      for (const std::uint32_t index : indices) setBit(is, index, bitOf(was.hidden, index));
     }
     to.lightCount = from.lightCount;
     std::copy_n(from.lights, from.lightCount, to.lights);
@@ -153,8 +169,8 @@ void SceneState::apply(std::size_t slot, const ChangeSet& changes) {
   Header& h = header(slot);
   if (!changes.chunks.empty() || !changes.statics.empty()) ++stillVersion_;
   for (const ChangeSet::StaticItem& s : changes.statics)
-    if (const ChunkView there = arena_.find(s.chunk, slot); !there.records.empty())
-      setBit(there.hidden, s.index, s.hidden);
+    if (const std::span<std::uint64_t> hidden = arena_.hidden(s.chunk, slot); !hidden.empty())
+      setBit(hidden, s.index, s.hidden);
   for (const ChangeSet::Chunk& c : changes.chunks) {
     ChunkId* end = std::remove(h.chunks, h.chunks + h.chunkCount, c.id);
     assert(!c.shown || end < h.chunks + kMaxChunks);
@@ -201,6 +217,7 @@ std::size_t SceneState::publish(std::size_t slot, const ChangeSet& changes) {
 
 void SceneState::begin(std::size_t slot) {
   writing_ = slot, taken_ = 0;
+  if (guard_) guard_->open(slot % memory_.size());
   // Odd during writing, also after a frame that was begun and abandoned.
   std::atomic<std::uint64_t>& writes = header(slot).writes;
   writes.fetch_add(writes.load(std::memory_order_relaxed) % 2 == 0 ? 1 : 2, std::memory_order_acq_rel);
@@ -242,6 +259,7 @@ std::size_t SceneState::finish(const ChangeSet& changes) {
   const std::size_t copied = catchUp(slot);
   apply(slot, changes);
   header(slot).writes.fetch_add(1, std::memory_order_acq_rel);
+  if (guard_) guard_->close(slot % memory_.size());
   for (std::size_t other = 0; other < kSlots; ++other)
     if (other != slot) miss(other, changes);
   newest_ = slot;
@@ -262,6 +280,50 @@ SlotView SceneState::view(std::size_t slot) const {
   v.slot = slot;
   v.stillVersion = h.stillVersion;
   return v;
+}
+
+void SceneState::guard(WriteGuard& guard) {
+  for (const auto& memory : memory_) guard.add(memory->data(), kReserve);
+  const std::span<std::byte> still = arena_.separateReaders();
+  guard.close(guard.add(still.data(), still.size()));
+  guard_ = &guard;
+}
+
+void SceneState::unguard() {
+  guard_ = nullptr;
+}
+
+PublishedPlace SceneState::placeOf(const void* address) const {
+  const auto* at = static_cast<const std::byte*>(address);
+  if (const InstanceRecord* still = arena_.recordAt(at)) return {publishedField(*still, at), still->owner};
+  for (std::size_t slot = 0; slot < memory_.size(); ++slot) {
+    const std::byte* first = memory_[slot]->data();
+    if (at < first || at >= first + kReserve) continue;
+    const Header& h = header(slot);
+    if (at < first + kStampsAt) return placeIn(h, at);
+    if (at < first + kInstancesAt) return {"stamps", {}};
+    const auto index = static_cast<std::size_t>(at - first - kInstancesAt) / sizeof(InstanceRecord);
+    if (index >= h.instanceCount) return {"instances", {}};
+    const InstanceRecord& record = instances(slot)[index];
+    return {publishedField(record, at), record.owner};
+  }
+  return {"chunks", {}};
+}
+
+PublishedPlace SceneState::placeIn(const Header& h, const std::byte* address) {
+  const auto in = [&](const auto& field) {
+    const auto* first = reinterpret_cast<const std::byte*>(&field);
+    return address >= first && address < first + sizeof field;
+  };
+  for (const LightRecord& light : h.lights)
+    if (in(light)) return {"lights", light.owner};
+  return {in(h.signature) ? "signature"
+          : in(h.viewer)  ? "viewer"
+          : in(h.sky)     ? "sky"
+          : in(h.shadows) ? "shadows"
+          : in(h.chunks)  ? "chunks"
+                          : "header",
+          {}};
 }
 
 }  // namespace stadion

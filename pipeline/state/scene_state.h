@@ -12,10 +12,12 @@
 
 #include "pipeline/state/chunk_arena.h"
 #include "pipeline/state/slot_memory.h"
+#include "pipeline/state/write_guard.h"
 
 #include <atomic>
 #include <map>
 #include <memory>
+#include <string_view>
 
 namespace stadion {
 
@@ -52,6 +54,12 @@ struct SlotView {
   }
 };
 
+/// A part of the published scene.
+struct PublishedPlace {
+  std::string_view field;  ///< as in the records
+  NodeRef node;            ///< invalid: of no node
+};
+
 class SceneState final : public ChangeSet::Sink {
 public:
   static constexpr std::size_t kMaxLights = kMostLights, kMaxChunks = kMostChunks;
@@ -72,6 +80,14 @@ public:
   void take(std::span<const ChangeSet::Instance> block) override;
   std::size_t finish(const ChangeSet& changes);
   SlotView view(std::size_t slot) const;
+
+  /// From now on slots and static objects are read-only, except for App while it publishes. Expects a new
+  /// guard, and that no stage runs. Throws std::bad_alloc.
+  void guard(WriteGuard& guard);
+  /// Before the guard goes.
+  void unguard();
+  /// What stands at an address that the guard has caught. By the thread that wrote there, in its stage.
+  PublishedPlace placeOf(const void* address) const;
   /// Returns the number of changes noted for slots that were not written since. Each slot has at most one for
   /// each moved instance and one for each object that has left a visible chunk, however long the show runs.
   std::size_t noted() const;
@@ -94,6 +110,7 @@ private:
   void makeRoom(std::size_t slot, std::size_t instanceCount);
   std::size_t catchUp(std::size_t slot);
   void apply(std::size_t slot, const ChangeSet& changes);
+  static PublishedPlace placeIn(const Header& header, const std::byte* address);
   void miss(std::size_t slot, const ChangeSet& changes);
 
   ChunkArena arena_;
@@ -108,8 +125,9 @@ private:
   std::uint64_t stillVersion_ = 0;
   std::size_t newest_ = 0;
   bool any_ = false;
-  std::size_t writing_ = 0;  ///< the slot that was begun
-  std::size_t taken_ = 0;    ///< instances since then
+  std::size_t writing_ = 0;      ///< the slot that was begun
+  std::size_t taken_ = 0;        ///< instances since then
+  WriteGuard* guard_ = nullptr;  ///< null: none; its range i is memory_[i]
 };
 
 }  // namespace stadion

@@ -25,8 +25,9 @@ namespace stadion {
 
 /// The origin of a failure.
 enum class FailureKind {
-  Fault,    ///< in Stadion or OpenGL
-  Refusal,  ///< the user can mend it: a full disk, a picture that is too large
+  Fault,       ///< in Stadion or OpenGL
+  Refusal,     ///< the user can mend it: a full disk, a picture that is too large
+  WrongWrite,  ///< a stage wrote what it may only read (FrameLoopOptions::watch)
 };
 
 /// Why a stage could not go on.
@@ -40,6 +41,7 @@ struct Reason {
 
   std::string message;
   FailureKind kind = FailureKind::Fault;
+  NodeRef node{};  ///< the node that it is about; invalid: none
 };
 
 using Failure = std::optional<Reason>;  ///< nothing = all is well

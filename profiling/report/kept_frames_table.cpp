@@ -23,14 +23,14 @@ void KeptFrames::take(std::size_t number, const SpanRecord& r) {
     return;
   }
   if (r.frame == kNoFrame) {
-    track.wait = r;
+    track.waits.add(r);
     track.parts.clear();
     return;
   }
-  if (track.wait) add(r.frame, number, *track.wait);
+  for (const SpanRecord& wait : track.waits) add(r.frame, number, wait);
   add(r.frame, number, r);
   for (const SpanRecord& part : track.parts) add(r.frame, number, part);
-  track.wait.reset(), track.parts.clear();
+  track.waits.clear(), track.parts.clear();
 }
 
 /// For spans of nodes, there is room only for the most expensive ones.

@@ -10,9 +10,9 @@
 
 #include "profiling/record/frame_facts.h"
 #include "profiling/record/frame_log.h"
+#include "profiling/record/frame_waits.h"
 
 #include <map>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -65,7 +65,7 @@ private:
 
   struct Track {
     std::vector<SpanRecord> parts;
-    std::optional<SpanRecord> wait;  ///< for a frame that is not yet known
+    FrameWaits waits;
   };
   ProfileClock::time_point began_ = ProfileClock::now();
   std::map<std::size_t, Track> tracks_;

@@ -33,7 +33,7 @@ void TraceFile::take(std::size_t number, const SpanRecord& r) {
   }
   if (r.frame == kNoFrame) {
     track.spans.clear();
-    track.wait = r;
+    track.waits.add(r);
     return;
   }
   threads_.see(number, r);
@@ -41,7 +41,7 @@ void TraceFile::take(std::size_t number, const SpanRecord& r) {
     oldestFrame_ = std::min(oldestFrame_, r.frame), newestFrame_ = std::max(newestFrame_, r.frame);
   if (cutFrom_ == kNoFrame && bytes_ + text_.size() > options_.mostBytes) cutFrom_ = newestFrame_ + 1;
   if (isAsked(r.frame)) write(number, r);
-  track.spans.clear(), track.wait.reset();
+  track.spans.clear(), track.waits.clear();
 }
 
 /// A counter keeps its value until the next one.
@@ -60,7 +60,7 @@ void TraceFile::take(const CountRecord& c) {
 /// Writes a stage with all its parts. If two slices begin together, viewers take the first for the outer one.
 void TraceFile::write(std::size_t number, const SpanRecord& root) {
   Track& track = tracks_[number];
-  if (track.wait) writeSpan(number, *track.wait, root.frame);
+  for (const SpanRecord& wait : track.waits) writeSpan(number, wait, root.frame);
   // Parts of a stage with a lost record lie outside of this one.
   std::erase_if(track.spans,
                 [&](const SpanRecord& s) { return s.began < root.began || s.ended > root.ended; });
@@ -132,10 +132,10 @@ const TraceFile::Name& TraceFile::nameOfNode(NodeRef node) {
     return unknown_;
   }
   const std::string place = fmt::format("{}:{}", name->file, name->line);
-  return nodes_[node] = {trace::jsonText(name->path),
-                         fmt::format(",\"kind\":{},\"script\":{}", trace::jsonText(name->type),
-                                     trace::jsonText(place)),
-                         name->path};
+  return nodes_[node] = {
+             trace::jsonText(name->path),
+             fmt::format(",\"kind\":{},\"script\":{}", trace::jsonText(name->type), trace::jsonText(place)),
+             name->path};
 }
 
 trace::Ticks TraceFile::ticks(ProfileClock::time_point t) const {

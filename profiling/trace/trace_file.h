@@ -11,6 +11,7 @@
 ///            all.
 
 #include "profiling/record/frame_log.h"
+#include "profiling/record/frame_waits.h"
 #include "profiling/record/node_names.h"
 #include "profiling/record/thread_names.h"
 #include "profiling/trace/trace_events.h"
@@ -51,8 +52,8 @@ public:
 
 private:
   struct Track {
-    std::vector<SpanRecord> spans;   ///< spans of the stage under way
-    std::optional<SpanRecord> wait;  ///< for a frame that is not yet known
+    std::vector<SpanRecord> spans;  ///< spans of the stage under way
+    FrameWaits waits;
   };
   struct Name {
     std::string text, args;  ///< as JSON

@@ -3,6 +3,7 @@
 #include "engine/base/atomic_file.h"
 #include "show/base/stop_signal.h"
 #include "show/measure/profile_report.h"
+#include "show/player/write_watching.h"
 #include "show/recording/last_frames.h"
 #include "show/recording/show_recording.h"
 
@@ -36,7 +37,7 @@ std::unique_ptr<ShowRecording> record(const ProfileRunOptions& options, const Pl
 }  // namespace
 
 std::optional<ShowFigures> profileShow(const ProfileRunOptions& options, Reporter& reporter,
-                                       Diagnostics& findings) {
+                                       Diagnostics& findings, Failure& failure) {
   const std::atomic<bool>& stop = catchStopSignals();
   std::unique_ptr<GlProvider> provider;
   if (options.drawn) {
@@ -67,13 +68,17 @@ std::optional<ShowFigures> profileShow(const ProfileRunOptions& options, Reporte
     player->collect(running->shownFrame());
     reporter.progress(now.frame + 1, loopOptions.frames);
   };
+  const auto watch = watchWrites(options.guard, parts, loopOptions);
   ShowStages stages(std::move(parts));
   running = &stages;
   FrameLoop loop(stages, loopOptions, stop, &recording->probe());
   const FrameLoopOutcome outcome = loop.run();
   reporter.progressOver();
-  if (outcome.failure) recording->keepLastFrames();
-  if (outcome.failure) return findings.error({}, outcome.failure->message), std::nullopt;
+  if (failure = outcome.failure; failure) {
+    recording->keepLastFrames();
+    nameNode(failure, player->scene());
+    return findings.error({}, failure->message), std::nullopt;
+  }
   recording->finishTrace(findings);
   if (findings.hasErrors()) return {};
   if (recording->lost() > 0)

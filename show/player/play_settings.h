@@ -15,7 +15,8 @@ struct PlaySettings {
   bool windows = false;     ///< a person looks at the walls in windows, and is the visitor
   std::size_t latency = 0;  ///< frames in flight at most; 0: as many as the stages hold
   bool drawBeginsEarly =
-      true;  ///< Draw begins with the first part of a frame's list; else it waits for all of it
+      true;            ///< Draw begins with the first part of a frame's list; else it waits for all of it
+  bool guard = false;  ///< writes of a stage to what it may only read end the show
   bool loadControl = true;  ///< a live show applies what its script says (onoverrun) if frames take too long
   StressOptions stress{};   ///< of the whole show
 

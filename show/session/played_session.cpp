@@ -2,6 +2,7 @@
 
 #include "engine/base/atomic_file.h"
 #include "pipeline/platform/topology.h"
+#include "show/player/write_watching.h"
 #include "show/session/open_session.h"
 
 #include <algorithm>
@@ -45,13 +46,15 @@ OpenSession::Then OpenSession::playOnce(std::optional<SessionReport>& report) {
   state_.played = true;
   if (options.after) state_.watch->goOnAfter(*options.after, player_->scene());
   FrameProbe* const probe = parts.probe;
+  const auto watch = watchWrites(state_.settings.play.guard, parts, options);
   ShowStages stages(std::move(parts));
   state_.stages = &stages;
   FrameLoop loop(stages, options, state_.stop, probe);
   state_.loop = &loop;
 
   const auto start = std::chrono::steady_clock::now();
-  const FrameLoopOutcome outcome = state_.runLoop(loop);
+  FrameLoopOutcome outcome = state_.runLoop(loop);
+  nameNode(outcome.failure, player_->scene());
   const double elapsed = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   reporter_.progressOver();
   EndedLoop show{outcome, state_.stop || !outcome.nextGroup};

@@ -12,6 +12,7 @@ enum class SessionEnd {
   Refused,     ///< a file or an option is wrong, or a result that was asked for is missing
   Failed,      ///< our fault, OpenGL's, or the display was lost
   OtherFiles,  ///< in a cluster: the leader has other files
+  WrongWrite,  ///< a stage wrote what it may only read (--guard)
   NoShow,      ///< no show could be opened, or no next one
 };
 
@@ -23,13 +24,16 @@ inline int statusOf(SessionEnd end) {
   case SessionEnd::NoShow:
   case SessionEnd::Refused: return kRefused;
   case SessionEnd::OtherFiles: return kOtherFiles;
+  case SessionEnd::WrongWrite: return kWrongWrite;
   case SessionEnd::Failed: break;
   }
   return kFailed;
 }
 
 inline SessionEnd endOf(const Reason& why) {
-  return why.kind == FailureKind::Refusal ? SessionEnd::Refused : SessionEnd::Failed;
+  return why.kind == FailureKind::Refusal      ? SessionEnd::Refused
+         : why.kind == FailureKind::WrongWrite ? SessionEnd::WrongWrite
+                                               : SessionEnd::Failed;
 }
 
 }  // namespace stadion

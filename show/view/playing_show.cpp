@@ -1,5 +1,6 @@
 #include "show/view/playing_show.h"
 
+#include "show/player/write_watching.h"
 #include "show/recording/last_frames.h"
 #include "show/recording/live_load.h"
 
@@ -103,6 +104,7 @@ void PlayingShow::start(const std::optional<ShowPlace>& place) {
   around_.desk.beginGroup(*player_, *watch_);
   around_.desk.addTo(show, options);
   if (!player_->obeysLog()) options.decider = recording_->governor();
+  writes_ = watchWrites(around_.settings.play.guard, show, options);
   stages_ = std::make_unique<ShowStages>(std::move(show));
   loop_ = std::make_unique<FrameLoop>(*stages_, options, *around_.stopping, &recording_->probe());
   thread_ = std::thread([this] {
@@ -113,7 +115,11 @@ void PlayingShow::start(const std::optional<ShowPlace>& place) {
 
 void PlayingShow::stop() {
   *around_.stopping = true;
-  if (thread_.joinable()) thread_.join();
+  if (thread_.joinable()) {
+    thread_.join();
+    writes_.reset();
+    nameNode(outcome_.failure, player_->scene());
+  }
   if (recording_) recording_->finish();
 }
 

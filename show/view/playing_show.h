@@ -6,6 +6,7 @@
 
 #include "engine/display/unfolding.h"
 #include "pipeline/frame/playback.h"
+#include "pipeline/loop/write_watch.h"
 #include "profiling/record/live_budget.h"
 #include "show/console/operator_console.h"
 #include "show/recording/run_watch.h"
@@ -98,6 +99,7 @@ private:
   LiveBudget budget_;
   std::unique_ptr<ShowRecording> recording_;
   std::unique_ptr<ShowStages> stages_;
+  std::unique_ptr<WriteWatch> writes_;  ///< null: without --guard, and once the show has ended
   std::unique_ptr<FrameLoop> loop_;
   FrameLoopOutcome outcome_;
   std::atomic<std::uint64_t> dropped_ = 0, frames_ = 0;

@@ -3,6 +3,7 @@
 
 #include "tests/proc.h"
 #include "tests/programs/desk.h"
+#include "tests/programs/preloaded_faults.h"
 
 #include <csignal>
 #include <fmt/format.h>
@@ -22,10 +23,6 @@ namespace {
 
 using nlohmann::json;
 namespace fs = std::filesystem;
-
-std::string faultLibrary() {
-  return STADION_BINARY_DIR "/bin/libfault-library.so";
-}
 
 /// A ball that bounces, and a sub-scene that comes meanwhile: files, messages, dynamics, a log of input.
 class ProgramFaults : public ::testing::Test {

@@ -11,6 +11,7 @@
 #include <optional>
 #include <regex>
 #include <sstream>
+#include <unistd.h>
 
 namespace stadion {
 namespace {
@@ -206,6 +207,43 @@ TEST(ProgramFieldEvents, AreTheSameOnTwoHosts) {
   EXPECT_EQ(lead["happened"], other["happened"]);
   EXPECT_EQ(lead["state_hash"], other["state_hash"]);
   EXPECT_EQ(lead["cluster"]["differed"], 0);
+}
+
+TEST(ProgramFieldAnchor, AtTheOriginIsOffTheCentreOfMass) {
+  const TemporaryFolder folder;
+  std::string show = fileContent(STADION_SOURCE_DIR "/tests/corpus/field/shields.evs");
+  for (std::size_t at = 0; (at = show.find("mode=repel", at)) != show.npos; at += 30)
+    show.replace(at, 10, "mode=repel, anchor=origin");
+  const ProgramResult r = stadionProgram({"run",          folder.write("origin.evs", show),
+                                          "--asset-root", assetFolder(),
+                                          "--walls",      "desktop",
+                                          "--size",       "16x12",
+                                          "--look",       "plain",
+                                          "--seconds",    "8",
+                                          "--out",        folder.path() / "out",
+                                          "--input",      "none",
+                                          "--pictures",   "none",
+                                          "--track",      "a"});
+  ASSERT_EQ(r.status, 0) << r.err;
+  const std::string track = fileContent(folder.path() / "out" / "track-a.csv");
+  std::istringstream last(track.substr(track.rfind('\n', track.size() - 2) + 1));
+  std::string cell;
+  for (int i = 0; i < 4; ++i) std::getline(last, cell, ',');
+  EXPECT_GT(std::stod(cell), 0.05) << "it rises";
+}
+
+TEST(ProgramFieldEvents, CheckWarnsOfWhatNeverHappens) {
+  const TemporaryFolder folder;
+  const ProgramResult r = stadionProgram(
+      {"check",
+       folder.write("never.evs",
+                    "forcespherical( name=f, radius=1, anchor=origin, eventmessage=\"expired, b, hide\" )\n"
+                    "dynobject( name=b, file=football.3ds, hook=f )\ndynamics( collidee=b )\n"),
+       "--asset-root", assetFolder()});
+  EXPECT_EQ(r.status, 0) << r.err;
+  for (const char* warning :
+       {"without a duration, this field never posts expired", "the anchor has no effect without attach"})
+    EXPECT_NE((r.out + r.err).find(warning), std::string::npos) << r.out << r.err;
 }
 
 }  // namespace

@@ -14,7 +14,7 @@
 namespace stadion {
 namespace {
 
-constexpr std::uint32_t kWidth = 48, kHeight = 36;
+constexpr std::uint32_t kPinnedWidth = 48, kPinnedHeight = 36;
 
 /// Nothing if the thread has ended.
 std::optional<ProcessorSet> processorsOf(pid_t thread) {
@@ -48,9 +48,9 @@ bool ofTheCache(pid_t process, pid_t thread) {
 
 TEST(PinnedWalls, ProcessesRunWhereTheyAreToldToWithAllTheirThreads) {
   MeshStore meshes;
-  const DrawList list = test::richList(meshes, double{kWidth} / kHeight);
+  const DrawList list = test::richList(meshes, double{kPinnedWidth} / kPinnedHeight);
   DrawingInWorkersParts parts{.meshes = meshes, .walls = {}, .names = {}};
-  parts.walls = {{kWidth, kHeight}, {kWidth, kHeight}};
+  parts.walls = {{kPinnedWidth, kPinnedHeight}, {kPinnedWidth, kPinnedHeight}};
   parts.names = {"bound", "free"};
   parts.rasteriserThreads = 2;
   parts.program = std::filesystem::path(STADION_BINARY_DIR) / "bin" / "stadion-wall";
@@ -76,8 +76,8 @@ TEST(PinnedWalls, ProcessesRunWhereTheyAreToldToWithAllTheirThreads) {
 TEST(PinnedWalls, OnlyTheThreadThatDrawsAWallIsBoundNotTheRasterisersThatAllWallsShare) {
   const ProcessorSet before = processorsOfThisThread();
   MeshStore meshes;
-  const DrawList list = test::richList(meshes, double{kWidth} / kHeight);
-  DrawingHereParts parts{*test::provider(GlProviderKind::OsMesa), meshes, {{kWidth, kHeight}}};
+  const DrawList list = test::richList(meshes, double{kPinnedWidth} / kPinnedHeight);
+  DrawingHereParts parts{*test::provider(GlProviderKind::OsMesa), meshes, {{kPinnedWidth, kPinnedHeight}}};
   parts.processors = {oneProcessor()};
   DrawingHere drawing(std::move(parts));
   std::thread([&] {

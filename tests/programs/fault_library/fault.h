@@ -6,6 +6,7 @@
 ///                   Counted from main() on. tell=1: says at the end how often it asked.
 ///   read            of files: most=BYTES at a time (of sockets, too); delay=MS each; error=ERRNO
 ///   write           likewise, and after=BYTES written to such files
+///   protect nth=N   a byte is written to large memory the Nth time that it is made read-only; offset=BYTES
 ///   clock jump=S    the time of day jumps by so many seconds, as if somebody set it; after=MS
 ///
 /// in=PROGRAM says which program has it (else "stadion"; its children inherit the variable), path=PART which

@@ -1,0 +1,79 @@
+/// `--guard` in the real program: a wrong write ends it with an exit code of its own.
+
+#include "tests/programs/preloaded_faults.h"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace stadion {
+namespace {
+
+/// Where the model of the first instance stands in a slot.
+constexpr const char* kInModel = "2162696";
+
+class ProgramGuard : public ::testing::Test {
+protected:
+  void SetUp() override {
+    if (!std::filesystem::exists(faultLibrary())) GTEST_SKIP() << "sanitizers let nothing be preloaded";
+  }
+  ProgramResult play(std::vector<std::string> words, bool faulty) const {
+    words.insert(words.begin(), stadionPath());
+    words.insert(words.end(), {"--walls", "desktop", "--size", "32x24", "--frames", "40"});
+    ProgramRun r{words};
+    r.environment = {"XDG_STATE_HOME=" + std::string(folder_.path()), "LP_NUM_THREADS=1"};
+    if (faulty) {
+      r.environment.push_back("LD_PRELOAD=" + faultLibrary());
+      r.environment.push_back(std::string("STADION_FAULT=protect nth=20 offset=") + kInModel);
+    }
+    return runProgram(r);
+  }
+  std::string kick() const { return STADION_SOURCE_DIR "/scripts/kick.evs"; }
+
+  TemporaryFolder folder_;
+};
+
+TEST_F(ProgramGuard, EndsTheRunAtAWrongWriteAndNamesIt) {
+  const ProgramResult r =
+      play({"run", kick(), "--guard", "--out", folder_.path() / "out", "--look", "plain"}, true);
+  EXPECT_EQ(r.status, 5) << r.err;
+  EXPECT_NE(r.err.find("App, frame 18: wrote to the published scene, field \"model\", of "), r.err.npos)
+      << r.err;
+  EXPECT_NE(r.err.find("kick.evs:"), r.err.npos) << r.err;
+  EXPECT_NE(fileContent(folder_.path() / "out" / "summary.json").find("wrote to the published scene"),
+            std::string::npos);
+}
+
+TEST_F(ProgramGuard, MeansTheSameInProfile) {
+  const ProgramResult r = play({"profile", kick(), "--guard", "--gl", "none"}, true);
+  EXPECT_EQ(r.status, 5) << r.err;
+  EXPECT_NE(r.err.find("App, frame 18: wrote to the published scene"), r.err.npos) << r.err;
+}
+
+TEST_F(ProgramGuard, WithoutItNothingIsProtected) {
+  const ProgramResult r =
+      play({"run", kick(), "--out", folder_.path() / "out", "--pictures", "none", "--look", "plain"}, true);
+  EXPECT_EQ(r.status, 0) << r.err;
+}
+
+TEST_F(ProgramGuard, ShowsTheSamePicturesWithThreadsAndWithProcesses) {
+  std::vector<std::string> shown;
+  for (const std::vector<std::string>& more :
+       {std::vector<std::string>{}, {"--guard"}, {"--guard", "--wall-workers", "process"}}) {
+    std::vector<std::string> words{"run", kick(), "--out", folder_.path() / "out", "--look", "plain"};
+    words.insert(words.end(), more.begin(), more.end());
+    const ProgramResult r = play(words, false);
+    ASSERT_EQ(r.status, 0) << r.err;
+    const std::string summary = fileContent(folder_.path() / "out" / "summary.json");
+    const std::size_t hashes = summary.find("\"image_hashes\"");
+    ASSERT_NE(hashes, summary.npos) << summary;
+    shown.push_back(summary.substr(hashes, summary.find(']', hashes) - hashes));
+  }
+  EXPECT_EQ(shown[1], shown[0]);
+  EXPECT_EQ(shown[2], shown[0]);
+}
+
+}  // namespace
+}  // namespace stadion
