@@ -14,6 +14,8 @@ void addRunCommand(CLI::App& app, int& code, std::optional<unsigned> rasteriserT
 void addCalibrateCommand(CLI::App& app, int& code);
 void addCheckCommand(CLI::App& app, int& code);
 void addClusterCommand(CLI::App& app, int& code);
+void addDoctorCommand(CLI::App& app, int& code);
+void addMergeTracesCommand(CLI::App& app, int& code);
 void addNodesCommand(CLI::App& app, int& code);
 void addHashCommand(CLI::App& app, int& code);
 void addWallsCommand(CLI::App& app, int& code);

@@ -2,9 +2,12 @@
 
 #include "cli/commands.h"
 #include "cli/exit_code.h"
+#include "cli/options/command_options.h"
 #include "cli/options/show_options.h"
 #include "cli/terminal.h"
+#include "show/player/output_conflicts.h"
 #include "show/player/player.h"
+#include "show/recording/state_file.h"
 
 #include <CLI/CLI.hpp>
 #include <cinttypes>
@@ -14,9 +17,39 @@
 namespace stadion {
 namespace {
 
-int hashShow(ShowOptions options) {
+struct HashOptions {
+  ShowOptions show;
+  std::string saveState, compareState;
+};
+
+/// Of the last frame, as the options ask.
+int keepState(Scene& scene, const HashOptions& o) {
   Diagnostics findings;
-  if (!options.settle(findings)) return tell(findings), kBadInput;
+  if (!o.saveState.empty())
+    if (const auto wrong = saveState(scene, o.saveState)) findings.add(*wrong);
+  std::optional<SavedStateDifference> difference;
+  if (!o.compareState.empty()) {
+    auto compared = compareState(scene, o.compareState);
+    if (compared)
+      difference = std::move(compared.value());
+    else
+      findings.add(compared.error());
+  }
+  tell(findings);
+  if (findings.hasErrors()) return kBadInput;
+  if (!difference) return kOk;
+  std::printf("difference: %s is %s here and %s in %s\n", difference->where.c_str(), difference->here.c_str(),
+              difference->there.c_str(), o.compareState.c_str());
+  return kCheckFailed;
+}
+
+int hashShow(const HashOptions& o) {
+  ShowOptions options = o.show;
+  Diagnostics findings;
+  const std::vector<NamedFile> files{{"--save-state", o.saveState},
+                                     {"--compare-state", o.compareState, false}};
+  refuseOverwriting({&options, 1}, files, findings);
+  if (!options.settle(findings) || findings.hasErrors()) return tell(findings), kBadInput;
   auto player = Player::create(options, findings, tell);
   tell(findings);
   if (!player) return kBadInput;
@@ -34,7 +67,7 @@ int hashShow(ShowOptions options) {
   const std::atomic<bool> never = false;
   FrameLoop loop(stages, loopOptions, never);
   const FrameLoopOutcome outcome = loop.run();
-  if (!outcome.failure) return kOk;
+  if (!outcome.failure) return keepState(player->scene(), o);
   std::fprintf(stderr, "stadion: %s\n", outcome.failure->message.c_str());
   return exitCodeOf(*outcome.failure);
 }
@@ -42,10 +75,18 @@ int hashShow(ShowOptions options) {
 }  // namespace
 
 void addHashCommand(CLI::App& app, int& code) {
-  auto options = std::make_shared<ShowOptions>();
+  auto options = std::make_shared<HashOptions>();
   CLI::App* command = app.add_subcommand(
       "hash", "Print the state hash of every frame, one line FRAME HEX16 each; draws nothing");
-  addShowOptions(*command, *options);
+  addShowOptions(*command, options->show);
+  CommandOptions own(*command);
+  own.add("--save-state", options->saveState);
+  own.add("--compare-state", options->compareState);
+  command->footer(
+      "Equal lines mean equal states. To find where two builds differ: compare their lines, then save the "
+      "state of the\nfirst frame N that differs, and compare:\n\n"
+      "  other/stadion hash SHOW --frames N+1 --save-state there\n"
+      "  stadion hash SHOW --frames N+1 --compare-state there");
   command->callback([options, &code] { code = hashShow(*options); });
 }
 

@@ -24,5 +24,7 @@ int main(int argc, char** argv) {
     addTrackerCommand(app, code);
     addCalibrateCommand(app, code);
     addClusterCommand(app, code);
+    addMergeTracesCommand(app, code);
+    addDoctorCommand(app, code);
   });
 }

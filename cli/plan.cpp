@@ -39,7 +39,8 @@ struct PlanOptions {
   std::string walls = "cave4", mode = "all", stereo = "pair", pace = "free", provider = "osmesa", from, out;
   std::optional<std::size_t> count;  ///< of walls to plan, if known before the costs are
   double cores = 0;                  ///< 0 = as here
-  std::size_t machines = 1, wallCount = 0;
+  std::size_t machines = 1, wallCount = 0, latency = 0;
+  std::string cullDraw = "overlap";
   bool processes = false, json = false;
 };
 
@@ -112,6 +113,7 @@ plan::Question questionOf(const PlanOptions& o, const plan::ShowCosts& costs) {
                   : o.pace == "float" ? plan::Pacing::Float
                                       : plan::Pacing::Free;
   q.plan.newest = o.pace != "free", q.plan.rate = o.run.show.rate;
+  q.plan.latency = o.latency, q.plan.drawBeginsEarly = o.cullDraw == "overlap";
   q.plan.frames = std::max<std::size_t>(costs.frames.size(), 24);
   return q;
 }
@@ -137,6 +139,12 @@ int planShow(PlanOptions o, const CLI::App& command) {
   const std::vector<NamedFile> files{{"--from", o.from, false}, {"--out's plan.svg", diagram}};
   refuseOverwriting({&o.run.show, 1}, files, findings);
   if (!o.from.empty()) refuseMeasuring(command, findings);
+  if (o.mode == "sequential")
+    for (const char* option : {"--latency", "--cull-draw"})
+      if (command.count(option) > 0)
+        findings.error({}, std::string(option) +
+                               " says how stages overlap, which those of --mode sequential do not: leave one "
+                               "of them out");
   if (!o.from.empty() && !o.count && command.count("--walls") > 0) countWallsOf(o, findings);
   if (findings.hasErrors()) return tell(findings), kBadInput;
   std::optional<AtomicFile> svg;  // opened before anything is measured
@@ -176,6 +184,7 @@ the same part of them busy. A rasteriser for each wall is what walls as processe
 
   ./stadion plan scripts/kick.evs --wall-count 6
   ./stadion plan scripts/olympia.evs --walls cave4 --cores 16 --out plan    # plan/plan.svg: a timing diagram
+  ./stadion plan scripts/kick.evs --latency 1 --cull-draw apart
   ./stadion plan scripts/kick.evs --json > costs.json; ./stadion plan --from costs.json --cores 8 --pace lock --rate 60
 
 ./stadion bench plan compares what is predicted with what comes.)";
@@ -197,6 +206,8 @@ void addPlanCommand(CLI::App& app, int& code) {
   options.add("--processes", o->processes);
   options.add("--mode", o->mode);
   options.add("--pace", o->pace);
+  options.add("--latency", o->latency);
+  options.add("--cull-draw", o->cullDraw);
   options.add("--stereo", o->stereo, {.words = "pair|off"});
   options.add("--size", show.size);
   options.add("--look", show.look);

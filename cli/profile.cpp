@@ -7,8 +7,10 @@
 #include "cli/options/run_options.h"
 #include "cli/options/show_options.h"
 #include "cli/terminal.h"
+#include "engine/base/atomic_file.h"
 #include "profiling/record/black_box.h"
 #include "profiling/record/black_box_folder.h"
+#include "profiling/report/last_frames_report.h"
 #include "show/base/stop_signal.h"
 #include "show/measure/fidelity.h"
 #include "show/measure/profile_run.h"
@@ -37,17 +39,6 @@ struct ProfileOptions {
   bool fidelityAsked = false, json = false, csv = false;
 };
 
-/// "frame 812: 16.7 ms after the one before; App 1.1, Cull 0.3, Draw 9.8 ms, of the slowest walls".
-std::string stagesText(const FrameFacts& f) {
-  float cull = 0, draw = 0;
-  for (std::uint32_t wall = 0; wall < f.walls; ++wall)
-    cull = std::max(cull, f.cull[wall].ms), draw = std::max(draw, f.draw[wall].ms);
-  return fmt::format(
-      "frame {}: {:.1f} ms after the one before; App {:.1f}, Cull {:.1f}, Draw {:.1f} ms, of the "
-      "slowest walls{}{}",
-      f.frame, f.period, f.app.ms, cull, draw, f.name[0] != 0 ? "; dearest in App: " : "", f.name);
-}
-
 /// The file of the run that began last; empty if there is none. Says which it is.
 std::string newestBlackBox() {
   const BlackBoxFolder folder = BlackBoxFolder::ofThisUser();
@@ -67,42 +58,37 @@ std::string newestBlackBox() {
   return newest;
 }
 
-/// What a run left behind; an empty name: the newest one.
-int showBlackBox(std::string file) {
+/// What a run left behind; an empty name: the newest one. --out receives a page.
+int showBlackBox(std::string file, const ProfileOptions& o) {
   if (file.empty() && (file = newestBlackBox()).empty()) return kBadInput;
+  Diagnostics findings;
+  const std::string page = o.out.empty() ? "" : o.out + "/last-frames.html";
+  const std::vector<NamedFile> files{{"--black-box", file, false}, {"--out's last-frames.html", page}};
+  refuseOverwriting({}, files, findings);
   const auto content = BlackBox::read(file);
-  if (!content) {
-    Diagnostics findings;
-    findings.add(content.error());
-    return tell(findings), kBadInput;
+  if (!content) findings.add(content.error());
+  if (!findings.hasErrors() && !page.empty()) {
+    std::error_code unmade;  // reported when the page is opened
+    std::filesystem::create_directories(o.out, unmade);
+    if (const auto wrong = writeFile(page, lastFramesPage(content.value(), file))) findings.add(*wrong);
   }
-  std::map<Cause, std::uint64_t> causes;
-  for (const FrameFacts& f : content.value().frames) {
-    ++causes[f.cause];
-    if (f.cause != Cause::None) std::printf("%s\n", toText(f, content.value().walls).c_str());
-  }
-  constexpr std::size_t kTold = 5;
-  const std::vector<FrameFacts>& frames = content.value().frames;
-  for (std::size_t i = frames.size() - std::min(kTold, frames.size()); i < frames.size(); ++i)
-    std::printf("%s\n", stagesText(frames[i]).c_str());
-  std::printf("%zu frames:", content.value().frames.size());
-  for (const auto& [cause, count] : causes)
-    std::printf(" %llu %s,", static_cast<unsigned long long>(count),
-                cause == Cause::None ? "in time" : std::string(nameOf(cause)).c_str());
-  std::printf(" the last one %llu\n",
-              static_cast<unsigned long long>(
-                  content.value().frames.empty() ? 0 : content.value().frames.back().frame));
+  tell(findings);
+  if (findings.hasErrors()) return kBadInput;
+  std::fputs((o.json ? lastFramesJson(content.value(), file) : lastFramesText(content.value())).c_str(),
+             stdout);
   return kOk;
 }
 
 /// Says which options are beside --black-box that it could not obey.
 bool isAlone(const CLI::Option& blackBox, CLI::App& command) {
   Diagnostics findings;
-  for (const CLI::Option* other : command.get_options())
-    if (other != &blackBox && other->count() > 0)
-      findings.error({},
-                     other->get_name() +
-                         " is for a show that is played now; --black-box tells of a run that was, in words");
+  for (const CLI::Option* other : command.get_options()) {
+    const std::string name = other->get_name();
+    if (other != &blackBox && other->count() > 0 && name != "--out" && name != "--json")
+      findings.error({}, name +
+                             " is for a show that is played now; --black-box explains a past run: it takes "
+                             "--out DIR and --json");
+  }
   tell(findings);
   return !findings.hasErrors();
 }
@@ -227,7 +213,7 @@ void addProfileCommand(CLI::App& app, int& code) {
   command->get_option("SHOW")->required(false);
   command->callback([o, command, &code] {
     if (o->blackBox->count() > 0)
-      code = !isAlone(*o->blackBox, *command) ? kBadInput : showBlackBox(o->blackBoxFile);
+      code = !isAlone(*o->blackBox, *command) ? kBadInput : showBlackBox(o->blackBoxFile, *o);
     else if (o->fidelity.show.script.empty())
       throw CLI::RequiredError("SHOW");
     else if (!o->fidelityAsked || !o->out.empty())

@@ -192,7 +192,7 @@ void addTrackerCommand(CLI::App& app, int& code) {
   auto o = std::make_shared<TrackerToolOptions>();
   CLI::App* command = app.add_subcommand("tracker", "Show what live trackers say, and calibrate them");
   addTrackerOptions(*command, o->trackers);
-  command->get_option("--tracker")->required();
+  BoundOption(*command, *command->get_option("--tracker")).required();
   CommandOptions options(*command);
   options.add("--seconds", o->seconds, {.least = 0.1, .most = 1e6});
   options.add("--json", o->json);

@@ -2,6 +2,7 @@
 /// out.
 
 #include "cli/cluster/cluster_arguments.h"
+#include "cli/cluster/merge_traces.h"
 #include "cli/commands.h"
 #include "cli/exit_code.h"
 #include "cli/options/command_options.h"
@@ -69,6 +70,14 @@ std::unique_ptr<Journal> openJournal(const std::string& file, const ClusterNode&
   return std::move(journal.value());
 }
 
+/// Into the file that was asked for; true if none was. Each node's own trace stays.
+bool mergeTracesOf(const ClusterFile& cluster, const std::string& file) {
+  if (file.empty()) return true;
+  std::vector<TraceOfHost> traces;
+  for (const ClusterNode& node : cluster.nodes) traces.push_back({node.name, fileOfNode(file, node.name)});
+  return writeMergedTrace(traces, file);
+}
+
 /// This program, which ends with us. `progress`: where it says that it shows pictures.
 std::vector<std::string> programOf(const std::vector<std::string>& arguments,
                                    const SharedProgress* progress) {
@@ -107,8 +116,9 @@ int playCluster(const ClusterOptions& o, const CLI::App& command) {
       fromSeconds(o.run.settings.supervision.hangAfter + cluster::ClusterLeader::kStuck * cluster->deadline));
   if (findings.hasErrors()) return tell(findings), kBadInput;
   const int code = nodes.play();
+  const bool merged = code != kOk || mergeTracesOf(*cluster, o.run.trace.file);
   std::fputs((o.run.json ? nodes.saidAsJson() : nodes.said()).c_str(), stdout);
-  return code;
+  return merged ? code : kBadInput;
 }
 
 constexpr const char* kClusterFooter =

@@ -86,9 +86,9 @@ std::string defaultText(const ValueGrammar& g, const std::vector<Value>& values)
   return fmt::format("{}", fmt::join(texts, g.count > 1 ? " " : ","));
 }
 
-/// "HZ (1 to 1000) [60]", as help shows it.
-std::string signature(const ValueGrammar& g, const std::string& standard) {
-  std::string text = g.notation();
+/// "HZ (1 to 1000) [60]", as help shows it. The name of an argument is its notation already.
+std::string signature(const OptionRow& row, const ValueGrammar& g, const std::string& standard) {
+  std::string text = row.isPositional() ? " " : g.notation();
   if (const std::string limits = g.limits(); !limits.empty()) text += " (" + limits + ")";
   return standard.empty() ? text : text + " [" + standard + "]";
 }
@@ -96,7 +96,7 @@ std::string signature(const ValueGrammar& g, const std::string& standard) {
 void describe(CLI::Option& option, const OptionRow& row, const ValueGrammar& g, const std::string& standard) {
   option.group(std::string(headingOf(row.group)));
   if (g.kind == OptionValueKind::Flag) return;
-  option.type_name(g.notation())->option_text(signature(g, standard));
+  option.type_name(g.notation())->option_text(signature(row, g, standard));
   option.check([g](const std::string& text) { return g.mistakeIn(text); });
   if (g.times == ValueTimes::List) option.delimiter(',');
   if (g.count > 1)
@@ -109,7 +109,7 @@ void describe(CLI::Option& option, const OptionRow& row, const ValueGrammar& g, 
 }  // namespace
 
 BoundOption& BoundOption::required() {
-  option_->required();
+  option_->required()->option_text(option_->get_option_text() + " REQUIRED");
   return *this;
 }
 

@@ -50,6 +50,7 @@ constexpr OptionRow kRows[] = {
     {"CASE", text("CASE", ValueTimes::Several),
      "plays only cases whose names contain this, such as C05 or bounce", Inputs},
     {"LOG", file("LOG", ValueTimes::Several), "input log with the path of a head", Inputs},
+    {"TRACE", file("TRACE", ValueTimes::Several), "trace of a host (trace-HOST.json)", Inputs},
 
     {"--walls", file("WALLS"), "cave4, cave6, powerwall, desktop, or a wall file", Show},
     {"--mode", word("pipelined|sequential|all"),
@@ -141,7 +142,15 @@ constexpr OptionRow kRows[] = {
     {"--pictures", whole("N", 1, 1e9, "last|all|none"),
      "frames whose pictures are written to --out; N: every Nth", Output},
     {"--sheets", flag(), "adds a contact sheet of all walls to each frame's pictures", Output},
-    {"--hashes", flag(), "writes each picture's hash and display time: picture-hashes.txt, swap-times.txt",
+    {"--hashes", flag(),
+     "writes each picture's hash and display time to --out: picture-hashes.txt, swap-times.txt. Without "
+     "--out, "
+     "also live: a line FRAME WALL EYE HASH on standard output, with --json on standard error",
+     Output},
+    {"--save-state", file(), "writes the state after the last frame to this file", Output},
+    {"--compare-state", file(),
+     "names the first node and field that differ from a state that --save-state wrote after the same frame; "
+     "exit code 1 if one differs",
      Output},
     {"--video", flag(), "writes a video of all walls (needs ffmpeg)", Output},
     {"--track", text("NODE", ValueTimes::Repeated),
@@ -194,6 +203,8 @@ constexpr OptionRow kRows[] = {
     {"--no-memory", flag(), "does not judge memory, handles and threads, which a short soak cannot",
      Measurement},
     {"--forget", flag(), "measures nothing; removes the stored calibration", Measurement},
+    {"--for", text("WHAT", ValueTimes::Repeated),
+     "a show, wall file, cluster file or topic that must work on this machine", Measurement},
     {"--from", file(), "plans with the costs in this file, which --json wrote, instead of measuring",
      Measurement},
     {"--wall-count", whole("N", 1, 256), "number of walls: those of cave6, repeated beyond six", Measurement},

@@ -102,6 +102,7 @@ void addOutputOptions(CommandOptions& options, RunOptions& o) {
 void addDrawingOptions(CommandOptions& options, RunOptions& o) {
   options.add("--stereo", o.stereo).notes(o.stereoGiven);
   options.add("--display", o.settings.play.display);
+  options.add("--hud", o.settings.play.hud);
   options.add("--pace", o.pace);
   options.add("--gl", o.provider, {.words = "osmesa|egl|none"});
   options.add("--wall-workers", o.wallWorkers);

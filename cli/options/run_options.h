@@ -44,6 +44,7 @@ private:
   bool hasEnd() const;
   void settleDrawing(Diagnostics& findings);
   void settleMeasuring(Diagnostics& findings) const;
+  void settleUndrawn(Diagnostics& findings) const;
   void settleLive(Diagnostics& findings);
   void settleHead(Diagnostics& findings);
   void refuseInCluster(Diagnostics& findings) const;

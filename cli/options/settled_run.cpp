@@ -55,6 +55,21 @@ void RunOptions::refuseInSupervision(Diagnostics& findings) const {
          "a node that dies joins the others again by itself; `stadion cluster` begins it anew");
 }
 
+/// Without a rasteriser, tables and records are written, but no pictures.
+void RunOptions::settleUndrawn(Diagnostics& findings) const {
+  if (provider != "none") return;
+  const RecordSettings& r = settings.record;
+  if (settings.play.display) findings.error({}, "--gl none draws nothing that --display could show");
+  if (!r.out.empty() && r.pictures.kind != PictureChoice::Kind::None)
+    findings.error({},
+                   "--gl none draws nothing that --out could keep: add --pictures none for the tables alone");
+  const auto refuse = [&](bool asked, const char* option) {
+    if (asked)
+      findings.error({}, std::string(option) + " needs pictures, and --gl none draws none: leave one out");
+  };
+  refuse(r.video, "--video"), refuse(r.sheets, "--sheets"), refuse(r.hashes, "--hashes");
+}
+
 /// Options of drawing that exclude each other.
 void RunOptions::settleDrawing(Diagnostics& findings) {
   SessionSettings& s = settings;
@@ -111,14 +126,14 @@ bool RunOptions::settle(Diagnostics& findings) {
   if (s.play.display && !r.out.empty())
     findings.error(
         {}, "--display plays live, and --out writes every frame that is asked for; leave one of them out");
-  if (provider == "none" && (s.play.display || !r.out.empty()))
-    findings.error({}, "--gl none draws nothing that --display or --out could show");
+  if (s.play.hud && !s.play.display)
+    findings.error({}, "--hud shows the frame budget on a display: add --display, or use stadion view");
+  settleUndrawn(findings);
   settleMeasuring(findings);
   settleDrawing(findings);
   r.trace = trace.settle(findings);
   if (!r.nodes.empty() && r.out.empty())
     findings.error({}, "--track needs --out DIR to know where the table goes");
-  if (r.hashes && r.out.empty()) findings.error({}, "--hashes needs --out DIR to know where they go");
   if (r.video && r.out.empty()) findings.error({}, "--video needs --out DIR to know where the video goes");
   if (s.play.stress.low > s.play.stress.high)
     findings.error({}, "--stress-low must not be greater than --stress-high: between them stress stays");

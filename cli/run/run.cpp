@@ -5,6 +5,7 @@
 #include "cli/options/run_options.h"
 #include "cli/terminal.h"
 #include "engine/base/run_stopped.h"
+#include "pipeline/record/journal.h"
 #include "show/base/stop_signal.h"
 #include "show/session/show_session.h"
 #include "show/supervision/supervisor.h"
@@ -34,6 +35,16 @@ void tellLength(const RunOptions& o, const Player& player) {
   }
 }
 
+/// Lines are the output of a run that tells hashes; with --json that is the summary.
+std::FILE* hashFile(const RunOptions& o) {
+  return o.json ? stderr : stdout;
+}
+
+std::FILE* summaryFile(const RunOptions& o) {
+  const RecordSettings& r = o.settings.record;
+  return r.hashes && r.out.empty() && !o.json ? stderr : stdout;
+}
+
 void print(const RunOptions& o, const SessionReport& report) {
   constexpr std::size_t kNodes = 10;
   RunSummary summary = report.summary;
@@ -42,10 +53,10 @@ void print(const RunOptions& o, const SessionReport& report) {
   if (o.json) {
     std::printf("%s\n", toJson(summary).c_str());
   } else {
-    std::printf("%s%s", toText(summary).c_str(), happeningsText(summary).c_str());
+    std::fprintf(summaryFile(o), "%s%s", toText(summary).c_str(), happeningsText(summary).c_str());
     if (o.settings.record.out.empty() && !o.settings.play.display)
-      std::printf("\nTo see it:  ./stadion view %s, or ./stadion run %s --out pictures\n", script.c_str(),
-                  script.c_str());
+      std::fprintf(summaryFile(o), "\nTo see it:  ./stadion view %s, or ./stadion run %s --out pictures\n",
+                   script.c_str(), script.c_str());
   }
   if (report.figures) std::fprintf(stderr, "\n%s", toText(*report.figures, kNodes).c_str());
   std::fputs(report.lateFrames.c_str(), stderr);
@@ -77,7 +88,12 @@ int playShow(const RunOptions& o, Reporter& terminal, Diagnostics findings) {
   const std::atomic<bool>& stop = catchStopSignals();
   outliveReaders();
   if (o.endsWith > 0) stopWithParent(o.endsWith);
-  ShowSession session(o.settings, terminal, stop);
+  SessionSettings settings = o.settings;
+  settings.record.hashLines = [file = hashFile(o)](const std::string& lines) {
+    std::fputs(lines.c_str(), file);
+    std::fflush(file);
+  };
+  ShowSession session(std::move(settings), terminal, stop);
   if (session.open(std::move(findings))) {
     if (!session.follows()) tellLength(o, session.player());  // only the leader knows how long the show is
     session.play();

@@ -9,7 +9,9 @@
 #include "engine/display/wall_lint.h"
 #include "engine/plain_text/number_text.h"
 #include "show/base/stop_signal.h"
+#include "show/player/drawing_plan.h"
 #include "show/player/player.h"
+#include "show/player/thread_count.h"
 
 #include <CLI/CLI.hpp>
 #include <cstdio>
@@ -52,7 +54,13 @@ int lookAtWalls(WallsOptions o) {
   tell(findings);
   if (!walls) return kBadInput;
   if (o.pattern) return showPattern(*walls, o.shown, catchStopSignals());
-  std::printf("%s", floorPlan(*walls).c_str());
+  Diagnostics ofMachine;
+  const KnownMachine machine = knownMachine(ofMachine);
+  DrawingNeeds needs;
+  needs.walls = walls->walls.size();
+  const ThreadCount threads = threadsOf(DrawingPlan(needs, machine).setting(), needs.walls);
+  tell(ofMachine);
+  std::printf("%s\n%s", floorPlan(*walls).c_str(), textOf(threads, machine.processors, o.file).c_str());
   return kOk;
 }
 

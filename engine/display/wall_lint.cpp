@@ -1,5 +1,6 @@
 #include "engine/display/wall_lint.h"
 
+#include "engine/display/wall_facing.h"
 #include "engine/maths/functions.h"
 
 #include <fmt/format.h>
@@ -43,7 +44,8 @@ public:
     for (const WallEntry& entry : walls_.walls) sound_.push_back(area(entry) && size(entry) && square(entry));
     // The rest would only repeat, in other words, that a wall is no rectangle or ten times too large.
     if (!std::ranges::all_of(sound_, [](bool sound) { return sound; })) return;
-    for (const WallEntry& entry : walls_.walls) facing(entry);
+    const std::vector<Facing> all = facingOf(walls_.walls, kStandingEye);
+    for (std::size_t i = 0; i < all.size(); ++i) facing(walls_.walls[i], all[i]);
     for (std::size_t i = 0; i < walls_.walls.size(); ++i)
       for (std::size_t j = i + 1; j < walls_.walls.size(); ++j) pair(walls_.walls[i], walls_.walls[j]);
   }
@@ -114,18 +116,10 @@ private:
     return basis(wall).normal.dot(p - wall.lowerLeft);
   }
 
-  /// A point well inside the room that the walls make, whichever way they face.
-  Vec3 middle() const {
-    Vec3 sum = Vec3::Zero();
-    for (const WallEntry& e : walls_.walls) sum += e.wall.centre();
-    return sum / static_cast<double>(walls_.walls.size());
-  }
-
-  void facing(const WallEntry& e) {
-    const double toMiddle = inFront(e.wall, middle());
+  void facing(const WallEntry& e, Facing how) {
+    if (how == Facing::Away) return facesAway(e);
+    if (how == Facing::Unsure) return mayFaceAway(e);
     const double toEye = inFront(e.wall, kStandingEye);
-    const bool middleTells = std::fabs(toMiddle) > 0.01;
-    if (middleTells ? toMiddle < 0 : toEye < 0) return facesAway(e);
     if (toEye < kMinEyeDistance)
       warning(e,
               fmt::format(
@@ -135,12 +129,21 @@ private:
                   inUnit(-(1 - toEye) * basis(e.wall).normal)));
   }
 
+  /// The corners as seen from the wall's other side.
+  std::string mirrored(const WallEntry& e) const {
+    return fmt::format("lower-left {}  lower-right {}  upper-left {}", inUnit(e.wall.lowerRight),
+                       inUnit(e.wall.lowerLeft), inUnit(e.wall.upperRight()));
+  }
+
   void facesAway(const WallEntry& e) {
-    error(e,
-          fmt::format("wall \"{}\" faces away from the room; seen from inside its corners are lower-left {}  "
-                      "lower-right {}  upper-left {}",
-                      e.wall.name, inUnit(e.wall.lowerRight), inUnit(e.wall.lowerLeft),
-                      inUnit(e.wall.upperRight())));
+    error(e, fmt::format("wall \"{}\" faces away from the room; seen from inside its corners are {}",
+                         e.wall.name, mirrored(e)));
+  }
+
+  void mayFaceAway(const WallEntry& e) {
+    warning(e, fmt::format("no place is in front of every wall, and wall \"{}\" may face away; if so, its "
+                           "corners are {}",
+                           e.wall.name, mirrored(e)));
   }
 
   struct Edge {

@@ -1,5 +1,6 @@
 #include "engine/input/input_log.h"
 
+#include "engine/input/tracker_leap.h"
 #include "engine/maths/functions.h"
 
 #include <algorithm>
@@ -23,9 +24,6 @@ bool wholeWay(const InputStamp& a, const InputStamp& b) {
 constexpr Nanoseconds kEasedGrid = 5'000'000;  ///< corners of an eased way fall on multiples of this [ns]
 constexpr std::size_t kMostKnots = 1000;       ///< of one tracker in one frame; what comes after is cut
 
-constexpr Nanoseconds kLongestLeap = 50'000'000;  ///< [ns]
-constexpr double kLeapSpeed = 15;                 ///< faster than before and after, too [m/s]
-
 /// Returns the velocity from the previous stamp to `i`; nothing if it is not known.
 Vec3 velocityTo(const InputTrack& track, std::size_t i) {
   if (i == 0 || i >= track.stamps.size()) return Vec3::Zero();
@@ -36,10 +34,9 @@ Vec3 velocityTo(const InputTrack& track, std::size_t i) {
 /// Returns true if it reached stamp `i` as no hand or foot can: in one step, faster than before and after.
 bool leaps(const InputTrack& track, std::size_t i) {
   if (i == 0 || i >= track.stamps.size() || track.stamps[i].smooth) return false;
-  if (track.stamps[i].time - track.stamps[i - 1].time > kLongestLeap) return false;
+  const Nanoseconds took = track.stamps[i].time - track.stamps[i - 1].time;
   const Vec3 v = velocityTo(track, i);
-  return v.norm() > kLeapSpeed && (v - velocityTo(track, i - 1)).norm() > kLeapSpeed &&
-         (v - velocityTo(track, i + 1)).norm() > kLeapSpeed;
+  return leapsBeside(v, velocityTo(track, i - 1), took) && leapsBeside(v, velocityTo(track, i + 1), took);
 }
 
 double share(const InputStamp& a, const InputStamp& b, Nanoseconds time) {

@@ -41,9 +41,8 @@
 ///     stress N LEVEL
 ///         from frame N on all distances count 2^(LEVEL/4) times, when levels of detail are chosen
 ///
-/// A tracker leaps if it would move faster than 15 m/s between two records less than 50 ms apart, and more
-/// than 15 m/s faster than both before and after: it was taken for another, or lost. Until the later record
-/// it stays where it was. (A fast swing starts and ends over several records, and is no leap.)
+/// A tracker may leap between two records (tracker_leap.h): it was taken for another, or lost. Until the later
+/// record it stays where it was. (A fast swing starts and ends over several records, and is no leap.)
 ///
 /// Between two records poses and axes are interpolated, buttons are those of the earlier record. An eased way
 /// is eased at whole multiples of 5 ms of show time and straight between them. Before the first record the

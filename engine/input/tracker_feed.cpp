@@ -1,6 +1,7 @@
 #include "engine/input/tracker_feed.h"
 
 #include "engine/input/head_forecast.h"
+#include "engine/input/tracker_leap.h"
 #include "engine/maths/functions.h"
 
 #include <algorithm>
@@ -12,9 +13,7 @@ namespace {
 constexpr double kFarthest = 1000;                         ///< from the tracking system's origin [m]
 constexpr std::size_t kMostChanges = 64;                   ///< of one tracker in one frame
 constexpr std::size_t kStampsKept = 16;                    ///< more than a frame adds and looks back
-constexpr Nanoseconds kLongestLeap = 50'000'000;           ///< [ns]; as input logs have it
 constexpr Nanoseconds kSilenceToldEvery = 10'000'000'000;  ///< of one tracker [ns]
-constexpr double kLeapSpeed = 15;                          ///< [m/s]
 constexpr double kKeptWithoutNews = 10;  ///< what a device without a pose holds, at most [s]
 constexpr double kRepeatAfter = 0.2;  ///< a message that changes nothing so long after a change: a beat [s]
 constexpr double kBeatsMissed = 3;    ///< of a device that repeats its state until it is lost
@@ -46,9 +45,9 @@ double lagAt(const RigFile& rig, double speed) {
 /// Returns true if the way from the last stamp to X at `time` may count as a leap when the log is read.
 bool mayLeap(const InputTrack& track, const Pose& X, Nanoseconds time) {
   const InputStamp& last = track.stamps.back();
-  if (!last.valid || time - last.time > kLongestLeap) return false;
+  if (!last.valid) return false;
   const Vec3 v = (X.p - last.X_RT.p) / toSeconds(time - last.time);
-  return v.norm() > kLeapSpeed && (v - speedTo(track, track.stamps.size() - 1)).norm() > kLeapSpeed;
+  return leapsBeside(v, speedTo(track, track.stamps.size() - 1), time - last.time);
 }
 
 }  // namespace

@@ -27,19 +27,19 @@ std::uint64_t joined(std::uint32_t high, std::uint32_t low) {
 
 void DrawOrder::sortOpaque(std::vector<DrawnRecord>& things) {
   keys_.resize(things.size());
-  for (std::uint32_t i = 0; i < things.size(); ++i) {
-    const DrawnRecord& d = things[i];
-    keys_[i] = {joined(d.mesh, d.level << kRankBits | rankOf(d.views)), bitsOf(d.distance), i};
-  }
+  Key* key = keys_.data();
+  std::uint32_t thing = 0;
+  for (const DrawnRecord& d : things)
+    *key++ = {joined(d.mesh, d.level << kRankBits | rankOf(d.views)), bitsOf(d.distance), thing++};
   arrange(things);
 }
 
 void DrawOrder::sortTransparent(std::vector<DrawnRecord>& things) {
   keys_.resize(things.size());
-  for (std::uint32_t i = 0; i < things.size(); ++i) {
-    const DrawnRecord& d = things[i];
-    keys_[i] = {joined(d.record->owner.load, d.record->owner.position), d.mesh, i};
-  }
+  Key* key = keys_.data();
+  std::uint32_t thing = 0;
+  for (const DrawnRecord& d : things)
+    *key++ = {joined(d.record->owner.load, d.record->owner.position), d.mesh, thing++};
   arrange(things);
 }
 
@@ -47,7 +47,9 @@ void DrawOrder::arrange(std::vector<DrawnRecord>& things) {
   sortKeys();
   sortAlike(things);
   moved_.resize(things.size());
-  for (std::size_t i = 0; i < keys_.size(); ++i) moved_[i] = things[keys_[i].thing];
+  DrawnRecord* to = moved_.data();
+  const DrawnRecord* from = things.data();
+  for (const Key& key : keys_) *to++ = from[key.thing];
   things.swap(moved_);
 }
 

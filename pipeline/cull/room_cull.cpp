@@ -103,10 +103,12 @@ void RoomCull::lookFor(const SlotView& state, const EyeChoice& choice, Found& fo
     seen.placed = place(*state.viewer, wall, choice, seen.from ? &*seen.from : nullptr);
     addVolumes(number, seen.placed);
   }
+  recordsOf_.clear();
+  for (const std::uint32_t wall : wallsOf_) recordsOf_.push_back(&found.walls[wall].records);
   eachTree(state, [&](const BoundsTree& tree, const auto& recordAt) {
     eachPart([&](std::size_t first, std::size_t count) {
       for (const TreeSphere& sphere : search_.find(tree, std::span(volumes_).subspan(first, count)))
-        if (const InstanceRecord* r = recordAt(tree.indexOf(sphere.place))) keep(sphere, first, *r, found);
+        if (const InstanceRecord* r = recordAt(tree.indexOf(sphere.place))) keep(sphere, first, *r);
       for (std::size_t v = 0; v < count; ++v) found.walls[wallsOf_[first + v]].tested += search_.tested()[v];
     });
   });
@@ -114,17 +116,18 @@ void RoomCull::lookFor(const SlotView& state, const EyeChoice& choice, Found& fo
 
 /// On the walls that surely show it, and on those of which the records themselves must say.
 /// Bit v of the sphere's masks: volumes_[first + v].
-void RoomCull::keep(const TreeSphere& sphere, std::size_t first, const InstanceRecord& r,
-                    Found& found) const {
-  std::uint32_t kept = ~0U;  // the volumes of a wall follow each other
+void RoomCull::keep(const TreeSphere& sphere, std::size_t first, const InstanceRecord& r) const {
+  const std::vector<const InstanceRecord*>* kept = nullptr;  // the volumes of a wall follow each other
   for (unsigned bits = sphere.seen | sphere.unsure; bits != 0; bits &= bits - 1) {
     const auto bit = static_cast<std::size_t>(std::countr_zero(bits)), v = first + bit;
-    if (wallsOf_[v] == kept) continue;
+    std::vector<const InstanceRecord*>* records = recordsOf_[v];
+    if (records == kept) continue;
     if (!((sphere.seen >> bit) & 1)) {
       const Vec3 centre = Vec3(r.centre[0], r.centre[1], r.centre[2]) - volumes_[v].origin;
       if (!volumes_[v].volume.mayTouch(Sphere{centre, r.radius})) continue;
     }
-    found.walls[kept = wallsOf_[v]].records.push_back(&r);
+    records->push_back(&r);
+    kept = records;
   }
 }
 

@@ -74,7 +74,7 @@ private:
   void eachPart(const Each& each) const;
   template <class Each>
   void eachTree(const SlotView& state, const Each& each);
-  void keep(const TreeSphere& sphere, std::size_t first, const InstanceRecord& record, Found& found) const;
+  void keep(const TreeSphere& sphere, std::size_t first, const InstanceRecord& record) const;
 
   const std::vector<WallViews> walls_;
   std::mutex mutex_;
@@ -83,6 +83,7 @@ private:
   BoundsSearch search_;
   std::vector<SearchVolume> volumes_;   ///< of the walls that look: one for each of their screens
   std::vector<std::uint32_t> wallsOf_;  ///< by volume
+  std::vector<std::vector<const InstanceRecord*>*> recordsOf_;  ///< of its wall, by volume
 };
 
 }  // namespace stadion

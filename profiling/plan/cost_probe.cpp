@@ -24,7 +24,7 @@ template <class F>
 void forEachFigure(FrameCost& cost, const F& f) {
   f(cost.app), f(cost.appHelpers), f(cost.swap);
   for (WallCost& wall : cost.walls) {
-    f(wall.cull);
+    f(wall.cull), f(wall.cullBesideDraw);
     for (PictureCost& picture : wall.pictures) f(picture.calls), f(picture.raster), f(picture.atOnce);
   }
 }
@@ -64,12 +64,24 @@ void CostProbe::began(Span what, std::uint64_t frame, std::uint32_t wall) {
   began_ = Moment::now();
 }
 
-void CostProbe::began(Span, NodeRef) {}
+void CostProbe::began(Span what, NodeRef) {
+  if (what == Span::Fill) fillBegan_ = Moment::now();
+}
+
+/// Cull counts after it has written the list, and before its span ends.
+void CostProbe::counted(Count what, std::uint64_t count, NodeRef) {
+  if (what != Count::Seen || frame_ < from_ || wall_ >= walls_) return;
+  FrameCost& cost = frames_[frame_].cost;
+  cost.walls.resize(walls_);
+  const double all = static_cast<double>(count), first = static_cast<double>(portion_);
+  cost.walls[wall_].cullBesideDraw = all > first ? fill_ * (1 - first / all) : 0;
+}
 
 void CostProbe::ended(Span what) {
   const bool picture = what == Span::LeftEye || what == Span::RightEye;
-  if (!isStage(what) && !picture) return;
+  if (!isStage(what) && !picture && what != Span::Fill) return;
   const Moment now = Moment::now();
+  if (what == Span::Fill) fill_ = now.own - fillBegan_.own;
   if (picture) picturesEnd_.push_back(now);
   if (isStage(what)) endStage(what, now);
 }

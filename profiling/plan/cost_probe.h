@@ -15,12 +15,15 @@ namespace stadion::plan {
 
 class CostProbe final : public FrameProbe {
 public:
-  /// `from`: the first frame that counts, since first use of data is slow.
-  CostProbe(std::size_t walls, std::uint64_t from) : walls_(walls), from_(from) {}
+  /// `from`: the first frame that counts, since first use of data is slow. `portion`: Draw begins early once a
+  /// list has so many items.
+  CostProbe(std::size_t walls, std::uint64_t from, std::size_t portion)
+      : walls_(walls), from_(from), portion_(portion) {}
 
   void began(Span what, std::uint64_t frame, std::uint32_t wall) override;
   void began(Span what, NodeRef node) override;
   void ended(Span what) override;
+  void counted(Count what, std::uint64_t count, NodeRef node) override;
 
   /// Returns the complete frames, by their number.
   std::map<std::uint64_t, FrameCost> costs() const;
@@ -46,8 +49,10 @@ private:
 
   std::size_t walls_;
   std::uint64_t from_, frame_ = 0;
+  std::size_t portion_;
   std::uint32_t wall_ = 0;
-  Moment began_;
+  Moment began_, fillBegan_;
+  double fill_ = 0;                   ///< of the newest Span::Fill: Cull's last one writes the list
   std::vector<Moment> picturesEnd_;   ///< of the wall that is being drawn
   double inTurn_ = 0, rastered_ = 0;  ///< in all
   std::map<std::uint64_t, Seen> frames_;

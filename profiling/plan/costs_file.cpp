@@ -38,7 +38,9 @@ double cost(const Json& j, const char* name) {
 }
 
 WallCost wallOf(const Json& j) {
-  WallCost wall{cost(j, "cull"), {}};
+  WallCost wall{cost(j, "cull"), {}, 0};
+  if (j.contains("cull_beside_draw"))  // files of 0.1 do not have it
+    wall.cullBesideDraw = number(j.at("cull_beside_draw"), "cull_beside_draw", 0, kLongest);
   for (const Json& p : member(j, "pictures")) {
     if (!p.is_array() || p.size() != 3) throw Wrong{"a picture is not [calls, raster, threads at a time]"};
     wall.pictures.push_back({number(p[0], "calls", 0, kLongest), number(p[1], "raster", 0, kLongest),
@@ -108,7 +110,9 @@ std::string toJson(const ShowCosts& costs) {
       Json pictures = Json::array();
       for (const PictureCost& p : w.pictures)
         pictures.push_back({rounded(p.calls), rounded(p.raster), rounded(p.atOnce)});
-      frame["walls"].push_back({{"cull", rounded(w.cull)}, {"pictures", pictures}});
+      frame["walls"].push_back({{"cull", rounded(w.cull)},
+                                {"cull_beside_draw", rounded(w.cullBesideDraw)},
+                                {"pictures", pictures}});
     }
     j["frames"].push_back(std::move(frame));
   }

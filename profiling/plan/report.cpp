@@ -94,6 +94,9 @@ std::string planText(const Plan& p) {
                                  p.machine.cores, p.machine.cores == 1 ? "" : "s");
   if (p.machines > 1) text += fmt::format(" on each of {} machines", p.machines);
   if (p.rasterisers > 1) text += ", walls as processes";
+  if (p.pipelined && p.latency > 0)
+    text += fmt::format(", {} frame{} in flight", p.latency, p.latency == 1 ? "" : "s");
+  if (p.pipelined && !p.drawBeginsEarly) text += ", Draw apart from Cull";
   if (p.pacing == Pacing::Free)
     return text + (p.newest ? ", live, as fast as it goes" : ", every frame, as fast as it goes");
   return text + fmt::format(", {} at {:g} frames a second", p.pacing == Pacing::Lock ? "locked" : "floating",
@@ -121,11 +124,17 @@ Json forecastJson(const Forecast& f) {
 
 Json planJson(const Plan& p) {
   const char* pacing = p.pacing == Pacing::Free ? "free" : p.pacing == Pacing::Lock ? "lock" : "float";
-  return {{"mode", modeOf(p)},        {"walls", p.walls},
-          {"cores", p.machine.cores}, {"raster_threads_factor", p.machine.rasterThreads},
-          {"machines", p.machines},   {"rasterisers", p.rasterisers},
-          {"pace", pacing},           {"rate_hz", p.rate},
-          {"newest", p.newest}};
+  return {{"mode", modeOf(p)},
+          {"walls", p.walls},
+          {"cores", p.machine.cores},
+          {"raster_threads_factor", p.machine.rasterThreads},
+          {"machines", p.machines},
+          {"rasterisers", p.rasterisers},
+          {"pace", pacing},
+          {"rate_hz", p.rate},
+          {"newest", p.newest},
+          {"latency", p.latency},
+          {"cull_draw", p.drawBeginsEarly ? "overlap" : "apart"}};
 }
 
 }  // namespace

@@ -17,9 +17,10 @@ class Loop {
 public:
   Loop(const std::vector<FrameCost>& costs, const Plan& plan)
       : costs_(costs), plan_(plan), machines_(std::min(plan.machines, plan.walls)),
-        simulation_(std::vector<double>(machines_, plan.machine.cores)), walls_(plan.walls) {
+        simulation_(std::vector<double>(machines_, plan.machine.cores)), walls_(plan.walls),
+        arrivedOf_(machines_) {
     for (std::size_t m = 0; m < machines_; ++m) {
-      slots_.emplace_back((plan.walls - m + machines_ - 1) / machines_, plan.newest);
+      slots_.emplace_back(wallsOf(m), plan.newest);
       for (std::size_t r = 0; r < plan.rasterisers; ++r) rasterisers_.emplace_back();
     }
   }
@@ -44,7 +45,8 @@ public:
 private:
   struct Wall {
     std::size_t emptyLists = kLists;
-    std::deque<Ticket> filled;
+    std::deque<Ticket> handed;  ///< to Draw
+    std::uint64_t culled = 0;   ///< lists that are complete
     bool finished = false;
     std::size_t inWork = 0;  ///< pictures that are not rasterised yet
   };
@@ -85,6 +87,17 @@ private:
     return machines_ + (plan_.pipelined ? 2 * plan_.walls : 0) + index;
   }
 
+  /// As FrameSlots::mayBegin: the limit of frames in flight, and one more while few walls draw the oldest one.
+  bool mayBegin(std::size_t machine, std::uint64_t serial) const {
+    const std::size_t walls = wallsOf(machine), arrived = arrivedOf_[machine];
+    const auto processors = static_cast<std::size_t>(std::max(1.0, plan_.machine.cores));
+    const bool ending = arrived > 0 && arrived + std::min(walls / 2, processors - 1) >= walls;
+    return plan_.latency == 0 || serial < rounds_ + plan_.latency + (ending ? 1 : 0);
+  }
+  std::size_t wallsOf(std::size_t machine) const {
+    return (plan_.walls - machine + machines_ - 1) / machines_;
+  }
+
   const FrameCost& costOf(std::uint64_t frame) const { return costs_[frame % costs_.size()]; }
   const WallCost& costOf(std::uint64_t frame, std::size_t wall) const {
     const FrameCost& f = costOf(frame);
@@ -111,7 +124,9 @@ private:
     for (std::uint64_t frame = 0; frame < plan_.frames; ++frame) {
       const double begin = nextBegin(next);
       co_await simulation_.sleepUntil(begin);
-      co_await simulation_.until([this, machine] { return slots_[machine].canWrite(); });
+      co_await simulation_.until([this, machine, frame] {
+        return slots_[machine].canWrite() && (plan_.newest || mayBegin(machine, frame));
+      });
       const std::size_t slot = slots_[machine].beginWrite();
       const Ticket ticket{frame, simulation_.now()};
       co_await computeApp(machine, frame);
@@ -131,16 +146,22 @@ private:
     Slots& slots = slots_[machineOf(wall)];
     Wall& my = walls_[wall];
     for (std::size_t serial = 0;; ++serial) {
-      co_await simulation_.until([&slots, serial] { return slots.canRead(serial); });
+      co_await simulation_.until([this, wall, &slots, serial] {
+        return slots.canRead(serial) && (!plan_.newest || mayBegin(machineOf(wall), serial));
+      });
       const auto lease = slots.lease(serial);
       if (!lease) break;
       co_await simulation_.until([&my] { return my.emptyLists > 0; });
       --my.emptyLists;
       const double begin = simulation_.now();
-      co_await simulation_.compute(machineOf(wall), costOf(lease->ticket.frame, wall).cull);
+      const WallCost& cost = costOf(lease->ticket.frame, wall);
+      const double rest = plan_.drawBeginsEarly ? std::min(cost.cullBesideDraw, cost.cull) : 0;
+      co_await simulation_.compute(machineOf(wall), cost.cull - rest);
+      my.handed.push_back(lease->ticket);
+      co_await simulation_.compute(machineOf(wall), rest);
+      ++my.culled;
       note(rowOf(wall, false), Doing::Cull, lease->ticket.frame, begin);
       slots.release(lease->slot);
-      my.filled.push_back(lease->ticket);
     }
     my.finished = true;
   }
@@ -149,11 +170,11 @@ private:
     Wall& my = walls_[wall];
     Rasteriser& rasteriser = rasterisers_[rasteriserOf(wall)];
     const std::size_t row = rowOf(wall, true);
-    for (;;) {
-      co_await simulation_.until([&my] { return my.finished || !my.filled.empty(); });
-      if (my.filled.empty()) break;
-      const Ticket ticket = my.filled.front();
-      my.filled.pop_front();
+    for (std::uint64_t drawn = 0;; ++drawn) {
+      co_await simulation_.until([&my] { return my.finished || !my.handed.empty(); });
+      if (my.handed.empty()) break;
+      const Ticket ticket = my.handed.front();
+      my.handed.pop_front();
 
       double begin = simulation_.now();
       co_await simulation_.until([&rasteriser] { return !rasteriser.taken; });
@@ -162,6 +183,7 @@ private:
       begin = simulation_.now();
       for (const PictureCost& picture : costOf(ticket.frame, wall).pictures) {
         co_await simulation_.compute(machineOf(wall), picture.calls);
+        co_await simulation_.until([&my, drawn] { return my.culled > drawn; });
         note(row, Doing::Calls, ticket.frame, begin);
         send(wall, ticket.frame, picture);
         begin = simulation_.now();
@@ -176,11 +198,13 @@ private:
 
       begin = simulation_.now();
       const std::uint64_t round = rounds_;
+      ++arrivedOf_[machineOf(wall)];
       if (++arrived_ == plan_.walls) {
         co_await simulation_.compute(machineOf(wall), costOf(ticket.frame).swap);
         note(row, Doing::Swap, ticket.frame, begin);
         out_.shown.push_back({ticket.frame, ticket.began, simulation_.now()});
         arrived_ = 0, ++rounds_;
+        std::ranges::fill(arrivedOf_, 0);
       } else {
         co_await simulation_.until([this, round] { return rounds_ != round; });
         note(row, Doing::ForWalls, ticket.frame, begin);
@@ -266,6 +290,7 @@ private:
   std::vector<Slots> slots_;  ///< by machine
   std::vector<Rasteriser> rasterisers_;
   std::vector<Wall> walls_;
+  std::vector<std::size_t> arrivedOf_;  ///< by machine: walls that have drawn the oldest frame
   std::size_t arrived_ = 0, drawnOut_ = 0;
   std::uint64_t rounds_ = 0;
   Schedule out_;

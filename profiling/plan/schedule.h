@@ -27,6 +27,7 @@ struct PictureCost {
 struct WallCost {
   double cull = 0;
   std::vector<PictureCost> pictures;  ///< by eye
+  double cullBesideDraw = 0;          ///< the last part of `cull`: Draw may begin before it
 };
 
 /// What a frame costs.
@@ -56,6 +57,10 @@ struct Plan {
   Pacing pacing = Pacing::Free;
   double rate = 60;     ///< [1/s], unless free
   bool newest = false;  ///< the walls show the newest frame, as in a live show; else every frame
+  /// Limit of frames in flight, if pipelined; 0: as many as the stages hold. Counted from App, or if the newest
+  /// frame is shown from Cull.
+  std::size_t latency = 0;
+  bool drawBeginsEarly = true;  ///< Draw begins with the first part of a list while Cull fills the rest
   std::size_t frames = 60;
 };
 

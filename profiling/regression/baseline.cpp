@@ -48,10 +48,10 @@ Json jsonOf(const KeptStage& kept) {
 KeptStage keptStageOf(const Json& j) {
   constexpr std::size_t kMostNumbered = 1'000'000;
   KeptStage kept{numbersIn(j.at("usual").get<std::string>()),
-                  j.at("deviation").get<double>(),
-                  numbersIn(j.at("levels").get<std::string>()),
-                  {},
-                  {}};
+                 j.at("deviation").get<double>(),
+                 numbersIn(j.at("levels").get<std::string>()),
+                 {},
+                 {}};
   for (const Json& run : j.at("longer")) {
     auto& of = kept.longer.emplace_back();
     for (const auto& [frame, excess] : run.items())
@@ -68,6 +68,7 @@ BaselineCase caseOf(const Json& j) {
   j.at("state").get_to(c.facts.state);
   j.at("images").get_to(c.facts.images);
   j.at("counts").get_to(c.facts.counts);
+  c.states = j.value("states", "");
   if (j.contains("times")) j.at("times").get_to(c.times);
   if (j.contains("frames"))
     for (const auto& [stage, clocks] : j.at("frames").items())
@@ -84,6 +85,7 @@ Json jsonOf(const BaselineCase& c) {
          {"state", c.facts.state},
          {"images", c.facts.images},
          {"counts", c.facts.counts}};
+  if (!c.states.empty()) j["states"] = c.states;
   if (!c.times.empty()) j["times"] = c.times;
   for (const auto& [stage, clocks] : c.frames)
     for (const auto& [clock, kept] : clocks) j["frames"][stage][clock] = jsonOf(kept);

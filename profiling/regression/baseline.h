@@ -21,8 +21,9 @@ namespace stadion::regression {
 
 struct BaselineCase {
   RunFacts facts;
+  std::string states;  ///< state hashes of frames, shortened; empty in older files
   std::map<std::string, std::vector<double>> times;  ///< by stage, round by round
-  KeptStages frames;                          ///< of these rounds; absent in files of version 1
+  KeptStages frames;                                 ///< of these rounds; absent in files of version 1
   std::map<std::string, double> instructions;        ///< by stage
   std::string countedBy = "callgrind";               ///< the source of the instructions
   CostsByNode nodeTimes, nodeInstructions;           ///< to name the node that changed

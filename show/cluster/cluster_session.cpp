@@ -7,10 +7,10 @@
 #include "engine/plain_text/suggestion.h"
 #include "engine/scene/scene_snapshot.h"
 #include "pipeline/cluster/interface_check.h"
-#include "profiling/record/node_names.h"
 #include "show/base/stop_signal.h"
 #include "show/player/player.h"
 #include "show/player/show_files.h"
+#include "show/recording/state_file.h"
 
 #include <fmt/format.h>
 
@@ -186,17 +186,9 @@ cluster::SavedScene ClusterSession::saved() const {
 
 std::optional<cluster::Follower::Differs>
 ClusterSession::differenceTo(const cluster::SavedScene& there) const {
-  if (const std::uint64_t ours = SceneSnapshot::filesOf(player_->scene()); ours != there.files)
-    return cluster::Follower::Differs{"the scene, files", fmt::format("{:016x}", ours),
-                                      fmt::format("{:016x}", there.files)};
-  const auto d = SceneSnapshot(player_->scene()).difference(there.bytes);
+  auto d = savedStateDifference(player_->scene(), there.files, there.bytes);
   if (!d) return {};
-  NodeNames names;
-  names.see(player_->scene());
-  const auto name = names.find(d->node);
-  const std::string where =
-      name ? fmt::format("{} ({}:{})", name->path, name->file, name->line) : "the scene";
-  return cluster::Follower::Differs{where + ", " + d->field, d->here, d->there};
+  return cluster::Follower::Differs{std::move(d->where), std::move(d->here), std::move(d->there)};
 }
 
 void ClusterSession::addTo(FrameLoopOptions& loop, OperatorConsole& desk) {

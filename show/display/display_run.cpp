@@ -3,6 +3,7 @@
 #include "show/console/operator_keys.h"
 
 #include <chrono>
+#include <filesystem>
 #include <thread>
 #include <utility>
 
@@ -32,9 +33,9 @@ std::optional<OperatorCommand> windowOrderOf(Key key) {
 }  // namespace
 
 std::unique_ptr<DisplayRun> DisplayRun::open(const ShowOptions& show, StereoLayout layout,
-                                             const WallFile& walls, Reporter& reporter,
-                                             Diagnostics& findings) {
-  std::unique_ptr<DisplayRun> run(new DisplayRun(show, walls, reporter));
+                                             const WallFile& walls, const LiveBudget& budget, bool hud,
+                                             Reporter& reporter, Diagnostics& findings) {
+  std::unique_ptr<DisplayRun> run(new DisplayRun(show, walls, budget, hud, reporter));
   run->displays_ = WallDisplays::open(walls, windowStereoOf(layout), show.width, show.height, findings);
   return run->displays_ ? std::move(run) : nullptr;
 }
@@ -62,6 +63,8 @@ FrameLoopOutcome DisplayRun::play(FrameLoop& loop, OperatorConsole& desk) {
       std::this_thread::sleep_for(kNap);
       continue;
     }
+    countUnshown(now.frame);
+    if (hud_ && !pictures.empty()) layPanel(budgetLines(figures(now, desk)), pictures.front());
     displays_->show(pictures);
     desk.pictureSeen();
     if (!std::exchange(shown_, true)) reporter_.hint("the walls are shown; Escape ends the show");
@@ -70,9 +73,27 @@ FrameLoopOutcome DisplayRun::play(FrameLoop& loop, OperatorConsole& desk) {
   return outcome;
 }
 
+HudFigures DisplayRun::figures(const TimeSignature& now, OperatorConsole& desk) const {
+  HudFigures f;
+  f.show = std::filesystem::path(show_.script).filename().string();
+  f.seconds = toSeconds(now.time), f.rate = show_.rate;
+  f.speed = desk.playback().speed(), f.paused = desk.playback().paused();
+  f.budget = budget_.now(), f.dropped = unshown_;
+  return f;
+}
+
+/// Frames that others have replaced before they were fetched. A new group begins at 0.
+void DisplayRun::countUnshown(std::uint64_t frame) {
+  if (frame > newest_ + 1) unshown_ += frame - newest_ - 1;
+  if (frame < newest_) unshown_ = 0;
+  newest_ = frame;
+}
+
 bool DisplayRun::takeKeys(OperatorConsole& desk) {
-  for (const Key key : displays_->poll())
+  for (const Key key : displays_->poll()) {
+    if (key == Key::F2) hud_ = !hud_;
     if (const auto order = windowOrderOf(key)) desk.queue().post(*order);
+  }
   const auto lost = displays_->lost();
   if (lost) mailbox_.close(*lost);  // the next frame's pictures are refused, and all stages stop
   return !lost;

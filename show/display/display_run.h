@@ -6,6 +6,7 @@
 
 #include "pipeline/loop/picture_mailbox.h"
 #include "show/console/operator_console.h"
+#include "show/display/budget_panel.h"
 #include "show/display/wall_displays.h"
 
 #include <atomic>
@@ -16,14 +17,16 @@ namespace stadion {
 class DisplayRun {
 public:
   /// Opens the outputs. Null if one cannot be opened; the findings say which and why.
+  /// `budget` outlives it; `hud`: it is shown from the start.
   static std::unique_ptr<DisplayRun> open(const ShowOptions& show, StereoLayout layout, const WallFile& walls,
-                                          Reporter& reporter, Diagnostics& findings);
+                                          const LiveBudget& budget, bool hud, Reporter& reporter,
+                                          Diagnostics& findings);
 
   PictureSink& sink() { return mailbox_; }
   /// The walls' pictures fill their outputs pixel by pixel, unless --size or the wall file says otherwise.
   void fitPictures(std::vector<WallViews>& walls) const;
-  /// Plays the loop to its end. Keys pressed in the windows are the operator's (docs/operator.md); Escape
-  /// ends the run.
+  /// Plays the loop to its end. Keys pressed in the windows are the operator's (docs/operator.md); F2 shows or
+  /// hides the frame budget on the first wall; Escape ends the run.
   FrameLoopOutcome play(FrameLoop& loop, OperatorConsole& desk);
   /// Keys pressed since the last call become commands. False if the display was lost: then the run fails.
   bool takeKeys(OperatorConsole& desk);
@@ -31,13 +34,19 @@ public:
   std::optional<std::string> lost() const { return displays_->lost(); }
 
 private:
-  DisplayRun(const ShowOptions& show, const WallFile& walls, Reporter& reporter)
-      : show_(show), walls_(walls), reporter_(reporter) {}
+  DisplayRun(const ShowOptions& show, const WallFile& walls, const LiveBudget& budget, bool hud,
+             Reporter& reporter)
+      : show_(show), walls_(walls), budget_(budget), reporter_(reporter), hud_(hud) {}
+  HudFigures figures(const TimeSignature& now, OperatorConsole& desk) const;
+  void countUnshown(std::uint64_t frame);
 
   const ShowOptions& show_;
   const WallFile walls_;  ///< a copy: the next group's show has walls of its own
+  const LiveBudget& budget_;
   Reporter& reporter_;
   std::unique_ptr<WallDisplays> displays_;
+  bool hud_;
+  std::uint64_t newest_ = 0, unshown_ = 0;  ///< frame that is shown; frames that were not
   PictureMailbox mailbox_;
   bool shown_ = false;  ///< a picture has been shown
 };

@@ -1,5 +1,6 @@
 #include "show/measure/plan_run.h"
 
+#include "pipeline/draw_list/draw_list.h"
 #include "show/base/stop_signal.h"
 
 #include <algorithm>
@@ -58,7 +59,7 @@ double loadNow() {
 
 bool measureCosts(const PlanRunOptions& options, GlProvider& provider, Reporter& reporter,
                   MeasuredCosts& costs, Diagnostics& findings) {
-  plan::CostProbe probe(options.walls, kFramesBefore);
+  plan::CostProbe probe(options.walls, kFramesBefore, DrawList::kPortion);
   FrameTimes times(options.walls);
   if (!play(options, Mode::Sequential, provider, reporter, &probe, findings, times)) return false;
   costs.runs.push_back(probe.costs());

@@ -33,6 +33,16 @@ void cutHalfLine(const std::string& file) {
 
 }  // namespace
 
+std::string hashLinesOf(std::uint64_t frame, const std::vector<EyePictures>& walls,
+                        const std::vector<std::string>& wallNames) {
+  std::string lines;
+  for (std::size_t w = 0; w < walls.size(); ++w)
+    for (std::size_t e = 0; e < walls[w].eyes.size(); ++e)
+      lines +=
+          fmt::format("{} {} {} {:016x}\n", frame, wallNames[w], pictureName(e), hashOf(walls[w].eyes[e]));
+  return lines;
+}
+
 PictureHashes::PictureHashes(OutputFolder& folder, std::vector<std::string> wallNames, bool further)
     : folder_(folder), wallNames_(std::move(wallNames)), further_(further) {}
 
@@ -51,11 +61,7 @@ std::optional<Diagnostic> PictureHashes::add(std::uint64_t frame, const std::vec
                                              std::chrono::steady_clock::time_point shown) {
   if (!hashes_.is_open())
     if (auto wrong = open()) return wrong;
-  std::string lines;
-  for (std::size_t w = 0; w < walls.size(); ++w)
-    for (std::size_t e = 0; e < walls[w].eyes.size(); ++e)
-      lines += fmt::format("{} {} {} {:016x}\n", frame, wallNames_[w], pictureName(e),
-                           hashOf(walls[w].eyes[e]));
+  const std::string lines = hashLinesOf(frame, walls, wallNames_);
   using Ns = std::chrono::nanoseconds;
   const auto at = std::chrono::duration_cast<Ns>(shown.time_since_epoch()).count();
   hashes_ << lines << std::flush;

@@ -22,6 +22,10 @@
 
 namespace stadion {
 
+/// Lines of picture-hashes.txt.
+std::string hashLinesOf(std::uint64_t frame, const std::vector<EyePictures>& walls,
+                        const std::vector<std::string>& wallNames);
+
 class PictureHashes {
 public:
   static constexpr const char* kHashes = "picture-hashes.txt";

@@ -12,6 +12,7 @@ struct PlaySettings {
   bool everyFrame = false;
   Pace pace = Pace::Lock;   ///< Free: as fast as possible
   bool display = false;     ///< the walls are shown on their real outputs
+  bool hud = false;         ///< the frame budget is shown on the first of them
   bool windows = false;     ///< a person looks at the walls in windows, and is the visitor
   std::size_t latency = 0;  ///< frames in flight at most; 0: as many as the stages hold
   bool drawBeginsEarly =

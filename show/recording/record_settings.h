@@ -5,6 +5,7 @@
 #include "show/output/run_output.h"
 #include "show/recording/span_options.h"
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -17,9 +18,10 @@ struct RecordSettings {
   PictureChoice pictures{};  ///< which frames' pictures go there
   bool sheets = false;       ///< and a contact sheet beside each
   bool video = false;
-  bool hashes = false;             ///< of every picture
-  std::vector<std::string> nodes;  ///< whose poses are written as tables into `out`
-  std::string blackBox;            ///< the file of the last frames; empty: one in the user's folder for them
+  bool hashes = false;  ///< of every picture: into `out`, or without it to hashLines
+  std::function<void(const std::string&)> hashLines{};  ///< receives lines; on a thread that may wait
+  std::vector<std::string> nodes;                       ///< whose poses are written as tables into `out`
+  std::string blackBox;  ///< the file of the last frames; empty: one in the user's folder for them
   std::optional<TraceOptions> trace{};  ///< every span of every thread
   SpanOptions spans{};                  ///< costs by frame, for comparisons
   bool profile = false;                 ///< costs by node, for the report

@@ -8,6 +8,7 @@
 #include "show/regress/regress_child.h"
 #include "show/regress/regress_hint.h"
 #include "show/regress/regress_rounds.h"
+#include "show/regress/state_location.h"
 
 #include <fmt/format.h>
 
@@ -55,8 +56,8 @@ public:
     if (last_.facts) {
       result_.facts = allOf(*last_.facts), result_.warnings = last_.warnings;
       compareExactly(mode);
-      if (first && first->facts) compareModes(*first->facts, firstMode);
-      if (update_) takeUp(*last_.facts, o_.asked, case_, result_.name, *update_);
+      if (first && first->facts) compareModes(*first->facts, firstMode, mode);
+      if (update_) takeUpFacts(mode);
       if (case_.metrics.times && result_.fault.empty()) takeTimes(mode);
       // The mode does not change what is done.
       if (case_.metrics.instructions && !first && result_.fault.empty()) takeInstructions();
@@ -83,6 +84,13 @@ private:
     return {std::move(facts), {}, false, warningsIn(child.err)};
   }
 
+  void takeUpFacts(const std::string& mode) {
+    takeUp(*last_.facts, o_.asked, case_, result_.name, *update_);
+    BaselineCase& kept = (*update_)[result_.name];
+    if (kept.states.empty() || o_.asked.state)
+      kept.states = keptStates(stateHistory(case_, {o_.program, mode}, o_.limit, stop_));
+  }
+
   void add(std::vector<Check> checks) {
     for (Check& c : checks) result_.checks.push_back(std::move(c));
   }
@@ -92,7 +100,8 @@ private:
     if (update_) return;
     const auto at = with_.baseline ? with_.baseline->find(result_.name) : Baseline::const_iterator();
     if (with_.baseline && at != with_.baseline->end())
-      add(compareFacts(*last_.facts, {&at->second.facts, "the baseline"}, case_.metrics));
+      add(located(compareFacts(*last_.facts, {&at->second.facts, "the baseline"}, case_.metrics),
+                  [&] { return sinceBaseline(at->second, mode); }));
     else if (with_.baseline)
       result_.checks.push_back({"baseline", Outcome::Failed, notInTheBaseline(mode)});
     else
@@ -121,14 +130,38 @@ private:
       std::erase_if(mine, [&](const auto& fact) { return !theirs.contains(fact.first); });
     };
     keep(known.state, other.facts->state), keep(known.counts, other.facts->counts);
-    add(compareFacts(known, {&*other.facts, "the other build"}, case_.metrics));
+    add(located(compareFacts(known, {&*other.facts, "the other build"}, case_.metrics), [&] {
+      return stateLocation(case_, {o_.program, mode}, {with_.program, mode}, o_.limit, stop_);
+    }));
+  }
+
+  /// Says where states begin to differ, if they do.
+  template <class Where>
+  std::vector<Check> located(std::vector<Check> checks, const Where& where) const {
+    for (Check& c : checks) {
+      if (c.metric != "state" || c.outcome != Outcome::Failed) continue;
+      progress_(result_.name + ": where the state differs");
+      if (const std::string place = where(); !place.empty()) c.said += "; " + place;
+    }
+    return checks;
+  }
+
+  /// A baseline keeps hashes of frames. Only a build can tell node and field.
+  std::string sinceBaseline(const BaselineCase& kept, const std::string& mode) const {
+    if (kept.states.empty()) return "--update keeps the states of frames, which would say in which it begins";
+    const std::string place =
+        stateLocation(stateHistory(case_, {o_.program, mode}, o_.limit, stop_), kept.states);
+    return place.empty() ? place : place + "; --against BUILD names node and field";
   }
 
   /// Whatever the mode, the state and the pictures are the same.
-  void compareModes(const RunFacts& first, const std::string& firstMode) {
+  void compareModes(const RunFacts& first, const std::string& firstMode, const std::string& mode) {
     Metrics metrics = case_.metrics;
     metrics.counts = false;
-    for (Check& c : compareFacts(*last_.facts, {&first, firstMode}, metrics)) {
+    const auto where = [&] {
+      return stateLocation(case_, {o_.program, mode}, {o_.program, firstMode}, o_.limit, stop_);
+    };
+    for (Check& c : located(compareFacts(*last_.facts, {&first, firstMode}, metrics), where)) {
       c.metric += " as " + firstMode, c.amongModes = true;
       result_.checks.push_back(std::move(c));
     }

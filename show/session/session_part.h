@@ -5,6 +5,7 @@
 /// A part overrides the functions that concern it. To add one, write a file in parts/ and add its name to the
 /// list in session_parts.cpp.
 
+#include "profiling/record/live_budget.h"
 #include "show/base/reporter.h"
 #include "show/cluster/cluster_session.h"
 #include "show/console/operator_console.h"
@@ -37,6 +38,7 @@ struct SessionState {
   const DrawingPlan* drawing = nullptr;
   const ShowStages* stages = nullptr;  ///< of the show that is played
   const FrameLoop* loop = nullptr;
+  LiveBudget* budget = nullptr;  ///< receives the costs of frames while they are shown
 
   /// Plays a loop to its end. A part that owns windows replaces it.
   std::function<FrameLoopOutcome(FrameLoop&)> runLoop = [](FrameLoop& l) { return l.run(); };

@@ -5,7 +5,8 @@
 namespace stadion {
 
 MakeSessionPart makeJournalPart, makeWatchPart, makeSpansPart, makeWorkCountPart, makeRecordingPart,
-    makeConsolePart, makeDisplaysPart, makeClusterMemberPart, makeSupervisionPart, makePicturesPart;
+    makeConsolePart, makeDisplaysPart, makeClusterMemberPart, makeSupervisionPart, makePicturesPart,
+    makeHashStreamPart;
 
 std::vector<std::unique_ptr<SessionPart>> makeSessionParts(SessionState& session, Diagnostics& findings) {
   std::vector<std::unique_ptr<SessionPart>> parts;
@@ -20,6 +21,7 @@ std::vector<std::unique_ptr<SessionPart>> makeSessionParts(SessionState& session
            makeClusterMemberPart,  // the other machines, which may decide how the show goes on
            makeSupervisionPart,    // the supervisor, likewise
            makePicturesPart,       // pictures, video, tables
+           makeHashStreamPart,     // after those that take pictures: it hands them on
        }) {
     if (auto part = make(session, findings)) parts.push_back(std::move(part));
     if (findings.hasErrors()) break;

@@ -351,7 +351,7 @@ void ViewSession::updateHud() {
   hudDrawn_ = now;
   stale_ = true;
   const std::vector<PanelLine> none;
-  windows_->setPanel(0, hud_.budgetShown ? hud_.budgetLines(figures()) : none, false);
+  windows_->setPanel(0, hud_.budgetShown ? budgetLines(figures()) : none, false);
   windows_->setPanel(1, hud_.helpShown ? hud_.helpLines() : none, false);
   windows_->setPanel(2, hud_.messageLines(), true);
 }

@@ -11,6 +11,7 @@
 #include "pipeline/loop/picture_mailbox.h"
 #include "pipeline/record/run_summary.h"
 #include "show/base/reporter.h"
+#include "show/display/budget_panel.h"
 #include "show/player/script_watch.h"
 #include "show/session/session_end.h"
 #include "show/view/playing_show.h"

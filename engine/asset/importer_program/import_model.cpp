@@ -3,6 +3,7 @@
 #include "engine/asset/importer_program/geometry.h"
 #include "engine/asset/importer_program/jail.h"
 #include "engine/asset/importer_program/materials.h"
+#include "engine/asset/importer_program/obj_text.h"
 
 #include <assimp/BaseImporter.h>
 #include <assimp/Importer.hpp>
@@ -12,6 +13,7 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <memory>
 #include <new>
 #include <string_view>
 
@@ -91,8 +93,12 @@ void checkScene(const aiScene& scene, const RequestHead& head) {
   throw Refusal("cannot be read as " + std::string(format.name) + (why.empty() ? "" : ": " + why));
 }
 
-const aiScene& readScene(Assimp::Importer& importer, const Request& request, const FormatInfo& format) {
-  importer.SetIOHandler(new Jail(request.root.get(), request.head.fileBytes));  // assimp owns it
+const aiScene& readScene(Assimp::Importer& importer, const Request& request, const FormatInfo& format,
+                         const std::vector<std::uint8_t>& file) {
+  auto jail = std::make_unique<Jail>(request.root.get(), request.head.fileBytes);
+  if (format.format == ModelFormat::Obj)
+    if (auto mended = mendedObj(file)) jail->replace(request.path, std::move(*mended));
+  importer.SetIOHandler(jail.release());  // assimp owns it
   importer.SetPropertyInteger(AI_CONFIG_PP_SBP_REMOVE, aiPrimitiveType_POINT | aiPrimitiveType_LINE);
   importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_IGNORE_UP_DIRECTION, request.head.up != 0);
   keepOneLoader(importer, format);
@@ -154,7 +160,7 @@ Imported importModel(const Request& request) {
   refuseOldGltf(*format, *file);
 
   Assimp::Importer importer;
-  const aiScene& scene = readScene(importer, request, *format);
+  const aiScene& scene = readScene(importer, request, *format, *file);
   Flat flat = flatten(scene, {toShow(*format, request.head, *file), request.head.nodeDepth, request.head.mesh,
                               givesNormals(format->format), format->linearColours});
   const Dropped dropped = dropBadTriangles(flat);

@@ -85,12 +85,17 @@ std::optional<std::vector<std::uint8_t>> readBeneath(int root, std::string path,
   return bytes;
 }
 
+void Jail::replace(std::string path, std::vector<std::uint8_t> bytes) {
+  replaced_ = std::move(path), replacement_ = std::move(bytes);
+}
+
 bool Jail::Exists(const char* path) const {
   return path && bool(openBeneath(root_, plain(path)));
 }
 
 Assimp::IOStream* Jail::Open(const char* path, const char* mode) {
   if (!path || !mode || std::strpbrk(mode, "wa+")) return nullptr;
+  if (!replaced_.empty() && replaced_ == path) return new MemoryFile(replacement_);
   auto bytes = readBeneath(root_, path, mostBytes_);
   return bytes ? new MemoryFile(std::move(*bytes)) : nullptr;
 }

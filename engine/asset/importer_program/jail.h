@@ -19,6 +19,8 @@ std::optional<std::vector<std::uint8_t>> readBeneath(int root, std::string path,
 class Jail : public Assimp::IOSystem {
 public:
   Jail(int root, std::uint64_t mostBytes) : root_(root), mostBytes_(mostBytes) {}
+  /// From now on the file at `path` has these bytes.
+  void replace(std::string path, std::vector<std::uint8_t> bytes);
 
   bool Exists(const char* path) const override;
   char getOsSeparator() const override { return '/'; }
@@ -31,6 +33,8 @@ public:
 private:
   int root_;
   std::uint64_t mostBytes_;
+  std::string replaced_;  ///< path; empty: none
+  std::vector<std::uint8_t> replacement_;
 };
 
 }  // namespace stadion::importer

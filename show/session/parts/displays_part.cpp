@@ -8,13 +8,16 @@ namespace {
 
 class DisplaysPart final : public SessionPart {
 public:
-  explicit DisplaysPart(SessionState& session) : session_(session) { session.drawnInWindows = true; }
+  explicit DisplaysPart(SessionState& session) : session_(session) {
+    session.drawnInWindows = true;
+    session.budget = &budget_;
+  }
 
   bool opened(Diagnostics& findings) override {
     if (displays_) return true;
     const SessionSettings& s = session_.settings;
-    displays_ =
-        DisplayRun::open(s.show, s.draw.layout, session_.player->walls(), session_.reporter, findings);
+    displays_ = DisplayRun::open(s.show, s.draw.layout, session_.player->walls(), budget_, s.play.hud,
+                                 session_.reporter, findings);
     if (!displays_) return false;
     session_.takeKeys = [this] { return displays_->takeKeys(*session_.console); };
     session_.runLoop = [this](FrameLoop& loop) { return displays_->play(loop, *session_.console); };
@@ -33,6 +36,7 @@ public:
 
 private:
   SessionState& session_;
+  LiveBudget budget_;
   std::unique_ptr<DisplayRun> displays_;
 };
 

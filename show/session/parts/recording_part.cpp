@@ -67,6 +67,7 @@ private:
     const Player& player = *session_.player;
     const std::vector<std::string> walls = player.walls().names();
     RecordingOptions o;
+    o.also = session_.budget;
     o.trace = s.record.trace;
     if (o.trace) o.trace->show = s.show.script, o.trace->walls = walls;
     o.profile = s.record.profile, o.log.whole = s.record.profile, o.log.shares = true;

@@ -389,8 +389,14 @@ TEST(ProgramClusterProcesses, FilesGetTheNodesNamesAndWhatTheInputWasIsWrittenOn
         << fileContent(file("journal-" + node));
   }
   EXPECT_TRUE(has(fileContent(file("said.input")), "stadion-input 1"));
-  for (const char* name : {"trace.json", "journal", "said-front.input", "said-left.input"})
+  for (const char* name : {"journal", "said-front.input", "said-left.input"})
     EXPECT_FALSE(fs::exists(file(name))) << name;
+  const Json merged = Json::parse(fileContent(file("trace.json")));
+  std::set<std::string> hosts;
+  for (const Json& e : merged["traceEvents"])
+    if (e["name"] == "process_name") hosts.insert(e["args"]["name"]);
+  EXPECT_EQ(hosts, std::set<std::string>(std::begin(kFourNodes), std::end(kFourNodes)));
+  for (const Json& host : merged["otherData"]["hosts"]) EXPECT_EQ(host["common frames"], 5) << host;
 }
 
 TEST(ProgramClusterProcesses, TrackersAndOperatorAreTheLeaders) {

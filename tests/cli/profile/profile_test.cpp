@@ -188,8 +188,8 @@ TEST(ProgramProfile, WhatCannotBeToldOfARunThatWasIsRefusedBesideItsLastFrames) 
                             "--black-box", box})
                 .status,
             0);
-  for (const auto& beside : std::vector<std::vector<std::string>>{
-           {"--json"}, {"--csv"}, {"--out", file}, {"--trace", file}, {"--fidelity"}, {"--frames", "9"}})
+  for (const auto& beside :
+       std::vector<std::vector<std::string>>{{"--csv"}, {"--trace", file}, {"--fidelity"}, {"--frames", "9"}})
     for (const bool named : {true, false}) {
       std::vector<std::string> words = {"profile"};
       words.insert(words.end(), beside.begin(), beside.end());
@@ -201,6 +201,24 @@ TEST(ProgramProfile, WhatCannotBeToldOfARunThatWasIsRefusedBesideItsLastFrames) 
       EXPECT_NE(r.err.find(beside[0] + " is for a show that is played now"), std::string::npos) << r.err;
       EXPECT_FALSE(std::filesystem::exists(file));
     }
+}
+
+TEST(ProgramProfile, LastFramesAreAPageAndJsonToo) {
+  const TemporaryFolder folder;
+  const std::string box = folder.write("box", ""), out = folder.path() / "page";
+  ASSERT_EQ(stadionProgram({"run", STADION_SOURCE_DIR "/scripts/kick.evs", "--frames", "30", "--gl", "none",
+                            "--black-box", box})
+                .status,
+            0);
+  const ProgramResult r = stadionProgram({"profile", "--black-box", box, "--json", "--out", out});
+  ASSERT_EQ(r.status, 0) << r.err;
+  const auto j = nlohmann::json::parse(r.out);
+  EXPECT_EQ(j["file"], box);
+  ASSERT_FALSE(j["frames"].empty());
+  EXPECT_GT(j["frames"][0]["app"]["ms"], 0);
+  const std::string html = fileContent(out + "/last-frames.html");
+  EXPECT_TRUE(html.starts_with("<!doctype html>") && html.ends_with("</html>\n"));
+  EXPECT_NE(html.find("<rect"), std::string::npos);
 }
 
 TEST(ProgramProfile, WhatWouldNotBeObeyedIsRefused) {

@@ -219,5 +219,33 @@ TEST(ProgramRegress, ComparesWithAnotherBuild) {
   EXPECT_NE(r.out.find("equal to the other build"), std::string::npos) << r.out;
 }
 
+TEST(ProgramRegress, SaysInWhichFrameNodeAndFieldStatesBeginToDiffer) {
+  const TemporaryFolder folder;
+  const std::string here =
+      folder.write("a.input", "stadion-input 1\nkey foot 0 1 2 0.5\nkey foot 1 1 2 0.5\n");
+  const std::string there =
+      folder.write("b.input", "stadion-input 1\nkey foot 0 1 2 0.5\nkey foot 1 1 2.5 0.5\n");
+  const std::string suite = folder.write(
+      "s.suite", "stadion-suite 1\nsize 32x24\nwalls desktop\nlook plain\ncompare state\nmodes sequential\n"
+                 "case kick\n  show " STADION_SOURCE_DIR "/scripts/kick.evs\n  input " +
+                     here + "\n  frames 20\n");
+  const std::string other = folder.path() / "other";
+  folder.write("other", "#!/bin/sh\nexec " + stadionPath() + " $(echo \"$@\" | sed 's#" + here + "#" + there +
+                            "#')\n");
+  std::filesystem::permissions(other, std::filesystem::perms::owner_all);
+
+  const ProgramResult builds = regress({suite, "--against", other});
+  EXPECT_EQ(builds.status, 1) << builds.out << builds.err;
+  const std::regex place("first in frame [1-3]: [^;]*kick\\.evs:[0-9]+\\), [^;]* now, [^;]* before");
+  EXPECT_TRUE(std::regex_search(builds.out, place)) << builds.out;
+
+  ASSERT_EQ(regress({suite, "--update", "--stadion", other}).status, 0);
+  const ProgramResult since = regress({suite});
+  EXPECT_EQ(since.status, 1) << since.out << since.err;
+  EXPECT_TRUE(
+      std::regex_search(since.out, std::regex("first in frame [1-3]; --against BUILD names node and field")))
+      << since.out;
+}
+
 }  // namespace
 }  // namespace stadion

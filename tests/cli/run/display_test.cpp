@@ -57,8 +57,8 @@ struct ShownWindow {
 };
 
 /// What stands on the two screens once the program says that the walls are shown.
-std::optional<ShownWindow> shownBy(const Display& display, std::vector<std::string> arguments, std::uint32_t width,
-                             std::uint32_t height) {
+std::optional<ShownWindow> shownBy(const Display& display, std::vector<std::string> arguments,
+                                   std::uint32_t width, std::uint32_t height) {
   const TemporaryFolder folder;
   RunningProgram program(onDisplay(display, std::move(arguments)));
   if (!program.says("the walls are shown")) return {};
@@ -151,6 +151,36 @@ TEST_F(ProgramDisplay, TheNextGroupIsAKeyInAWindowAndTheShowBeginsAgain) {
   EXPECT_EQ(program.status(), 0) << program.err();
   for (const char* log : {"visit.input", "visit-2.input", "visit-3.input"})
     EXPECT_FALSE(fileContent(folder_.path() / log).empty()) << log;
+}
+
+TEST_F(ProgramDisplay, TheFrameBudgetIsShownAndHiddenByAKey) {
+  const std::string walls =
+      folder_.write("two.walls", wallFile(display_->name(), fmt::format("{} {}", kWidth, kHeight), ""));
+  const std::string show = folder_.write("still.evs", kStillShow);
+  RunningProgram program(onDisplay(*display_, {"run", show, "--asset-root", assetFolder(), "--walls", walls,
+                                               "--look", "plain", "--display", "--hud", "--no-sound"}));
+  ASSERT_TRUE(program.says("the walls are shown"));
+  const std::string seen = folder_.path() / "seen.png";
+  const auto coloursSeen = [&] {
+    if (!display_->photograph(seen, 0)) return std::size_t{0};
+    const auto picture = readPng(seen);
+    return picture ? coloursIn(cut(picture.value(), 30, 20, kWidth, kHeight)) : 0;
+  };
+  const auto becomes = [&](const auto& wanted) {
+    for (int tries = 0; tries < 100; ++tries) {
+      if (wanted(coloursSeen())) return true;
+      std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    }
+    return false;
+  };
+  std::size_t with = 0;
+  ASSERT_TRUE(becomes([&](std::size_t colours) { return with = colours, colours > 8; })) << with;
+  display_->hands({"mousemove", "40", "30", "key", "F2"});
+  EXPECT_TRUE(becomes([&](std::size_t colours) { return colours > 0 && colours < with; }));
+  display_->hands({"key", "F2"});
+  EXPECT_TRUE(becomes([&](std::size_t colours) { return colours >= with - with / 4; }));
+  display_->hands({"key", "Escape"});
+  EXPECT_EQ(program.status(), 0) << program.err();
 }
 
 // Xlib's way is to end the process there and then.

@@ -2,6 +2,7 @@
 /// exact time, at every frame rate.
 
 #include "dynamics/collision/shape_choice.h"
+#include "engine/input/tracker_leap.h"
 #include "engine/nodes/model_node.h"
 #include "engine/nodes/path_node.h"
 #include "engine/nodes/rig_node.h"
@@ -9,7 +10,9 @@
 #include "tests/dynamics/world/scenes.h"
 
 #include <cmath>
+#include <fstream>
 #include <gtest/gtest.h>
+#include <iterator>
 #include <limits>
 
 namespace stadion {
@@ -307,6 +310,68 @@ TEST(FastBody, ATrackerStillJumps) {
   g.tracker("wand", Vec3(0, 20, 0));
   g.play(1);
   EXPECT_TRUE(g.impacts.empty());
+}
+
+/// A hand at this speed, frame by frame, through a wall 4 m thick.
+std::vector<double> impactsOfHandAt(double speed) {
+  constexpr double kRate = 60, kFrom = 0.5;
+  Gallery g(kRate, [&](Load& load) {
+    addNode<Block>(load, "target", g.wall, Vec3(0, 5, 0));
+    const MovingNode& hand = addNode<MovingNode>(load, "hand", PlaceAttributes{}, false);
+    addNode<Rider>(load, "glove", g.small, hand.self(), Vec3::Zero());
+    g.sense(load, {"target"}, {"glove"});
+    addNode<SpeakingNode>(load, "clock", std::vector<Nanoseconds>{0})
+        .addNotification(notify(Event("timesup"), "hand", Verb::Attach, 0, {"all", "wand"}));
+  });
+  g.tracker("wand", Vec3::Zero());
+  g.play(kFrom + 1e-3);
+  for (int frame = 1; frame <= 12; ++frame) {
+    g.tracker("wand", Vec3(0, frame * speed / kRate, 0));
+    g.play(kFrom + frame / kRate + 1e-3);
+  }
+  return g.impacts;
+}
+
+std::string sectionOf(const std::string& document, const std::string& heading) {
+  std::ifstream file(std::string(STADION_SOURCE_DIR) + document);
+  const std::string text{std::istreambuf_iterator<char>(file), {}};
+  const std::size_t from = text.find(heading), to = text.find("\n#", from + 1);
+  return from == std::string::npos ? "" : text.substr(from, to - from);
+}
+
+/// docs/language.md has the rule; other documents link to it.
+TEST(FastBody, ATrackerJumpsFromTheSpeedInTheDocuments) {
+  const std::string rule = sectionOf("/docs/language.md", "### A tracker's jump");
+  const auto says = [&](const std::string& text) { return rule.find(text) != std::string::npos; };
+  EXPECT_TRUE(says("faster than " + std::to_string(static_cast<int>(kTeleportSpeed)) + " m/s in the rig"))
+      << rule;
+  EXPECT_TRUE(says("faster than " + std::to_string(static_cast<int>(kLeapSpeed)) + " m/s, and")) << rule;
+  EXPECT_TRUE(says("at most " + std::to_string(kLongestLeap / 1'000'000) + " ms apart")) << rule;
+  const std::vector<double> met = impactsOfHandAt(kTeleportSpeed - 1);
+  ASSERT_EQ(met.size(), 1U);
+  EXPECT_TRUE(impactsOfHandAt(kTeleportSpeed + 1).empty()) << "what it touches after a jump posts no impact";
+}
+
+TEST(FastBody, APairThatATrackerLeavesByAJumpIsReleasedAtOnce) {
+  Gallery g(60, [&](Load& load) {
+    addNode<Block>(load, "target", g.wall, Vec3(0, 5, 0));
+    const MovingNode& hand = addNode<MovingNode>(load, "hand", PlaceAttributes{}, false);
+    addNode<Rider>(load, "glove", g.small, hand.self(), Vec3::Zero());
+    g.sense(load, {"target"}, {"glove"});
+    addNode<SpeakingNode>(load, "clock", std::vector<Nanoseconds>{0})
+        .addNotification(notify(Event("timesup"), "hand", Verb::Attach, 0, {"all", "wand"}));
+  });
+  g.tracker("wand", Vec3(0, 2.5, 0));
+  g.play(0.5);
+  g.tracker("wand", Vec3(0, 3.2, 0));  // 42 m/s
+  g.play(0.6);
+  ASSERT_EQ(g.impacts.size(), 1U);
+  EXPECT_TRUE(g.releases.empty());
+  g.tracker("wand", Vec3(0, -20, 0));
+  g.play(1);
+  ASSERT_EQ(g.releases.size(), 1U);
+  EXPECT_LE(g.releases[0], 0.6 + 2.0 / 60);
+  EXPECT_EQ(g.impacts.size(), 1U);
 }
 
 /// A ball comes to rest in a sensor and is put elsewhere: it leaves in that moment.

@@ -1,7 +1,7 @@
 #include "engine/base/plain_file.h"
-#include "engine/plain_text/text_line.h"
 #include "engine/display/wall_file.h"
 #include "engine/display/wall_lint.h"
+#include "engine/plain_text/text_line.h"
 #include "tests/mutations.h"
 
 #include <gtest/gtest.h>
@@ -137,6 +137,49 @@ TEST(Walls, ThatAreWrongGetTheListedFindings) {
     EXPECT_FALSE(found.empty()) << entry.path();
   }
   EXPECT_GE(files, 12u);
+}
+
+TEST(Walls, ThatStandBehindOneAnotherFaceTheRoom) {
+  const std::string left =
+      "wall left   lower-left -1.5 -1.5 0  lower-right -1.5 1.5 0  upper-left -1.5 -1.5 3\n";
+  const std::string front =
+      "wall front  lower-left -1.5 1.5 0  lower-right 1.5 1.5 0  upper-left -1.5 1.5 3\n";
+  const std::string far = "wall far    lower-left -1.5 5 0  lower-right 1.5 5 0  upper-left -1.5 5 3\n";
+  EXPECT_EQ(listing(findingsIn(far + front + left)), "") << "the mean of the centres is behind \"front\"";
+  const std::string mirroredLeft =
+      "wall left   lower-left -1.5 1.5 0  lower-right -1.5 -1.5 0  upper-left -1.5 1.5 3\n";
+  const std::string found = listing(findingsIn(far + front + mirroredLeft));
+  EXPECT_TRUE(found.starts_with("3:6: error: wall \"left\" faces away from the room")) << found;
+  EXPECT_EQ(found.find("front"), std::string::npos) << found;
+}
+
+TEST(Walls, OfTwoBoothsDoNotAccuseEachOther) {
+  std::string booths;
+  for (const char* x : {"-10 ", "10 "}) {
+    const double at = std::atof(x);
+    const auto wall = [&](const char* name, double ax, double ay, double bx, double by) {
+      const auto corner = [](double cx, double cy, int z) {
+        return std::to_string(cx) + " " + std::to_string(cy) + " " + std::to_string(z);
+      };
+      booths += std::string("wall ") + name + (at > 0 ? "2" : "1") + " lower-left " + corner(at + ax, ay, 0) +
+                " lower-right " + corner(at + bx, by, 0) + " upper-left " + corner(at + ax, ay, 3) + "\n";
+    };
+    wall("left", -1.5, -1.5, -1.5, 1.5), wall("front", -1.5, 1.5, 1.5, 1.5),
+        wall("right", 1.5, 1.5, 1.5, -1.5);
+  }
+  const Diagnostics out = findingsIn(booths);
+  EXPECT_FALSE(out.hasErrors()) << listing(out);
+  EXPECT_EQ(out.all().size(), 2u) << listing(out) << "the eye is behind one wall of each booth";
+}
+
+TEST(Walls, ThatMayFaceAwayAreAWarning) {
+  const std::string apart = "wall east lower-left 3 1 0  lower-right 3 -1 0  upper-left 3 1 2\n"
+                            "wall west lower-left -3 1 0  lower-right -3 -1 0  upper-left -3 1 2\n";
+  const std::string found = listing(findingsIn(apart));
+  EXPECT_TRUE(
+      found.starts_with("2:6: warning: no place is in front of every wall, and wall \"west\" may face "
+                        "away; if so, its corners are lower-left -3 -1 0"))
+      << found;
 }
 
 TEST(Walls, ThatDoNotExistAreNamedWithASuggestion) {

@@ -127,6 +127,42 @@ TEST(Schedule, ALiveShowLeavesFramesOutAndIsYounger) {
   EXPECT_LT(forecastOf(live, plan).latency, 0.7 * forecastOf(every, plan).latency);
 }
 
+TEST(Schedule, OneFrameInFlightIsAsYoungAsItsStagesTogether) {
+  Plan plan = planned(true, 8);
+  plan.latency = 1;
+  const Forecast one = forecast(frameOf(2, 3, 10), plan);
+  EXPECT_NEAR(one.latency, 15, 1e-9) << "each frame waits for the one before";
+  EXPECT_NEAR(one.period, 15, 1e-9);
+  plan.latency = 2;
+  const Forecast two = forecast(frameOf(2, 3, 10), plan);
+  EXPECT_NEAR(two.period, 10, 1e-9);
+  EXPECT_NEAR(two.latency, 20, 1e-9);
+  plan.latency = 0;
+  EXPECT_GT(forecast(frameOf(2, 3, 10), plan).latency, two.latency);
+}
+
+TEST(Schedule, ALiveShowCountsFramesInFlightFromCull) {
+  Plan plan = planned(true, 8);
+  plan.pacing = Pacing::Lock, plan.rate = 200, plan.newest = true, plan.latency = 1;
+  const Forecast f = forecast(frameOf(1, 2, 20), plan);
+  EXPECT_NEAR(f.period, 22, 1e-9);
+  EXPECT_LT(f.latency, 22 + 1 + 5.0 + 1e-9) << "Cull takes the newest frame, at most a tick old";
+}
+
+TEST(Schedule, DrawThatBeginsEarlySavesTheRestOfCull) {
+  std::vector<FrameCost> costs = frameOf(1, 8, 10);
+  costs[0].walls[0].cullBesideDraw = 6;
+  Plan plan = planned(true, 8);
+  plan.latency = 1;
+  const double early = forecast(costs, plan).latency;
+  plan.drawBeginsEarly = false;
+  EXPECT_NEAR(forecast(costs, plan).latency, 19, 1e-9);
+  EXPECT_NEAR(early, 13, 1e-9);
+  costs[0].walls[0].pictures[0].calls = 2;
+  plan.drawBeginsEarly = true;
+  EXPECT_NEAR(forecast(costs, plan).latency, 9, 1e-9) << "no list is drawn before it is complete";
+}
+
 TEST(Schedule, WallsOfOneRasteriserQueueForIt) {
   const std::vector<FrameCost> costs = frameOf(0.1, 0.1, 0, 10, 2);
   Plan plan = planned(true, 8, 2);
@@ -189,6 +225,7 @@ TEST(PlanCosts, AreReadAsTheyWereWritten) {
   ShowCosts costs;
   costs.show = "a.evs", costs.size = "8x8", costs.walls = {"x", "y"};
   costs.frames = frameOf(1.5, 0.25, 3, 4, 2, 1.75);
+  costs.frames[0].walls[1].cullBesideDraw = 0.125;
   const Result<ShowCosts> read = readCosts("{\"costs\": " + toJson(costs) + "}", "f.json");
   ASSERT_TRUE(read);
   EXPECT_EQ(toJson(read.value()), toJson(costs));

@@ -1,0 +1,64 @@
+/// `stadion merge-traces TRACE...`: the traces of the hosts of a cluster in one file.
+
+#include "cli/cluster/merge_traces.h"
+
+#include "cli/commands.h"
+#include "cli/exit_code.h"
+#include "cli/options/command_options.h"
+#include "cli/terminal.h"
+#include "show/output/output_names.h"
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <memory>
+
+namespace stadion {
+namespace {
+
+struct MergeOptions {
+  std::vector<std::string> files;
+  std::string trace;
+};
+
+int mergeFiles(const MergeOptions& o) {
+  Diagnostics findings;
+  std::vector<NamedFile> named{{"--trace", o.trace}};
+  for (const std::string& file : o.files) named.push_back({"TRACE", file, false});
+  refuseSameFiles(named, findings);
+  if (findings.hasErrors()) return tell(findings), kBadInput;
+  return writeMergedTrace(tracesOf(o.files), o.trace) ? kOk : kBadInput;
+}
+
+constexpr const char* kMergeFooter =
+    R"(Each host that played with --trace wrote a trace of its own, by its own clock. Here they become one trace, a process for
+each host, named after its file (trace-front.json: front). All hosts show a frame together, so their clocks are aligned
+by the ends of their swaps. `stadion cluster --trace FILE` does this by itself.
+
+  stadion merge-traces trace-front.json trace-left.json --trace hall.json)";
+
+}  // namespace
+
+bool writeMergedTrace(const std::vector<TraceOfHost>& traces, const std::string& file) {
+  const auto merged = mergeTraces(traces, file);
+  Diagnostics findings;
+  if (!merged) return findings.add(merged.error()), tell(findings), false;
+  for (const AlignedHost& host : merged.value())
+    if (host.commonFrames == 0)
+      findings.warning({file, 0, 0}, "no frame of " + host.host + " was shown by " +
+                                         merged.value().front().host + ", too: its clock is not aligned");
+  tell(findings);
+  return true;
+}
+
+void addMergeTracesCommand(CLI::App& app, int& code) {
+  auto o = std::make_shared<MergeOptions>();
+  CLI::App* command =
+      app.add_subcommand("merge-traces", "Merge the traces of a cluster's hosts into one file");
+  CommandOptions options(*command);
+  options.add("TRACE", o->files).required();
+  options.add("--trace", o->trace).required();
+  command->footer(kMergeFooter);
+  command->callback([o, &code] { code = mergeFiles(*o); });
+}
+
+}  // namespace stadion

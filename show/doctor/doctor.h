@@ -1,0 +1,79 @@
+#pragma once
+/// What this machine lacks for shows, and the commands that mend it.
+///
+/// Each topic is examined by a probe, which tests replace.
+///
+/// Threads  main: windows and OpenGL contexts are opened and closed again.
+/// Errors   are findings.
+
+#include "engine/base/diagnostic.h"
+
+#include <functional>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace stadion {
+
+struct WallFile;
+
+enum class Health {
+  Works,
+  Limited,  ///< shows play, but slower or without something
+  Missing
+};
+std::string_view nameOf(Health health);
+
+struct DoctorFinding {
+  std::string topic;  ///< one of doctorTopics()
+  Health health = Health::Works;
+  std::string found;  ///< what is there
+  std::string lacks;  ///< what cannot work without it; empty: nothing is lacking
+  std::string mend;   ///< a command; empty: none is needed, or none helps
+  bool asked = false;
+};
+
+/// "programs", "drawing", "gpu" and so on, in the order of findings.
+std::span<const std::string_view> doctorTopics();
+
+struct NetworkPort {
+  std::string name;
+  std::string address;  ///< empty: none
+  bool up = false, multicast = false, loopback = false;
+};
+
+/// How the machine is examined. A Result's error says why something is missing.
+struct DoctorProbes {
+  std::function<bool(const std::string&)> hasProgram;           ///< along PATH
+  std::function<std::string(const std::string&)> helper;        ///< path of a program of Stadion; empty: none
+  std::function<Result<std::string>()> softwareGl, hardwareGl;  ///< what OSMesa or EGL says of itself
+  std::function<Result<std::string>()> sound;                   ///< the device's name
+  std::function<Result<std::vector<std::string>>(const std::string& screen)> monitors;  ///< of an X screen
+  std::function<std::optional<bool>()> swapGroups;  ///< nothing: not known without a display
+  std::function<bool()> realtime;                   ///< whether a thread may become a real-time thread
+  std::function<std::vector<NetworkPort>()> network;
+  std::function<std::string(const std::string&)> file;  ///< first line of a file; empty: it cannot be read
+  std::function<bool(const std::string&)> exists, writable;
+};
+DoctorProbes probesOfThisMachine();
+
+/// What must work.
+struct DoctorNeeds {
+  std::vector<std::string> topics;        ///< asked for; empty: nothing in particular
+  std::vector<const WallFile*> walls;     ///< whose outputs must be there
+  std::vector<std::string> interfaces{};  ///< names or addresses of network interfaces that must be there
+};
+
+/// One finding for each topic, at least.
+std::vector<DoctorFinding> examine(const DoctorProbes& probes, const DoctorNeeds& needs);
+/// False if something that was asked for does not work.
+bool canWork(std::span<const DoctorFinding> findings);
+
+/// A table, with a line below each finding that something mends.
+std::string toText(std::span<const DoctorFinding> findings);
+/// One JSON object on one line.
+std::string toJson(std::span<const DoctorFinding> findings);
+
+}  // namespace stadion

@@ -1,0 +1,85 @@
+#include "show/doctor/doctor_needs.h"
+
+#include "engine/asset/roots.h"
+#include "engine/base/installed_files.h"
+#include "engine/plain_text/suggestion.h"
+#include "engine/script/script.h"
+#include "engine/script/script_texts.h"
+#include "pipeline/cluster/cluster_file.h"
+#include "show/base/standard_nodes.h"
+
+#include <algorithm>
+
+namespace stadion {
+namespace {
+
+bool hasSounds(const SourceText& text, const NodeRegistry& types) {
+  Diagnostics ignored;  // check reports them
+  const Document document = parseScript(text, types, ignored);
+  for (const Declaration d : document)
+    if (d.kind() == "sound") return true;
+  return false;
+}
+
+}  // namespace
+
+std::unique_ptr<WantedOfMachine> WantedOfMachine::read(const std::vector<std::string>& words,
+                                                       Diagnostics& findings) {
+  auto wanted = std::make_unique<WantedOfMachine>();
+  bool all = true;
+  for (const std::string& word : words) all &= wanted->add(word, findings);
+  return all ? std::move(wanted) : nullptr;
+}
+
+DoctorNeeds WantedOfMachine::needs() const {
+  DoctorNeeds needs;
+  needs.topics = topics_, needs.interfaces = interfaces_;
+  for (const WallFile& walls : walls_) needs.walls.push_back(&walls);
+  return needs;
+}
+
+bool WantedOfMachine::add(const std::string& word, Diagnostics& findings) {
+  if (word.ends_with(".evs")) return addShow(word, findings);
+  if (word.ends_with(".walls")) return addWalls(word, findings);
+  if (word.ends_with(".cluster")) return addCluster(word, findings);
+  if (word == "cluster") return topics_.insert(topics_.end(), {"programs", "network"}), true;
+  const auto topics = doctorTopics();
+  if (std::ranges::find(topics, word) != topics.end()) return topics_.push_back(word), true;
+  std::vector<std::string> known(topics.begin(), topics.end());
+  known.emplace_back("cluster");
+  findings.error({}, "--for: \"" + word +
+                         "\" is no show (.evs), wall file (.walls), cluster file (.cluster) or topic" +
+                         didYouMean(word, known) + "; stadion doctor --help lists the topics");
+  return false;
+}
+
+bool WantedOfMachine::addShow(const std::string& file, Diagnostics& findings) {
+  const SharedTypes types = standardNodes();
+  const auto texts = ScriptTexts::read(file, AssetRoots::ofScript(file), *types);
+  const auto show = texts->show();
+  if (!show) return findings.add(show.error()), false;
+  topics_.insert(topics_.end(), {"programs", "drawing"});
+  bool sounds = hasSounds(show.value(), *types);
+  for (const std::string& name : texts->parts())
+    if (const auto part = texts->part(name)) sounds |= hasSounds(part.value(), *types);
+  if (sounds) topics_.emplace_back("sound");
+  return true;
+}
+
+bool WantedOfMachine::addWalls(const std::string& file, Diagnostics& findings) {
+  auto walls = loadWalls(file, shareFolder() + "/walls", findings);
+  if (!walls) return false;
+  topics_.insert(topics_.end(), {"programs", "drawing", "displays"});
+  walls_.push_back(std::move(*walls));
+  return true;
+}
+
+bool WantedOfMachine::addCluster(const std::string& file, Diagnostics& findings) {
+  const auto cluster = loadCluster(file, findings);
+  if (!cluster) return false;
+  topics_.insert(topics_.end(), {"programs", "network"});
+  if (!cluster->interface.empty()) interfaces_.push_back(cluster->interface);
+  return true;
+}
+
+}  // namespace stadion

@@ -1,0 +1,134 @@
+/// The probes of the machine on which the program runs.
+
+#include "show/doctor/doctor.h"
+
+#include "engine/base/installed_files.h"
+#include "pipeline/platform/shared_library.h"
+#include "pipeline/sound/sound_device.h"
+#include "pipeline/target/target.h"
+#include "pipeline/target/window.h"
+
+#include <arpa/inet.h>
+#include <cstdlib>
+#include <cstring>
+#include <fstream>
+#include <ifaddrs.h>
+#include <map>
+#include <memory>
+#include <net/if.h>
+#include <netinet/in.h>
+#include <sched.h>
+#include <sstream>
+#include <sys/resource.h>
+#include <thread>
+#include <unistd.h>
+
+namespace stadion {
+namespace {
+
+bool isInPath(const std::string& program) {
+  const char* path = std::getenv("PATH");
+  std::istringstream folders(path ? path : "");
+  for (std::string folder; std::getline(folders, folder, ':');)
+    if (!folder.empty() && access((folder + "/" + program).c_str(), X_OK) == 0) return true;
+  return false;
+}
+
+std::string helperPath(const std::string& name) {
+  const std::filesystem::path path = helperProgram(name);
+  return path.has_parent_path() && access(path.c_str(), X_OK) == 0 ? path.string() : "";
+}
+
+Result<std::string> rendererOf(GlProviderKind kind) {
+  auto provider = openGlProvider(kind);
+  if (!provider) return provider.error();
+  auto target = provider.value()->create(16, 16);
+  if (!target) return target.error();
+  if (const auto wrong = target.value()->makeCurrent()) return *wrong;
+  const std::string renderer = describeGl(target.value()->gl());
+  target.value()->release();
+  return renderer;
+}
+
+Result<std::string> soundName() {
+  auto device = openSoundDevice();
+  if (!device) return device.error();
+  return device.value()->name();
+}
+
+Result<std::vector<std::string>> monitorsOf(const std::string& screen) {
+  auto system = WindowSystem::open(screen);
+  if (!system) return system.error();
+  return system.value()->monitors();
+}
+
+/// Whether the driver of the display has NVIDIA's swap groups.
+std::optional<bool> hasSwapGroups() {
+  const auto x = SharedLibrary::open("libX11.so.6", "libx11-6");
+  const auto gl = SharedLibrary::open("libGL.so.1", "libgl1");
+  if (!x || !gl) return std::nullopt;
+  auto* open = x.value().find<void*(const char*)>("XOpenDisplay");
+  auto* close = x.value().find<int(void*)>("XCloseDisplay");
+  auto* extensions = gl.value().find<const char*(void*, int)>("glXQueryExtensionsString");
+  if (!open || !close || !extensions) return std::nullopt;
+  const std::unique_ptr<void, int (*)(void*)> display(open(nullptr), close);
+  if (!display) return std::nullopt;
+  const char* all = extensions(display.get(), 0);
+  return all && std::strstr(all, "GLX_NV_swap_group");
+}
+
+/// Tried on a thread that ends at once.
+bool mayBeRealtime() {
+  bool may = false;
+  std::thread([&may] {
+    sched_param lowest{};
+    lowest.sched_priority = 1;
+    may = sched_setscheduler(0, SCHED_RR, &lowest) == 0;
+  }).join();
+  return may;
+}
+
+std::vector<NetworkPort> portsHere() {
+  ifaddrs* first = nullptr;
+  if (getifaddrs(&first) != 0) return {};
+  const std::unique_ptr<ifaddrs, void (*)(ifaddrs*)> owner(first, freeifaddrs);
+  std::map<std::string, NetworkPort> ports;
+  for (const ifaddrs* at = first; at; at = at->ifa_next) {
+    NetworkPort& port = ports[at->ifa_name];
+    port.name = at->ifa_name;
+    port.up = (at->ifa_flags & IFF_UP) != 0, port.loopback = (at->ifa_flags & IFF_LOOPBACK) != 0;
+    port.multicast = (at->ifa_flags & IFF_MULTICAST) != 0;
+    if (!at->ifa_addr || at->ifa_addr->sa_family != AF_INET || !port.address.empty()) continue;
+    sockaddr_in address{};
+    std::memcpy(&address, at->ifa_addr, sizeof address);
+    char text[INET_ADDRSTRLEN] = "";
+    inet_ntop(AF_INET, &address.sin_addr, text, sizeof text);
+    port.address = text;
+  }
+  std::vector<NetworkPort> all;
+  for (auto& [name, port] : ports) all.push_back(std::move(port));
+  return all;
+}
+
+std::string firstLineOf(const std::string& path) {
+  std::ifstream file(path);
+  std::string line;
+  std::getline(file, line);
+  return line;
+}
+
+}  // namespace
+
+DoctorProbes probesOfThisMachine() {
+  DoctorProbes probes;
+  probes.hasProgram = isInPath, probes.helper = helperPath;
+  probes.softwareGl = [] { return rendererOf(GlProviderKind::OsMesa); };
+  probes.hardwareGl = [] { return rendererOf(GlProviderKind::Egl); };
+  probes.sound = soundName, probes.monitors = monitorsOf, probes.swapGroups = hasSwapGroups;
+  probes.realtime = mayBeRealtime, probes.network = portsHere, probes.file = firstLineOf;
+  probes.exists = [](const std::string& path) { return access(path.c_str(), F_OK) == 0; };
+  probes.writable = [](const std::string& path) { return access(path.c_str(), W_OK) == 0; };
+  return probes;
+}
+
+}  // namespace stadion

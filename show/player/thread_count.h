@@ -1,0 +1,28 @@
+#pragma once
+/// The threads of a pipelined run, beside the processors that they share.
+///
+/// Threads  pure functions.
+
+#include "pipeline/platform/draw_setting.h"
+
+#include <cstddef>
+#include <string>
+
+namespace stadion {
+
+struct ThreadCount {
+  std::size_t app = 1;         ///< App; its worker pool computes only while App waits
+  std::size_t cull = 0;        ///< one for each wall
+  std::size_t draw = 0;        ///< one for each wall, in this program or in a process of its own
+  std::size_t rasteriser = 0;  ///< of this program, or of all wall processes together
+
+  std::size_t all() const { return app + cull + draw + rasteriser; }
+};
+
+ThreadCount threadsOf(const DrawSetting& setting, std::size_t walls);
+
+/// One line with the counts and the processors. A second one with advice if there are more threads than
+/// processors; `walls` is the name that the user gave the wall file.
+std::string textOf(const ThreadCount& threads, std::size_t processors, const std::string& walls);
+
+}  // namespace stadion

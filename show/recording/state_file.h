@@ -1,0 +1,30 @@
+#pragma once
+/// The state of a show after a frame as a file, and where it differs from another run's.
+///
+/// Threads  App only, between two frames, or after the run.
+/// Errors   of files, with their names.
+
+#include "engine/scene/scene.h"
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+
+namespace stadion {
+
+/// The first difference between two states: "ball (kick.evs:27), velocity", and both values.
+struct SavedStateDifference {
+  std::string where, here, there;
+};
+
+/// `files` and `state` are SceneSnapshot::filesOf() and save() of the other scene.
+std::optional<SavedStateDifference> savedStateDifference(Scene& scene, std::uint64_t files,
+                                                         std::span<const std::uint8_t> state);
+
+/// Writes the scene's state.
+std::optional<Diagnostic> saveState(Scene& scene, const std::string& file);
+/// Compares the scene with a state that saveState() wrote after the same frame.
+Result<std::optional<SavedStateDifference>> compareState(Scene& scene, const std::string& file);
+
+}  // namespace stadion
