@@ -74,7 +74,7 @@ std::unique_ptr<Journal> openJournal(const std::string& file, const ClusterNode&
 bool mergeTracesOf(const ClusterFile& cluster, const std::string& file) {
   if (file.empty()) return true;
   std::vector<TraceOfHost> traces;
-  for (const ClusterNode& node : cluster.nodes) traces.push_back({node.name, fileOfNode(file, node.name)});
+  for (const ClusterNode& node : cluster.nodes) traces.push_back({node.name, fileOfHost(file, node.name)});
   return writeMergedTrace(traces, file);
 }
 

@@ -53,7 +53,8 @@ std::string usesOf(const CLI::App& program) {
   std::string text;
   for (const NamedCommand& command : commandsOf(program))
     for (const CLI::Option* option : ownOptions(*command.app))
-      text += fmt::format("{}\t{}\t{}\n", nameOfOption(*option), command.name, option->get_description());
+      text += fmt::format("{}\t{}\t{}\t{}\n", nameOfOption(*option), command.name, option->get_description(),
+                          option->get_group().empty() ? "hidden" : "shown");
   return text;
 }
 
@@ -68,13 +69,13 @@ std::string usesOfBench() {
   return text;
 }
 
-/// The commands that have each option.
+/// The commands whose help shows each option.
 std::map<std::string, std::vector<std::string>> commandsByOption(const std::string& uses) {
   std::map<std::string, std::vector<std::string>> commands;
-  for (std::size_t begin = 0; begin < uses.size(); begin = uses.find('\n', begin) + 1) {
-    const std::size_t first = uses.find('\t', begin), second = uses.find('\t', first + 1);
-    commands[uses.substr(begin, first - begin)].push_back(uses.substr(first + 1, second - first - 1));
-  }
+  for (const std::string& line : CLI::detail::split(uses, '\n'))
+    if (const std::vector<std::string> parts = CLI::detail::split(line, '\t');
+        parts.size() == 4 && parts[3] == "shown")
+      commands[parts[0]].push_back(parts[1]);
   return commands;
 }
 
@@ -139,7 +140,8 @@ std::string manOfCommand(const NamedCommand& command) {
   std::vector<std::string> options, arguments;
   for (const CLI::Option* option : ownOptions(*command.app)) {
     const OptionRow* row = findOption(nameOfOption(*option));
-    if (row && !row->isInternal()) (row->isPositional() ? arguments : options).emplace_back(row->name);
+    if (row && !option->get_group().empty())
+      (row->isPositional() ? arguments : options).emplace_back(row->name);
   }
   std::string text = fmt::format(".SS stadion {} {}\n{}.\n", inTroff(command.name), fmt::join(arguments, " "),
                                  inTroff(command.app->get_description()));

@@ -28,7 +28,8 @@ std::vector<OptionUse> allUses() {
   for (const std::string& program : {stadionPath(), benchPath()}) {
     std::istringstream lines(runProgram({{program, "manual", "uses"}}).out);
     for (OptionUse use; std::getline(lines, use.name, '\t');) {
-      std::getline(lines, use.command, '\t'), std::getline(lines, use.text);
+      std::string shown;
+      std::getline(lines, use.command, '\t'), std::getline(lines, use.text, '\t'), std::getline(lines, shown);
       uses.push_back(use);
     }
   }
