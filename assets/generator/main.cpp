@@ -14,6 +14,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
+#include <string>
 
 namespace {
 
@@ -35,9 +36,14 @@ bool writeSounds(const std::filesystem::path& out) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  if (argc < 2 || argc > 3) {
-    std::fputs("usage: stadion-assets MODELDIR [SCRIPTDIR]\n", stderr);
-    return 2;
+  const bool isHelp = argc == 2 && (argv[1] == std::string("--help") || argv[1] == std::string("-h"));
+  if (isHelp || argc < 2 || argc > 3 || argv[1][0] == '-') {
+    std::fputs("Usage: stadion-assets MODELDIR [SCRIPTDIR]\n"
+               "Writes the models, pictures and sounds of the shows into MODELDIR. If SCRIPTDIR is given, it "
+               "also writes "
+               "the scripts of the athletes there.\n",
+               isHelp ? stdout : stderr);
+    return isHelp ? 0 : 2;
   }
   const std::filesystem::path out = argv[1];
   std::error_code error;

@@ -28,7 +28,7 @@ struct CollisionAttributes {
   bool on = true;
   std::vector<SharedFit> fits;  ///< of colliders in its file: made by the loader, kept for App to find
   std::uint32_t fineness = 1;   ///< as in World::setFineness
-  ImpactScheme impacts;         ///< as in World::setImpactScheme
+  ImpactScheme impacts = {};    ///< as in World::setImpactScheme
 };
 
 class CollisionNode : public Node {

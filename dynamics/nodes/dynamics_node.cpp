@@ -430,8 +430,7 @@ void checkImpacts(DeclarationCheck& check) {
   if (d.choice<ImpactScheme::Kind>("impact") == ImpactScheme::Kind::Paper) return;
   for (const std::string_view name : {"impacttolerance", "impactrate"})
     if (d.has(Attr::of(name)))
-      check.error(Attr::of(name),
-                  fmt::format("{0} is for impact=paper; add impact=paper or remove {0}", name));
+      check.error(Attr::of(name), fmt::format("{0} has no effect here; it needs impact=paper", name));
 }
 
 std::unique_ptr<Node> makeDynamics(const NodeRequest& r) {

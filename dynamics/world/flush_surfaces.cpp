@@ -1,5 +1,6 @@
 #include "dynamics/world/flush_surfaces.h"
 
+#include "dynamics/collision/manifold.h"
 #include "dynamics/world/ball_support.h"
 #include "dynamics/world/ways_out.h"
 

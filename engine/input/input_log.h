@@ -37,7 +37,7 @@
 ///
 ///     relief N LOAD POSITION LEVEL
 ///         from frame N on the node at that position of that load applies that level of its degradation
-///         ladder (see load_control.h); 0 = no degradation
+///         ladder (see cost_budget.h); 0 = no degradation
 ///     stress N LEVEL
 ///         from frame N on all distances count 2^(LEVEL/4) times, when levels of detail are chosen
 ///

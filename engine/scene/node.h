@@ -78,7 +78,7 @@ public:
     std::uint64_t hash = 0;  ///< its part of the state hash
     bool busy = false;
     bool touched = false;     ///< its state has changed since `hash` was computed
-    bool rests = false;       ///< it does not run, to save time (load_control.h)
+    bool rests = false;       ///< it does not run, to save time (cost_budget.h)
     std::uint8_t pace = 0;    ///< it runs in one of 2^pace frames
     std::uint16_t level = 0;  ///< within its rank: a node comes after those that it looks at
     Missed missed{};

@@ -26,30 +26,26 @@ std::uint64_t joined(std::uint32_t high, std::uint32_t low) {
 }  // namespace
 
 void DrawOrder::sortOpaque(std::vector<DrawnRecord>& things) {
-  keys_.resize(things.size());
-  Key* key = keys_.data();
+  keys_.clear();
   std::uint32_t thing = 0;
   for (const DrawnRecord& d : things)
-    *key++ = {joined(d.mesh, d.level << kRankBits | rankOf(d.views)), bitsOf(d.distance), thing++};
+    keys_.push_back({joined(d.mesh, d.level << kRankBits | rankOf(d.views)), bitsOf(d.distance), thing++});
   arrange(things);
 }
 
 void DrawOrder::sortTransparent(std::vector<DrawnRecord>& things) {
-  keys_.resize(things.size());
-  Key* key = keys_.data();
+  keys_.clear();
   std::uint32_t thing = 0;
   for (const DrawnRecord& d : things)
-    *key++ = {joined(d.record->owner.load, d.record->owner.position), d.mesh, thing++};
+    keys_.push_back({joined(d.record->owner.load, d.record->owner.position), d.mesh, thing++});
   arrange(things);
 }
 
 void DrawOrder::arrange(std::vector<DrawnRecord>& things) {
   sortKeys();
   sortAlike(things);
-  moved_.resize(things.size());
-  DrawnRecord* to = moved_.data();
-  const DrawnRecord* from = things.data();
-  for (const Key& key : keys_) *to++ = from[key.thing];
+  moved_.clear();
+  for (const Key& key : keys_) moved_.push_back(things[key.thing]);
   things.swap(moved_);
 }
 

@@ -10,13 +10,22 @@ namespace {
 
 namespace fs = std::filesystem;
 
+/// What a link leads to, also if that is not there yet.
+fs::path targetOf(fs::path file) {
+  std::error_code none;
+  constexpr int kMostLinks = 40;  // as Linux follows
+  for (int i = 0; i < kMostLinks && fs::is_symlink(file, none); ++i)
+    file = file.parent_path() / fs::read_symlink(file, none);
+  return file;
+}
+
 /// Also of files that are not there yet, by their folders.
 bool isSame(const std::string& a, const std::string& b) {
   std::error_code none;
   if (fs::exists(a, none) && !fs::is_regular_file(a, none)) return false;
   if (fs::equivalent(a, b, none) && !none) return true;
-  const fs::path first = fs::weakly_canonical(fs::absolute(a, none), none);
-  return !none && first == fs::weakly_canonical(fs::absolute(b, none), none) && !none;
+  const fs::path first = fs::weakly_canonical(fs::absolute(targetOf(a), none), none);
+  return !none && first == fs::weakly_canonical(fs::absolute(targetOf(b), none), none) && !none;
 }
 
 /// 0, or an errno. A file that is there need not lie in a folder of ours (/var/log/show.log).

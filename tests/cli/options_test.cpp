@@ -84,7 +84,7 @@ TEST(OptionTable, CommandsTakeTheirOptionsFromIt) {
   for (const auto& entry : std::filesystem::recursive_directory_iterator(STADION_SOURCE_DIR "/cli")) {
     if (entry.path().extension() != ".cpp" || entry.path().filename() == "command_options.cpp") continue;
     const std::string code = fileContent(entry.path());
-    for (const char* call : {"add_option", "add_flag", "->description(", ".description("})
+    for (const char* call : {"add_option", "add_flag"})
       EXPECT_FALSE(has(code, call)) << entry.path() << ": " << call;
   }
 }

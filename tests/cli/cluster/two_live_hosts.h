@@ -1,6 +1,7 @@
 #pragma once
 /// Two hosts of a cluster that play live.
 
+#include "tests/programs/desk.h"
 #include "tests/programs/played_cluster.h"
 
 #include <csignal>

@@ -13,12 +13,12 @@
 namespace stadion {
 namespace {
 
-const std::string kKick = STADION_SOURCE_DIR "/scripts/kick.evs";
+const std::string kKickScript = STADION_SOURCE_DIR "/scripts/kick.evs";
 
 TEST(ProgramUndrawn, ATrackNeedsNoRasteriser) {
   const TemporaryFolder folder;
   const auto run = [&](const std::string& out, std::vector<std::string> more) {
-    more.insert(more.begin(), {"run", kKick, "--frames", "30", "--walls", "desktop", "--size", "32x24",
+    more.insert(more.begin(), {"run", kKickScript, "--frames", "30", "--walls", "desktop", "--size", "32x24",
                                "--look", "plain", "--track", "ball", "--out", folder.path() / out});
     return stadionProgram(more);
   };
@@ -43,8 +43,8 @@ TEST(ProgramUndrawn, ATrackNeedsNoRasteriser) {
 }
 
 std::vector<std::string> hashedRun(std::vector<std::string> more) {
-  more.insert(more.begin(), {stadionPath(), "run", kKick, "--walls", "powerwall", "--size", "32x24", "--look",
-                             "plain", "--no-sound", "--hashes"});
+  more.insert(more.begin(), {stadionPath(), "run", kKickScript, "--walls", "powerwall", "--size", "32x24",
+                             "--look", "plain", "--no-sound", "--hashes"});
   return more;
 }
 
@@ -81,7 +81,9 @@ TEST(ProgramUndrawn, ALiveRunTellsWhatItsWallsShowed) {
   std::size_t found = 0;
   for (std::string line; std::getline(shown, line); ++found) {
     EXPECT_TRUE(std::regex_match(line, std::regex("[0-9]+ screen (left|right) [0-9a-f]{16}"))) << line;
-    if (std::stoi(line) < 240 && found < 20) EXPECT_TRUE(known.contains(line)) << line;
+    if (std::stoi(line) < 240 && found < 20) {
+      EXPECT_TRUE(known.contains(line)) << line;
+    }
   }
   EXPECT_GE(found, 20U);
 }

@@ -32,23 +32,23 @@ ColliderId addStill(World& w, const Mesh& mesh, const Pose& at = {},
   return w.addCollider({w.addShape(MeshShape(TriangleTree(mesh))), at, surface});
 }
 
-enum class Ground { Plane, Sheet, Box, Mesh };
+enum class PaperGround { Plane, Sheet, Box, Mesh };
 
-void addGround(World& w, Ground kind, double restitution = 0) {
+void addGround(World& w, PaperGround kind, double restitution = 0) {
   const Surface s{0.0, restitution, 0.0};
   switch (kind) {
-  case Ground::Plane: addFloor(w, 0, restitution); break;
-  case Ground::Sheet: w.addCollider({w.addShape(PlaneShape{{}, Vec2(3, 3)}), {}, s}); break;
-  case Ground::Box:
+  case PaperGround::Plane: addFloor(w, 0, restitution); break;
+  case PaperGround::Sheet: w.addCollider({w.addShape(PlaneShape{{}, Vec2(3, 3)}), {}, s}); break;
+  case PaperGround::Box:
     w.addCollider({w.addShape(BoxShape{{Vec3(0, 0, -0.5), Quat::Identity()}, Vec3(3, 3, 0.5)}), {}, s});
     break;
-  case Ground::Mesh: addStill(w, gridMesh(-3, 3, -3, 3, 5, 5), {}, s); break;
+  case PaperGround::Mesh: addStill(w, gridMesh(-3, 3, -3, 3, 5, 5), {}, s); break;
   }
 }
 
 TEST(PaperImpacts, ABallTouchesNoLaterThanItShouldAndEarlyByTheToleranceAtMost) {
   const double height = 1.3, exact = std::sqrt(2 * height / kG), speed = kG * exact;
-  for (const Ground ground : {Ground::Plane, Ground::Sheet, Ground::Box, Ground::Mesh})
+  for (const PaperGround ground : {PaperGround::Plane, PaperGround::Sheet, PaperGround::Box, PaperGround::Mesh})
     for (const double tolerance : kTolerances) {
       World w;
       w.setImpactScheme(paper(tolerance));
@@ -107,7 +107,7 @@ TEST(PaperImpacts, AColliderThatMovesIsMetWhereItHasComeTo) {
 }
 
 TEST(PaperImpacts, BouncesWithoutLossKeepTheirEnergy) {
-  for (const Ground ground : {Ground::Plane, Ground::Mesh}) {
+  for (const PaperGround ground : {PaperGround::Plane, PaperGround::Mesh}) {
     World w;
     w.setImpactScheme(paper(1e-3));
     addGround(w, ground, 1);
@@ -122,7 +122,7 @@ TEST(PaperImpacts, BouncesWithoutLossKeepTheirEnergy) {
 }
 
 TEST(PaperImpacts, ABounceThatRisesLessThanTheToleranceIsTheLast) {
-  for (const Ground ground : {Ground::Plane, Ground::Box, Ground::Mesh})
+  for (const PaperGround ground : {PaperGround::Plane, PaperGround::Box, PaperGround::Mesh})
     for (const double tolerance : {1e-3, 1e-5}) {
       World w;
       w.setImpactScheme(paper(tolerance));
@@ -182,7 +182,7 @@ TEST(PaperImpacts, AreTheSameAtEveryFrameRate) {
   const auto timesAt = [](double rate) {
     World w;
     w.setImpactScheme(paper(1e-4));
-    addGround(w, Ground::Mesh, 0.6);
+    addGround(w, PaperGround::Mesh, 0.6);
     const FieldId g = addGravity(w);
     for (int i = 0; i < 4; ++i) {
       BallSpec ball;

@@ -21,7 +21,9 @@ class ObjText : public ::testing::Test {
 protected:
   Result<std::unique_ptr<Mesh>> load(const std::string& text) {
     folder_.write("m.obj", text);
-    return importerOf(folder_.path()).load("m.obj");
+    ImportLimits limits;
+    limits.timeout = std::chrono::minutes(1);  // the program may take its time to start on a busy machine
+    return importerOf(folder_.path(), limits).load("m.obj");
   }
   std::string errorOf(const std::string& text) {
     const auto mesh = load(text);

@@ -21,7 +21,7 @@ RingPlace ringAt(double x, std::size_t ring = 0) {
 }
 
 /// Plays changes into the slots in turn, as a show does.
-struct Frames {
+struct CasterFrames {
   SceneState state;
   StillCasters casters;
   std::size_t frame = 0;
@@ -34,7 +34,7 @@ struct Frames {
 };
 
 TEST(StillCasters, AreFoundOnceForAllWallsAndAllFramesInWhichNothingOfThemChanges) {
-  Frames f;
+  CasterFrames f;
   const std::vector<InstanceRecord> records{thing(0), thing(2), thing(1000)};
   ChangeSet c;
   c.chunks = {{f.state.arena().add(records), true}};
@@ -53,7 +53,7 @@ TEST(StillCasters, AreFoundOnceForAllWallsAndAllFramesInWhichNothingOfThemChange
 }
 
 TEST(StillCasters, AreWhatStandsStillInThatFrameWhateverComesGoesAndBeginsToMove) {
-  Frames f;
+  CasterFrames f;
   std::mt19937 random(11);
   const auto below = [&](std::uint32_t n) { return static_cast<std::uint32_t>(random() % n); };
   const auto place = [&] { return 0.1 * below(100) - 5; };
@@ -100,7 +100,7 @@ TEST(StillCasters, AreWhatStandsStillInThatFrameWhateverComesGoesAndBeginsToMove
 }
 
 TEST(StillCasters, AFrameThatIsOverwrittenMeanwhileIsNotKeptForOthers) {
-  Frames f;
+  CasterFrames f;
   ChangeSet c;
   c.instances = {{0, thing(0)}};
   const SlotView view = f.publish(c);

@@ -1,10 +1,12 @@
 // What the renderer promises besides its pixels: the same pictures everywhere, errors said once, nothing
 // lost.
+#include "engine/base/run_stopped.h"
 #include "pipeline/draw/gpu/surface_check.h"
 #include "tests/pipeline/draw/renderer_scene.h"
 
 #include <gtest/gtest.h>
 
+#include <functional>
 #include <limits>
 #include <malloc.h>
 #include <map>
@@ -84,6 +86,35 @@ TEST(PictureRenderer, OneCallDrawsBothEyes) {
   EXPECT_EQ(picture, left);
   ASSERT_FALSE(both.renderer().read(1, picture.rgba));
   EXPECT_EQ(picture, right);
+}
+
+TEST(PictureRenderer, AWallNeedsOnlyTheInterface) {
+  MeshStore meshes;
+  const DrawList list = test::richList(meshes, 1);
+  const auto expected = Stage(meshes, 50, 50).draw(list);
+  Stage stage(meshes, 50, 50);
+  Renderer& renderer = stage.renderer();
+  ASSERT_FALSE(renderer.warmUp(list, {}));
+  EXPECT_EQ(renderer.totals()[0].frames, 0U) << "a warm-up is not counted";
+  ASSERT_FALSE(renderer.draw(list, {}, nullptr));
+  test::Picture picture = expected;
+  ASSERT_FALSE(renderer.read(0, picture.rgba));
+  EXPECT_EQ(picture, expected);
+  EXPECT_EQ(renderer.totals()[0].frames, 1U);
+  EXPECT_GT(renderer.totals()[1].triangles, 0U);
+  EXPECT_FALSE(renderer.isLost());
+  EXPECT_FALSE(renderer.description().empty());
+}
+
+TEST(PictureRenderer, EndsADrawingThatItsCallerGivesUp) {
+  MeshStore meshes;
+  const DrawList list = test::richList(meshes, 1);
+  const auto expected = Stage(meshes, 50, 50).draw(list);
+  Stage stage(meshes, 50, 50);
+  int asked = 0;
+  const std::function<bool()> giveUp = [&] { return ++asked == 3; };
+  EXPECT_THROW(stage.renderer().draw(list, giveUp, nullptr), RunStopped);
+  EXPECT_EQ(stage.draw(list), expected) << "the next picture shows nothing of it";
 }
 
 TEST(PictureRenderer, InstancesLookLikeSingleMeshes) {

@@ -271,7 +271,7 @@ void expectNothingLeftBehind(const MeshStore& meshes, const DrawList& list) {
     int left = givenUp;
     finished = true;
     try {
-      stage.renderer().draw(list, [&] { return left-- == 0; });
+      stage.renderer().draw(list, [&] { return left-- == 0; }, nullptr);
     } catch (const RunStopped&) {
       finished = false;
     }

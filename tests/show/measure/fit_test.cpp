@@ -44,7 +44,7 @@ TEST(ProgramFit, WritesItsTableOverNothingThatItReads) {
                     flight = folder.write("flight.csv", fileContent(kFlights + "disc_25_35_s40_a-10.csv"));
   for (const std::string& read : {object, flight}) {
     const std::string before = fileContent(read);
-    const std::string out = folder.path() / ("out" + std::to_string(read.size()));
+    const std::string out = folder.path() / ("over-" + std::filesystem::path(read).stem().string());
     std::filesystem::create_directory(out);
     std::filesystem::create_symlink(read, out + "/discus-flight.csv");
     const ProgramResult r = stadionProgram({"fit", object, "--reference", flight, "--out", out});

@@ -13,7 +13,7 @@
 namespace stadion {
 namespace {
 
-constexpr std::uint64_t kFrames = 120;
+constexpr std::uint64_t kFrameCount = 120;
 constexpr std::size_t kWalls = 4;
 
 /// What one wall was given to draw, frame by frame: a hash of the whole list.
@@ -63,7 +63,7 @@ Drawn drawnWith(Mode mode, std::size_t memories) {
   NotingStages stages(ShowParts{
       own.scene, state, own.meshes, own.input, own.walls, nullptr, nullptr, nullptr, true, {}, nullptr});
   FrameLoopOptions o;
-  o.mode = mode, o.walls = kWalls, o.frames = kFrames;
+  o.mode = mode, o.walls = kWalls, o.frames = kFrameCount;
   const std::atomic<bool> never = false;
   FrameLoop loop(stages, o, never);
   loop.run();
@@ -73,7 +73,7 @@ Drawn drawnWith(Mode mode, std::size_t memories) {
 TEST(ThreadsSlotCount, ARealShowDrawsTheSameListsInBothModes) {
   const Drawn sequential = drawnWith(Mode::Sequential, kSlots);
   ASSERT_EQ(sequential.size(), kWalls);
-  ASSERT_EQ(sequential[0].size(), kFrames);
+  ASSERT_EQ(sequential[0].size(), kFrameCount);
   EXPECT_EQ(drawnWith(Mode::Pipelined, kSlots), sequential);
 }
 

@@ -40,7 +40,7 @@ private:
 class ProgramUnevenWalls : public testing::TestWithParam<bool> {};
 
 TEST_P(ProgramUnevenWalls, DoNotHoldApp) {
-  constexpr std::uint64_t kFrames = 240;
+  constexpr std::uint64_t kUnevenFrames = 240;
   const auto player = openShow(testShow("bodies.evs"), "cave4");
   ASSERT_TRUE(player);
   auto provider = openGlProvider(GlProviderKind::OsMesa);
@@ -54,9 +54,9 @@ TEST_P(ProgramUnevenWalls, DoNotHoldApp) {
     parts.workers->tell = [](const std::string&) {};
   }
   FrameLoopOptions o;
-  o.walls = parts.walls.size(), o.frames = kFrames, o.rate = 200;
+  o.walls = parts.walls.size(), o.frames = kUnevenFrames, o.rate = 200;
   o.pace = Pace::Lock, o.delivery = Delivery::Latest;
-  AppProgress progress(kFrames);
+  AppProgress progress(kUnevenFrames);
   UnevenShow stages(std::move(parts), progress);
   const std::atomic<bool> never = false;
   FrameLoop loop(stages, o, never, &progress);
