@@ -9,12 +9,13 @@ namespace stadion {
 
 namespace {
 
-constexpr double kParted = 1e-3;      ///< and those farther than this no longer [m]
-constexpr std::size_t kLeast = 4;     ///< a smaller crowd is none any more
-constexpr double kLeaving = 0.1;      ///< least speed of a body that may leave a pile for good [m/s]
-constexpr double kQuietWay = 1.2e-3;  ///< a surface point that stays within this is quiet [m]
-constexpr double kQuietTime = 0.3;    ///< before a body sleeps among quiet ones [s]
-constexpr double kWaking = 1e-9;      ///< quiet time of a body that has been woken softly [s]
+constexpr double kParted = 1e-3;          ///< and those farther than this no longer [m]
+constexpr std::size_t kContactsEach = 6;  ///< space for so many of each member is made at once
+constexpr std::size_t kLeast = 4;         ///< a smaller crowd is none any more
+constexpr double kLeaving = 0.1;          ///< least speed of a body that may leave a pile for good [m/s]
+constexpr double kQuietWay = 1.2e-3;      ///< a surface point that stays within this is quiet [m]
+constexpr double kQuietTime = 0.3;        ///< before a body sleeps among quiet ones [s]
+constexpr double kWaking = 1e-9;          ///< quiet time of a body that has been woken softly [s]
 
 bool in(const std::vector<Party>& list, Party p) {
   return std::find(list.begin(), list.end(), p) != list.end();
@@ -221,6 +222,8 @@ void Piles::advance(double tau) {
   const auto leaves = [&](const RigidBody* b) { return b->velocity(tau).norm() > kLeaving; };
   if (due.size() < kLeast && std::ranges::any_of(due, leaves) && !isPile(due, tau)) return dissolve(due, tau);
   for (RigidBody* b : due) join(*b, step);
+  const std::size_t contacts = kContactsEach * due.size();
+  crowd.contacts.reserve(contacts), step.notes.reserve(contacts), step.points.reserve(contacts);
   for (std::size_t i = 0; i < step.members.size(); ++i) findContacts(*step.members[i].body, step);
   crowd.members = step.members.size();
   linkContacts(step);
