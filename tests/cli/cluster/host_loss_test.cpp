@@ -12,7 +12,7 @@
 namespace stadion {
 namespace {
 
-/// A cluster of four at its ticks, whose nodes begin again when they die. It plays until it is ended, or for
+/// A cluster of four at its ticks, which restarts hosts that crash. It plays until it is ended, or for
 /// so many seconds. The deadline is short where a test waits for it, and longer than a busy machine makes
 /// nodes wait.
 class RunningCluster {
