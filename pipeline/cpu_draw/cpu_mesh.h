@@ -1,0 +1,100 @@
+#pragma once
+/// The meshes of a show, in the layout that the CPU renderer draws.
+///
+/// Ownership  the cache borrows the mesh store, which must outlive it; it owns what it makes of the meshes.
+///            A CpuMesh that a renderer holds stays valid after the store has freed the mesh.
+/// Threads    CpuMesh: immutable after construction. CpuMeshCache: any; all walls share one.
+/// Errors     a mesh that is gone or damaged is reported once and draws nothing.
+
+#include "engine/asset/mesh_store.h"
+#include "engine/base/diagnostic.h"
+#include "pipeline/cpu_draw/cpu_texture.h"
+#include "pipeline/cpu_draw/kernels/kernel_data.h"
+
+#include <array>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <span>
+#include <string>
+#include <unordered_map>
+#include <vector>
+
+namespace stadion {
+
+/// A run of triangles with one material.
+struct CpuPart {
+  std::uint32_t firstTriangle, triangles;
+  std::uint32_t material;
+  bool transparent, masked;
+  bool bothSides;  ///< double-sided, or the mesh is open
+};
+
+class CpuMesh {
+public:
+  /// What a vertex has besides its position.
+  struct Vertex {
+    std::array<float, 3> normal;
+    std::array<float, 2> uv;
+    std::array<float, 4> colour;  ///< as the look computes with it
+  };
+
+  /// Expects a mesh without a drawingFault().
+  CpuMesh(const Mesh& mesh, Look look);
+
+  std::uint32_t vertexCount() const { return static_cast<std::uint32_t>(vertices_.size()); }
+  MeshPositions positions() const { return {x_.data(), y_.data(), z_.data()}; }
+  TriangleCorners corners() const { return {a_.data(), b_.data(), c_.data()}; }
+  /// What is drawn at a level of detail; the coarsest there is, if there are not so many.
+  const std::vector<CpuPart>& partsAt(std::uint32_t level) const;
+  const MaterialParameters& material(std::uint32_t i) const { return materials_[i]; }
+  const Vertex& vertex(int i) const { return vertices_[static_cast<std::size_t>(i)]; }
+  std::array<float, 3> position(int i) const {
+    const auto at = static_cast<std::size_t>(i);
+    return {x_[at], y_[at], z_[at]};
+  }
+  std::array<int, 3> triangle(std::uint32_t t) const { return {a_[t], b_[t], c_[t]}; }
+
+private:
+  void copyVertices(const Mesh& mesh, Look look);
+  void addLevel(const Mesh& mesh, std::span<const std::uint32_t> indices, std::span<const Submesh> parts,
+                bool open);
+  void makeMaterials(const Mesh& mesh, Look look);
+
+  std::vector<float> x_, y_, z_;
+  std::vector<Vertex> vertices_;
+  std::vector<int> a_, b_, c_;  ///< of all levels
+  std::vector<std::vector<CpuPart>> levels_;
+  std::vector<MaterialParameters> materials_;
+  std::vector<std::unique_ptr<const CpuTexture>> textures_;
+};
+
+class CpuMeshCache {
+public:
+  CpuMeshCache(const MeshStore& store, Look look) : store_(store), look_(look) {}
+
+  /// The mesh, made ready at its first use; null if it cannot be drawn.
+  std::shared_ptr<const CpuMesh> find(MeshId id);
+  /// Forgets meshes that the store has freed.
+  void freeUnused();
+  std::size_t size() const;
+  /// What went wrong since the last call, if anything did.
+  std::optional<Diagnostic> takeProblem();
+
+private:
+  struct Cached {
+    std::uint64_t hash = 0;  ///< of the content; an id may be given again
+    std::shared_ptr<const CpuMesh> mesh;
+  };
+  Cached made(MeshId id);
+  void report(std::string what);
+
+  const MeshStore& store_;
+  Look look_;
+  mutable std::mutex mutex_;
+  std::unordered_map<MeshId, Cached> meshes_;
+  std::uint64_t freedCount_ = 0;  ///< of the store, when it was last looked at
+  std::optional<Diagnostic> problem_;
+};
+
+}  // namespace stadion

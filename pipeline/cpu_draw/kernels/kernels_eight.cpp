@@ -1,0 +1,11 @@
+/// The kernels with 8 lanes, in instructions that AVX2 has. This file defines nothing that other files share.
+
+#include "pipeline/cpu_draw/kernels/kernel_functions.h"
+
+namespace stadion {
+
+#ifdef __AVX2__
+const DrawKernels kDrawByEight = KernelFunctions<DrawEight>::named("8 lanes");
+#endif
+
+}  // namespace stadion

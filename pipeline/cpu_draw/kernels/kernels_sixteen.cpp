@@ -1,0 +1,11 @@
+/// The kernels with 16 lanes, in instructions that AVX-512 has. This file defines nothing that other files share.
+
+#include "pipeline/cpu_draw/kernels/kernel_functions.h"
+
+namespace stadion {
+
+#if defined(__AVX512F__) && defined(__AVX512DQ__)
+const DrawKernels kDrawBySixteen = KernelFunctions<DrawSixteen>::named("16 lanes");
+#endif
+
+}  // namespace stadion

@@ -1,0 +1,142 @@
+#pragma once
+/// Light, air and shadows, as the shaders compute them (pipeline/shader/shaders.h explains the model).
+///
+/// Linkage  internal.
+
+#include "pipeline/cpu_draw/kernels/kernel_data.h"
+#include "pipeline/cpu_draw/kernels/lanes.h"
+
+namespace stadion {
+namespace {
+
+template <class By>
+struct LightModel : DrawLanes<By> {
+  using L = DrawLanes<By>;
+  using F = typename L::F;
+  using I = typename L::I;
+  using T = Triple<F>;
+  static constexpr float kPerE = -1.442695f;  ///< exp(-x) = 2^(kPerE x)
+
+  /// The sun's glow in the air.
+  [[gnu::always_inline]] static inline T glow(const T& d, const SceneParameters& s) {
+    const F off = L::most(1.0f - T::dot(d, T::of(s.sunDirection)), F{});
+    const F near = 1.0f / (1.0f + 900.0f * off);
+    return T::of(s.sunColour) * ((0.3f * near * near + 0.06f / (1.0f + 18.0f * off)) * s.sunShare);
+  }
+  /// Air without end, seen in direction d.
+  [[gnu::always_inline]] static inline T airWithoutGlow(const T& d, const SceneParameters& s) {
+    const F low = 1.0f - L::most(d.z, F{}), squared = low * low;
+    return T::mix(T::of(s.zenith), T::of(s.horizon), squared * squared);
+  }
+  [[gnu::always_inline]] static inline T air(const T& d, const SceneParameters& s) {
+    return airWithoutGlow(d, s) + glow(d, s);
+  }
+  [[gnu::always_inline]] static inline F softClip(F c) {
+    const F over = L::most(c - 0.8f, F{}) * 5.0f;
+    return L::least(c, L::all(0.8f)) + 0.2f * over / (1.0f + over);
+  }
+  [[gnu::always_inline]] static inline T softClip(const T& c) {
+    return {softClip(c.x), softClip(c.y), softClip(c.z)};
+  }
+  [[gnu::always_inline]] static inline T ambientFrom(F up, const SceneParameters& s) {
+    const T low = T::of(s.ground) + T::of(0.3f);
+    return T::of(s.ambient) * T::mix(low, T::of(1.0f), 0.5f + 0.5f * up);
+  }
+
+  /// The light of a lamp at a place: how much arrives there, and from where.
+  [[gnu::always_inline]] static inline F strengthAt(const LightParameters& light, const T& placed,
+                                                    T& towards) {
+    towards = T::of(light.towards);
+    if (light.kind == 0) return L::all(1);
+    T to = T::of(light.position) - placed;
+    const F squared = L::most(T::dot(to, to), L::all(1e-12f));
+    to = to * L::perRoot(squared);
+    const F fading = L::most(1.0f - squared * light.perRangeSquared, F{});
+    F strength = fading * fading;
+    if (light.kind == 2) {
+      const F inside = L::clamp((T::dot(to, towards) - light.coneOuter) * light.perCone);
+      strength *= inside * inside * (3.0f - 2.0f * inside);
+    }
+    towards = to;
+    return strength;
+  }
+
+  /// How far a place lies from the middle of a ring's quarter of the map; the quarter ends at 0.25.
+  [[gnu::always_inline]] static inline F outside(F x, F y, const float* ring, float middleX, float middleY) {
+    return L::most(L::size(x * ring[3] + ring[0] - middleX), L::size(y * ring[3] + ring[1] - middleY));
+  }
+
+  /// The part of the light that arrives.
+  [[gnu::always_inline]] static inline F lightArriving(const ShadowParameters& s, const T& placed,
+                                                       const T& n) {
+    const T right = T::of(s.right), up = T::of(s.up), towards = T::of(s.towards);
+    F x = T::dot(right, placed), y = T::dot(up, placed), z = T::dot(towards, placed);
+    F ringX = L::all(s.rings[3][0]), ringY = L::all(s.rings[3][1]), ringZ = L::all(s.rings[3][2]),
+      scale = L::all(s.rings[3][3]), lift = L::all(s.lift[3]);
+    const F edge = outside(x, y, s.rings[3], 0.75f, 0.75f);
+    constexpr float kMiddle[3][2] = {{0.25f, 0.25f}, {0.75f, 0.25f}, {0.25f, 0.75f}};
+    for (int i = 2; i >= 0; --i) {
+      const float* r = s.rings[i];
+      const I in = outside(x, y, r, kMiddle[i][0], kMiddle[i][1]) < 0.245f;
+      ringX = L::select(in, L::all(r[0]), ringX), ringY = L::select(in, L::all(r[1]), ringY);
+      ringZ = L::select(in, L::all(r[2]), ringZ), scale = L::select(in, L::all(r[3]), scale);
+      lift = L::select(in, L::all(s.lift[i]), lift);
+    }
+    x += lift * T::dot(right, n), y += lift * T::dot(up, n), z += lift * T::dot(towards, n);
+    constexpr float kSide = kShadowSide;
+    const auto texel = [](F at) { return L::most(L::least(at * kSide - 0.5f, L::all(kSide)), L::all(-1)); };
+    const F depth = L::clamp(z * s.depthScale + ringZ);
+    const F u = texel(x * scale + ringX), v = texel(y * scale + ringY);
+    const F lit = s.taps == 16 ? sixteen(s, u, v, depth) : four(s, u, v, depth);
+    return lit + (1.0f - lit) * L::clamp((edge - 0.22f) * 40.0f);
+  }
+
+  /// The four weights of two bilinear lookups at `at` -+ 0.75 texels, and the first of the four texels.
+  [[gnu::always_inline]] static inline F weights(F at, F* w) {
+    const F low = at - 0.75f, high = at + 0.75f, first = L::floor(low), second = L::floor(high);
+    const F f = low - first, g = high - second;
+    const I apart = second - first > 1.5f;
+    w[0] = 1.0f - f, w[1] = L::select(apart, f, f + 1.0f - g), w[2] = L::select(apart, 1.0f - g, g);
+    w[3] = L::where(apart, g);
+    return first;
+  }
+
+  /// The mean of four lookups of two by two texels each.
+  [[gnu::always_inline]] static inline F sixteen(const ShadowParameters& s, F u, F v, F depth) {
+    F across[4], along[4];
+    const F left = weights(u, across), low = weights(v, along);
+    const auto corner = [](F x) { return L::truncated(L::most(L::least(x, L::all(kShadowSide - 4)), F{})); };
+    const I x = corner(left), y = corner(low);
+    // Most places are in light, or in shadow, as a whole.
+    const I tile = y / kShadowTile * (kShadowSide / kShadowTile) + x / kShadowTile;
+    const I light = depth >= L::pick(s.most, tile), dark = depth < L::pick(s.least, tile);
+    F lit{};
+    if (L::bits(light | dark) != L::kAll) {
+      const I at = y * kShadowSide + x;
+      for (int j = 0; j < 4; ++j) {
+        F row{};
+        for (int i = 0; i < 4; ++i)
+          row += L::where(depth >= L::pick(s.depths + j * kShadowSide + i, at), across[i]);
+        lit += row * along[j];
+      }
+      lit *= 0.25f;
+    }
+    return L::select(light, L::all(1), L::where(~dark, lit));
+  }
+
+  /// One lookup of two by two texels.
+  [[gnu::always_inline]] static inline F four(const ShadowParameters& s, F u, F v, F depth) {
+    const F left = L::floor(u), low = L::floor(v), f = u - left, g = v - low;
+    const auto corner = [](F x) { return L::truncated(L::most(L::least(x, L::all(kShadowSide - 2)), F{})); };
+    const I at = corner(low) * kShadowSide + corner(left);
+    const auto row = [&](int first) {
+      return L::where(depth >= L::pick(s.depths + first, at), 1.0f - f) +
+             L::where(depth >= L::pick(s.depths + first + 1, at), f);
+    };
+    const F below = row(0), above = row(kShadowSide);
+    return below + (above - below) * g;
+  }
+};
+
+}  // namespace
+}  // namespace stadion

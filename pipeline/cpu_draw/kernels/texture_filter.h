@@ -1,0 +1,116 @@
+#pragma once
+/// Texels at many places at a time.
+///
+/// Linkage  internal.
+
+#include "pipeline/cpu_draw/kernels/kernel_data.h"
+#include "pipeline/cpu_draw/kernels/lanes.h"
+
+namespace stadion {
+namespace {
+
+template <class By>
+struct TextureFilter : DrawLanes<By> {
+  using L = DrawLanes<By>;
+  using F = typename L::F;
+  using I = typename L::I;
+  using H = typename L::H;
+  using T = Triple<F>;
+
+  struct Texel {
+    T colour;
+    F alpha;
+  };
+
+  /// Texture coordinates, and the squares of their change for a pixel to the right and a pixel up [of the
+  /// texture's sides].
+  struct Place {
+    F u, v;
+    F uRight, vRight, uUp, vUp;
+  };
+
+  /// Four means of texels in sixteen bits each: red and blue, green and alpha.
+  struct Sum {
+    I redBlue{}, greenAlpha{};
+    [[gnu::always_inline]] inline void add(I texel, I weight) {
+      weight |= weight << 16;
+      redBlue = I(H(redBlue) + H(texel & 0x00ff00ff) * H(weight));
+      greenAlpha = I(H(greenAlpha) + (H(texel) >> 8) * H(weight));
+    }
+  };
+
+  /// Keeps a coordinate in 0 .. 1; one that is not finite becomes 1.
+  [[gnu::always_inline]] static inline F wrapped(F at, TextureWrap wrap) {
+    if (wrap == TextureWrap::Repeat) at = at - L::floor(at);
+    if (wrap == TextureWrap::Mirror) {
+      const F half = 0.5f * at;
+      at = L::size(2.0f * (half - L::floor(half + 0.5f)));
+    }
+    return L::most(L::least(at, L::all(1)), F{});
+  }
+  /// Of a texel and its neighbour, one of which may lie beyond the edge.
+  [[gnu::always_inline]] static inline void neighbours(I& first, I& second, int count, TextureWrap wrap) {
+    if (wrap == TextureWrap::Repeat) {
+      second &= ~I(second >= count);
+      first += I(first < 0) & count;
+    } else {
+      second = second < count ? second : I{} + (count - 1);
+      first &= ~I(first < 0);
+    }
+  }
+
+  /// Adds the mean of the four texels around a place, times `weight` of 256.
+  [[gnu::always_inline]] static inline void add(const TextureParameters& t, const TextureLevel& level, F u,
+                                                F v, F weight, Sum& sum) {
+    F x = u * static_cast<float>(level.width) - 0.5f, y = v * static_cast<float>(level.height) - 0.5f;
+    if (t.magnifiesNearest) x = L::floor(x + 0.5f), y = L::floor(y + 0.5f);
+    const F left = L::floor(x), top = L::floor(y);
+    I x0 = L::truncated(left), y0 = L::truncated(top), x1 = x0 + 1, y1 = y0 + 1;
+    neighbours(x0, x1, level.width, t.wrapU), neighbours(y0, y1, level.height, t.wrapV);
+    const I all = L::truncated(weight), right = L::truncated(weight * (x - left)), rest = all - right;
+    const I lowRight = L::truncated(L::whole(right) * (y - top)),
+            lowLeft = L::truncated(L::whole(rest) * (y - top));
+    const int* from = reinterpret_cast<const int*>(t.texels) + level.first;
+    const int row = level.width + 1;
+    sum.add(By::pick(from, y0 * row + x0), rest - lowLeft),
+        sum.add(By::pick(from, y0 * row + x1), right - lowRight);
+    sum.add(By::pick(from, y1 * row + x0), lowLeft), sum.add(By::pick(from, y1 * row + x1), lowRight);
+  }
+
+  /// The level of detail: 0 = all of the texture.
+  [[gnu::always_inline]] static inline F levelOf(const TextureParameters& t, const Place& p) {
+    const float w = static_cast<float>(t.level[0].width), h = static_cast<float>(t.level[0].height);
+    const F right = p.uRight * p.uRight * (w * w) + p.vRight * p.vRight * (h * h);
+    const F up = p.uUp * p.uUp * (w * w) + p.vUp * p.vUp * (h * h);
+    const F level = 0.5f * L::log2(L::most(L::most(right, up), L::all(1)));
+    return L::least(level, L::all(static_cast<float>(t.levels - 1)));
+  }
+
+  /// `roots`: colours are stored as square roots.
+  [[gnu::always_inline]] static inline Texel at(const TextureParameters& t, const Place& p, bool nearestLevel,
+                                                bool roots) {
+    F level = levelOf(t, p);
+    if (nearestLevel) level = L::floor(level + 0.5f);
+    const F u = wrapped(p.u, t.wrapU), v = wrapped(p.v, t.wrapV);
+    const I whole = L::truncated(level);
+    const F between = level - L::whole(whole);
+    Sum out;
+    for (unsigned left = L::kAll; left != 0;) {  // lanes of one level together
+      const int here = whole[static_cast<int>(__builtin_ctz(left))];
+      const I same = whole == here;
+      const bool two = !nearestLevel && here + 1 < t.levels;
+      Sum sum;
+      add(t, t.level[here], u, v, two ? 256.0f - L::floor(256.0f * between) : L::all(256), sum);
+      if (two) add(t, t.level[here + 1], u, v, L::floor(256.0f * between), sum);
+      out.redBlue |= sum.redBlue & same, out.greenAlpha |= sum.greenAlpha & same;
+      left &= ~L::bits(same);
+    }
+    const auto low = [](I two) { return L::whole(two & 0xffff) * (1.0f / 65280); };
+    const auto high = [](I two) { return L::whole((two >> 16) & 0xffff) * (1.0f / 65280); };
+    const T colour{low(out.redBlue), low(out.greenAlpha), high(out.redBlue)};
+    return {roots ? colour * colour : colour, high(out.greenAlpha)};
+  }
+};
+
+}  // namespace
+}  // namespace stadion

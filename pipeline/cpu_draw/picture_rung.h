@@ -1,0 +1,26 @@
+#pragma once
+/// A rung of the ladder of pictures: what a view's picture costs, and how near it comes to the best one.
+
+#include "pipeline/shader/look.h"
+
+#include <cstdint>
+
+namespace stadion {
+
+struct PictureRung {
+  Look look = Look::Full;
+  int samples = 4;            ///< for each pixel: 1, 4 or 8
+  int shadowTaps = 16;        ///< texels of the shadow map that are compared: 16 or 4
+  bool nearestLevel = false;  ///< textures are read from one level instead of two
+  bool coarse = false;        ///< inside of triangles two by two pixels are shaded once
+
+  static PictureRung of(const RenderQuality& quality) {
+    PictureRung rung;
+    rung.look = quality.look;
+    rung.samples = quality.samples <= 1 ? 1 : quality.samples <= 4 ? 4 : 8;
+    return rung;
+  }
+  bool operator==(const PictureRung&) const = default;
+};
+
+}  // namespace stadion

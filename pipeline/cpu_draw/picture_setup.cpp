@@ -1,0 +1,167 @@
+#include "pipeline/cpu_draw/picture_setup.h"
+
+#include "pipeline/cpu_draw/triangle_clipper.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace stadion {
+namespace {
+
+constexpr std::uint32_t kVerticesAPiece = 8192, kTrianglesAPiece = 4096;
+constexpr std::size_t kPlacedRounding = 16;  ///< vertices of an instance begin at a multiple
+
+/// The cofactors of the model matrix, with the sign of its determinant.
+std::array<float, 9> normalsBy(const std::array<float, 12>& m) {
+  std::array<float, 9> out;
+  for (std::size_t row = 0; row < 3; ++row) {
+    const float *u = &m[4 * ((row + 1) % 3)], *v = &m[4 * ((row + 2) % 3)];
+    for (std::size_t k = 0; k < 3; ++k)
+      out[3 * row + k] = u[(k + 1) % 3] * v[(k + 2) % 3] - u[(k + 2) % 3] * v[(k + 1) % 3];
+  }
+  if (m[0] * out[0] + m[1] * out[1] + m[2] * out[2] < 0)
+    for (float& x : out) x = -x;
+  return out;
+}
+
+bool isFinite(const std::array<float, 12>& m) {
+  return std::ranges::all_of(m, [](float x) { return std::isfinite(x); });
+}
+
+bool turnsLeftIntoRight(const std::array<float, 12>& m) {
+  const auto at = [&](std::size_t i) { return static_cast<double>(m[i]); };
+  return at(0) * (at(5) * at(10) - at(6) * at(9)) - at(1) * (at(4) * at(10) - at(6) * at(8)) +
+             at(2) * (at(4) * at(9) - at(5) * at(8)) <
+         0;
+}
+
+}  // namespace
+
+void PictureSetup::begin(const ViewGeometry& geometry, int samples, float slopeOffset, float stepOffset) {
+  geometry_ = geometry, samples_ = samples, slopeOffset_ = slopeOffset, stepOffset_ = stepOffset;
+  bands_ = static_cast<std::size_t>((geometry.height + kBandRows - 1) / kBandRows);
+  instances_.clear(), stretches_.clear(), materials_.clear(), placements_.clear();
+  vertices_ = 0, partsAdded_ = 0, trianglesAdded_ = 0;
+}
+
+bool PictureSetup::add(const std::shared_ptr<const CpuMesh>& mesh, std::uint32_t level,
+                       const std::array<float, 12>& model, Transparency which) {
+  if (!isFinite(model)) return false;
+  const auto number = static_cast<std::uint32_t>(instances_.size());
+  bool any = false;
+  for (const CpuPart& part : mesh->partsAt(level)) {
+    if (part.transparent != (which == Transparency::Transparent) || part.triangles == 0) continue;
+    if (!any)
+      instances_.push_back(
+          {mesh, model, normalsBy(model), geometry_.placing(model), vertices_, turnsLeftIntoRight(model)});
+    any = true;
+    addPart(number, part, materialNumber(mesh->material(part.material)));
+  }
+  if (any) {
+    const std::uint32_t count = mesh->vertexCount();
+    for (std::uint32_t first = 0; first < count; first += kVerticesAPiece)
+      placements_.push_back({number, first, std::min(count - first, kVerticesAPiece)});
+    vertices_ += (count + kPlacedRounding - 1) / kPlacedRounding * kPlacedRounding;
+  }
+  return true;
+}
+
+void PictureSetup::addPart(std::uint32_t instance, const CpuPart& part, std::uint32_t material) {
+  for (std::uint32_t first = 0; first < part.triangles; first += kTrianglesAPiece)
+    stretches_.push_back({instance, part.firstTriangle + first,
+                          std::min(part.triangles - first, kTrianglesAPiece), &part, material});
+  ++partsAdded_, trianglesAdded_ += part.triangles;
+}
+
+std::uint32_t PictureSetup::materialNumber(const MaterialParameters& material) {
+  // Neighbours are often of one mesh.
+  const auto last = materials_.rbegin();
+  if (last != materials_.rend() && *last == &material)
+    return static_cast<std::uint32_t>(materials_.size() - 1);
+  const auto at = std::ranges::find(materials_, &material);
+  if (at != materials_.end()) return static_cast<std::uint32_t>(at - materials_.begin());
+  materials_.push_back(&material);
+  return static_cast<std::uint32_t>(materials_.size() - 1);
+}
+
+void PictureSetup::divide() {
+  chunks_.clear();
+  for (auto* values : {&x_, &y_, &depth_})
+    if (values->size() < vertices_ + kKernelPadding) values->resize(vertices_ + kKernelPadding);
+  Chunk* chunk = nullptr;
+  for (std::uint32_t i = 0; i < stretches_.size(); ++i) {
+    const TriangleStretch& s = stretches_[i];
+    const Transparency which = s.part->transparent ? Transparency::Transparent : Transparency::Opaque;
+    if (!chunk || chunk->which != which || chunk->triangles + s.count > kTrianglesAPiece)
+      chunk = &chunks_.emplace_back(Chunk{which, i, i, 0, {}, {}, {}});
+    chunk->endStretch = i + 1, chunk->triangles += s.count;
+  }
+}
+
+void PictureSetup::place(std::size_t piece) {
+  const Placement& p = placements_[piece];
+  const PictureInstance& instance = instances_[p.instance];
+  const MeshPositions from = instance.mesh->positions();
+  const std::size_t to = instance.firstVertex + p.first;
+  kernels_.place({from.x + p.first, from.y + p.first, from.z + p.first}, p.count, instance.matrix,
+                 geometry_.parallel, {x_.data() + to, y_.data() + to, depth_.data() + to});
+}
+
+SetupParameters PictureSetup::parametersOf(std::uint32_t number) const {
+  const TriangleStretch& stretch = stretches_[number];
+  SetupParameters s{};
+  s.width = geometry_.width, s.height = geometry_.height, s.samples = samples_;
+  s.mirrored = instances_[stretch.instance].mirrored ? -1.0f : 1.0f;
+  s.facing = stretch.part->bothSides ? 0 : s.mirrored;
+  s.leastDepth = geometry_.leastDepth, s.mostDepth = geometry_.mostDepth;
+  s.slopeOffset = slopeOffset_, s.stepOffset = stepOffset_, s.source = number;
+  return s;
+}
+
+void PictureSetup::setUpStretch(std::uint32_t number, std::vector<TriangleRecord>& records,
+                                std::vector<TriangleRecord>& raw) const {
+  const TriangleStretch& stretch = stretches_[number];
+  const PictureInstance& instance = instances_[stretch.instance];
+  const SetupParameters by = parametersOf(number);
+  // The kernels only read.
+  const PlacedVertices at{const_cast<float*>(x_.data()) + instance.firstVertex,
+                          const_cast<float*>(y_.data()) + instance.firstVertex,
+                          const_cast<float*>(depth_.data()) + instance.firstVertex};
+  raw.resize(stretch.count);
+  raw.resize(kernels_.setUp(instance.mesh->corners(), stretch.first, stretch.count, at, by, raw.data()));
+  const TriangleClipper clipper(by, geometry_.parallel);
+  for (const TriangleRecord& r : raw) {
+    if (!(r.sourceAndFlags & kUnfinished)) {
+      records.push_back(r);
+      continue;
+    }
+    std::array<std::array<float, 3>, 3> corners;
+    const std::array<int, 3> triangle = instance.mesh->triangle(r.triangle);
+    std::ranges::transform(triangle, corners.begin(), [&](int v) { return instance.mesh->position(v); });
+    clipper.clip(corners, instance.matrix, r.triangle, !stretch.part->transparent, records);
+  }
+}
+
+void PictureSetup::setUp(std::size_t piece) {
+  Chunk& chunk = chunks_[piece];
+  chunk.records.clear();
+  std::vector<TriangleRecord> raw;
+  for (std::uint32_t i = chunk.firstStretch; i < chunk.endStretch; ++i) setUpStretch(i, chunk.records, raw);
+  sortIntoBands(chunk);
+}
+
+/// By counting.
+void PictureSetup::sortIntoBands(Chunk& chunk) const {
+  chunk.binEnds.assign(bands_ + 2, 0);
+  const auto bandOf = [](short row) { return static_cast<std::size_t>(row / kBandRows); };
+  for (const TriangleRecord& r : chunk.records)
+    for (std::size_t band = bandOf(r.low); band <= bandOf(r.high); ++band) ++chunk.binEnds[band + 2];
+  for (std::size_t band = 2; band < chunk.binEnds.size(); ++band)
+    chunk.binEnds[band] += chunk.binEnds[band - 1];
+  chunk.bins.resize(chunk.binEnds.back());
+  for (std::uint32_t i = 0; i < chunk.records.size(); ++i)
+    for (std::size_t band = bandOf(chunk.records[i].low); band <= bandOf(chunk.records[i].high); ++band)
+      chunk.bins[chunk.binEnds[band + 1]++] = i;
+}
+
+}  // namespace stadion

@@ -1,0 +1,115 @@
+#pragma once
+/// The triangles of one picture: instances are placed, and their triangles set up and sorted into bands.
+///
+/// Work     in pieces of a few thousand vertices or triangles. How the work is divided depends on the list
+///          alone; so do the results.
+/// Order    records of a band are in the order in which instances were added.
+/// Threads  add() on one thread. Then all pieces of place(), on any; then all pieces of setUp(), on any.
+
+#include "pipeline/cpu_draw/cpu_mesh.h"
+#include "pipeline/cpu_draw/kernels/kernel_data.h"
+#include "pipeline/cpu_draw/view_geometry.h"
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+namespace stadion {
+
+/// A mesh somewhere.
+struct PictureInstance {
+  std::shared_ptr<const CpuMesh> mesh;
+  std::array<float, 12> model;   ///< (3 x 4), row major: mesh coordinates to World axes
+  std::array<float, 9> normals;  ///< (3 x 3), row major: normals to World axes, of any length
+  PixelMatrix matrix;
+  std::size_t firstVertex;  ///< among all placed ones
+  bool mirrored;            ///< the model matrix turns left into right
+};
+
+/// Triangles of a part of an instance that are set up together.
+struct TriangleStretch {
+  std::uint32_t instance, first, count;
+  const CpuPart* part;
+  std::uint32_t material;  ///< among PictureSetup::materials
+};
+
+/// Which part of a picture's triangles something is about.
+enum class Transparency { Opaque, Transparent };
+
+class PictureSetup {
+public:
+  explicit PictureSetup(const DrawKernels& kernels) : kernels_(kernels) {}
+
+  /// Begins a picture with no instances. Depths are moved by a multiple of the slope and of the smallest step.
+  void begin(const ViewGeometry& geometry, int samples, float slopeOffset = 0, float stepOffset = 0);
+  /// Adds the opaque or the transparent parts of a mesh. Returns false, and adds nothing, if the matrix is not
+  /// finite.
+  bool add(const std::shared_ptr<const CpuMesh>& mesh, std::uint32_t level,
+           const std::array<float, 12>& model, Transparency which);
+  /// After the last add().
+  void divide();
+
+  std::size_t placePieces() const { return placements_.size(); }
+  void place(std::size_t piece);
+  std::size_t setUpPieces() const { return chunks_.size(); }
+  void setUp(std::size_t piece);
+
+  /// Calls work(record, stretch) for the triangles that may cover a sample of a band.
+  template <class Work>
+  void forEach(Transparency which, std::size_t band, const Work& work) const {
+    for (const Chunk& chunk : chunks_) {
+      if (chunk.which != which) continue;
+      for (std::uint32_t i = chunk.binEnds[band]; i < chunk.binEnds[band + 1]; ++i) {
+        const TriangleRecord& record = chunk.records[chunk.bins[i]];
+        work(record, stretches_[record.sourceAndFlags >> 4]);
+      }
+    }
+  }
+
+  const ViewGeometry& geometry() const { return geometry_; }
+  int samples() const { return samples_; }
+  std::size_t bands() const { return bands_; }
+  const PictureInstance& instance(std::uint32_t i) const { return instances_[i]; }
+  std::span<const MaterialParameters* const> materials() const { return materials_; }
+  /// Instances, a part of a mesh each, and their triangles.
+  std::uint32_t partsAdded() const { return static_cast<std::uint32_t>(partsAdded_); }
+  std::uint64_t trianglesAdded() const { return trianglesAdded_; }
+
+private:
+  struct Placement {
+    std::uint32_t instance, first, count;  ///< vertices
+  };
+  struct Chunk {
+    Transparency which;
+    std::uint32_t firstStretch, endStretch, triangles;
+    std::vector<TriangleRecord> records;
+    std::vector<std::uint32_t> bins;     ///< numbers of records, by band
+    std::vector<std::uint32_t> binEnds;  ///< where a band's begin; one more than there are bands
+  };
+
+  void addPart(std::uint32_t instance, const CpuPart& part, std::uint32_t material);
+  std::uint32_t materialNumber(const MaterialParameters& material);
+  void divideStretches(Transparency which);
+  SetupParameters parametersOf(std::uint32_t stretch) const;
+  void setUpStretch(std::uint32_t stretch, std::vector<TriangleRecord>& records,
+                    std::vector<TriangleRecord>& raw) const;
+  void sortIntoBands(Chunk& chunk) const;
+
+  const DrawKernels& kernels_;
+  ViewGeometry geometry_;
+  int samples_ = 1;
+  float slopeOffset_ = 0, stepOffset_ = 0;
+  std::size_t bands_ = 0;
+  std::vector<PictureInstance> instances_;
+  std::vector<TriangleStretch> stretches_;
+  std::vector<const MaterialParameters*> materials_;
+  std::vector<Placement> placements_;
+  std::vector<Chunk> chunks_;
+  std::size_t vertices_ = 0, partsAdded_ = 0;
+  std::uint64_t trianglesAdded_ = 0;
+  std::vector<float> x_, y_, depth_;
+};
+
+}  // namespace stadion

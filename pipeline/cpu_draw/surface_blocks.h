@@ -1,0 +1,32 @@
+#pragma once
+/// Collects what shading needs of the visible triangles of a picture.
+///
+/// Threads  pure.
+
+#include "pipeline/cpu_draw/kernels/kernel_data.h"
+#include "pipeline/cpu_draw/picture_setup.h"
+#include "pipeline/shader/look.h"
+
+namespace stadion {
+
+class SurfaceBlocks {
+public:
+  /// `scene`: lights corners in the plain look. `eye`: for haze.
+  SurfaceBlocks(const PictureSetup& picture, Look look, const SceneParameters& scene,
+                const ViewParameters& view)
+      : picture_(picture), look_(look), scene_(scene), view_(view) {}
+
+  void fill(const TriangleRecord& record, const TriangleStretch& stretch, SurfaceBlock& out) const;
+
+private:
+  using Corner = std::array<double, 3>;
+  static void fillWeights(const std::array<Corner, 3>& corners, SurfaceBlock& out);
+  void lightCorner(const MaterialParameters& material, float* corner) const;
+
+  const PictureSetup& picture_;
+  Look look_;
+  const SceneParameters& scene_;
+  const ViewParameters& view_;
+};
+
+}  // namespace stadion

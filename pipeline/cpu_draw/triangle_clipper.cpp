@@ -1,0 +1,146 @@
+#include "pipeline/cpu_draw/triangle_clipper.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstdint>
+
+namespace stadion {
+namespace {
+
+constexpr double kClipMargin = 64;  ///< around the picture [pixels]
+
+using ClipCorner = std::array<double, 3>;
+
+/// The part of a polygon on whose corners `distance`, which is linear, is not negative.
+template <class Distance>
+std::vector<ClipCorner> keptOf(const std::vector<ClipCorner>& polygon, const Distance& distance) {
+  std::vector<ClipCorner> kept;
+  for (std::size_t i = 0; i < polygon.size(); ++i) {
+    const ClipCorner &a = polygon[i], &b = polygon[(i + 1) % polygon.size()];
+    const double da = distance(a), db = distance(b);
+    if (da >= 0) kept.push_back(a);
+    if ((da >= 0) == (db >= 0)) continue;
+    const double t = da / (da - db);
+    kept.push_back({a[0] + t * (b[0] - a[0]), a[1] + t * (b[1] - a[1]), a[2] + t * (b[2] - a[2])});
+  }
+  return kept;
+}
+
+double planeProduct(const ClipCorner& a, const ClipCorner& b, const ClipCorner& c) {
+  return a[0] * (b[1] * c[2] - b[2] * c[1]) + a[1] * (b[2] * c[0] - b[0] * c[2]) +
+         a[2] * (b[0] * c[1] - b[1] * c[0]);
+}
+
+/// The first and the last pixel with a sample in a stretch; false: there is none.
+bool pixelSpan(double from, double to, int samples, int size, short& first, short& last) {
+  const double low = std::ceil(from * samples - 0.5), high = std::floor(to * samples - 0.5);
+  const double a = std::max(std::floor(low / samples), 0.0),
+               b = std::min(std::floor(high / samples), size - 1.0);
+  if (!(low <= high && a <= b)) return false;
+  first = static_cast<short>(a), last = static_cast<short>(b);
+  return true;
+}
+
+}  // namespace
+
+TriangleClipper::Polygon TriangleClipper::clipped(const std::array<Corner, 3>& corners) const {
+  Polygon p(corners.begin(), corners.end());
+  const double most = static_cast<double>(by_.mostDepth);
+  if (parallel_) {
+    p = keptOf(p, [&](const Corner& c) { return most - c[2]; });
+  } else {
+    p = keptOf(p, [&](const Corner& c) { return c[2] - 1 / most; });
+  }
+  const auto w = [this](const Corner& c) { return parallel_ ? 1.0 : c[2]; };
+  for (std::size_t axis = 0; axis < 2; ++axis) {
+    const double size = axis == 0 ? by_.width : by_.height;
+    p = keptOf(p, [&](const Corner& c) { return c[axis] + kClipMargin * w(c); });
+    p = keptOf(p, [&](const Corner& c) { return (size + kClipMargin) * w(c) - c[axis]; });
+  }
+  return p;
+}
+
+std::optional<TriangleClipper::Plane> TriangleClipper::planeOf(const std::array<Corner, 3>& p) const {
+  Plane plane{0, 0, 0};
+  if (parallel_) {
+    const double bx = p[1][0] - p[0][0], by = p[1][1] - p[0][1], cx = p[2][0] - p[0][0],
+                 cy = p[2][1] - p[0][1];
+    const double bz = p[1][2] - p[0][2], cz = p[2][2] - p[0][2], area = bx * cy - by * cx;
+    plane.right = (bz * cy - cz * by) / area, plane.up = (cz * bx - bz * cx) / area;
+    plane.at = p[0][2] - plane.right * p[0][0] - plane.up * p[0][1];
+  } else {
+    // 1 / w is the sum of the planes that are 1 / w at one corner and 0 at the others.
+    const double whole = planeProduct(p[0], p[1], p[2]);
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Corner &b = p[(k + 1) % 3], &c = p[(k + 2) % 3];
+      plane.right += (b[1] * c[2] - b[2] * c[1]) / whole, plane.up += (b[2] * c[0] - b[0] * c[2]) / whole;
+      plane.at += (b[0] * c[1] - b[1] * c[0]) / whole;
+    }
+  }
+  if (!std::isfinite(plane.right + plane.up + plane.at)) return {};
+  return plane;
+}
+
+void TriangleClipper::clip(const std::array<std::array<float, 3>, 3>& corners, const PixelMatrix& m,
+                           unsigned triangle, bool grow, std::vector<TriangleRecord>& out) const {
+  std::array<Corner, 3> placed;
+  double sum = 0;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const float* rows[] = {m.x, m.y, m.w};
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const float* r = rows[axis];
+      placed[k][axis] =
+          double{r[0]} * corners[k][0] + double{r[1]} * corners[k][1] + double{r[2]} * corners[k][2] + r[3];
+      sum += std::fabs(placed[k][axis]);
+    }
+  }
+  const std::optional<Plane> plane = std::isfinite(sum) ? planeOf(placed) : std::nullopt;
+  if (!plane) return;
+  std::vector<std::array<double, 2>> at;
+  double nearest = -1e30;
+  for (const Corner& c : clipped(placed)) {
+    const double w = parallel_ ? 1 : c[2];
+    at.push_back({c[0] / w, c[1] / w});
+    nearest = std::max(nearest, parallel_ ? c[2] : 1 / w);
+  }
+  double area = 0;
+  for (std::size_t i = 1; i + 1 < at.size(); ++i)
+    area +=
+        (at[i][0] - at[0][0]) * (at[i + 1][1] - at[0][1]) - (at[i][1] - at[0][1]) * (at[i + 1][0] - at[0][0]);
+  if (area == 0 || (by_.facing > 0 && area < 0) || (by_.facing < 0 && area > 0)) return;
+  unsigned flags = 0;
+  if (by_.mirrored > 0 ? area < 0 : area > 0) flags |= kFacesAway;
+  if (grow) flags |= kGrown;
+  const float most = std::min(static_cast<float>(nearest), by_.mostDepth);
+  for (std::size_t i = 1; i + 1 < at.size(); ++i)
+    emit({at[0], at[i], at[i + 1]}, *plane, most, triangle, flags, out);
+}
+
+void TriangleClipper::emit(const std::array<std::array<double, 2>, 3>& at, const Plane& plane, float most,
+                           unsigned triangle, unsigned flags, std::vector<TriangleRecord>& out) const {
+  auto p = at;
+  std::ranges::sort(p, {}, [](const auto& q) { return static_cast<float>(q[1]); });
+  TriangleRecord r{};
+  const auto [left, right] = std::minmax({p[0][0], p[1][0], p[2][0]});
+  if (!pixelSpan(left, right, by_.samples, by_.width, r.left, r.right) ||
+      !pixelSpan(p[0][1], p[2][1], by_.samples, by_.height, r.low, r.high))
+    return;
+  const auto x = [&](std::size_t k) { return static_cast<float>(p[k][0]); };
+  const auto y = [&](std::size_t k) { return static_cast<float>(p[k][1]); };
+  r.x0 = x(0), r.y0 = y(0), r.x1 = x(1), r.y1 = y(1), r.y2 = y(2);
+  r.slopeLong = (x(2) - x(0)) / (y(2) - y(0)), r.slopeLow = (x(1) - x(0)) / (y(1) - y(0));
+  r.slopeHigh = (x(2) - x(1)) / (y(2) - y(1));
+  if ((x(2) - x(0)) * (y(1) - y(0)) - (y(2) - y(0)) * (x(1) - x(0)) < 0) flags |= kLongEdgeIsLeft;
+  const float step = std::bit_cast<float>(std::bit_cast<std::uint32_t>(most) & 0x7f800000U) * 1.1920929e-7f;
+  const double steep = std::max(std::fabs(plane.right), std::fabs(plane.up));
+  const double offset =
+      static_cast<double>(by_.slopeOffset) * steep + static_cast<double>(by_.stepOffset * step);
+  r.depthX = static_cast<float>(plane.right), r.depthY = static_cast<float>(plane.up);
+  r.depth = static_cast<float>(plane.at + plane.right * r.left + plane.up * r.low + offset);
+  r.mostDepth = most + static_cast<float>(offset);
+  r.triangle = triangle, r.sourceAndFlags = by_.source << 4 | flags;
+  out.push_back(r);
+}
+
+}  // namespace stadion
