@@ -1,6 +1,6 @@
 #include "pipeline/cpu_draw/band_colours.h"
 
-#include <algorithm>
+#include <bit>
 
 namespace stadion {
 
@@ -23,32 +23,40 @@ bool BandColours::sharesWithNeighbour(const PictureShading& picture, int x, int 
 void BandColours::find(const PictureShading& picture, VisibleBand& band) {
   at_.clear(), pixels_.clear(), triangles_.clear(), weights_.clear();
   const int samples = picture.rung.samples;
-  const float share = 1.0f / static_cast<float>(samples);
   for (int y = band.low(); y < band.end(); ++y) {
     const unsigned* shown = band.row(y);
     for (int x = 0; x < picture.width(); ++x, shown += samples) {
       const auto pixel = static_cast<unsigned>(x) | static_cast<unsigned>(y) << 16;
-      const bool alike = std::all_of(shown + 1, shown + samples, [&](unsigned t) { return t == shown[0]; });
-      if (alike && sharesWithNeighbour(picture, x, y, band.low(), shown[0])) continue;
+      unsigned differs = 0;
+      for (int s = 1; s < samples; ++s) differs |= shown[s] ^ shown[0];
+      if (differs == 0 && sharesWithNeighbour(picture, x, y, band.low(), shown[0])) continue;
       const auto first = static_cast<unsigned>(pixels_.size());
-      if (alike) {
+      if (differs == 0)
         add(pixel, shown[0], 1);
-      } else {
-        for (int s = 0; s < samples; ++s) {
-          if (std::find(shown, shown + s, shown[s]) != shown + s) continue;
-          add(pixel, shown[s], share * static_cast<float>(std::count(shown + s, shown + samples, shown[s])));
-        }
-      }
+      else
+        addEach(pixel, shown, samples);
       at_.push_back({first, static_cast<unsigned>(pixels_.size()) - first});
     }
+  }
+}
+
+/// The triangles of a pixel, in the order of its samples.
+void BandColours::addEach(unsigned pixel, const unsigned* shown, int samples) {
+  const float share = 1.0f / static_cast<float>(samples);
+  for (unsigned left = (1U << samples) - 1; left != 0;) {
+    const unsigned triangle = shown[std::countr_zero(left)];
+    unsigned same = 0;
+    for (int s = 0; s < samples; ++s) same |= static_cast<unsigned>(shown[s] == triangle) << s;
+    add(pixel, triangle, share * static_cast<float>(std::popcount(same)));
+    left &= ~same;
   }
 }
 
 void BandColours::shade(const PictureShading& picture, VisibleBand& band, const SurfaceBlocks& blocks) {
   find(picture, band);
   for (auto* values : {&red_, &green_, &blue_}) values->resize(pixels_.size());
-  FragmentShading().shade(picture, band.triangles(), blocks, pixels_, triangles_,
-                          {red_.data(), green_.data(), blue_.data(), nullptr});
+  shading_.shade(picture, band.triangles(), blocks, pixels_, triangles_,
+                 {red_.data(), green_.data(), blue_.data(), nullptr});
 }
 
 Colour3 BandColours::mean(std::size_t at) const {

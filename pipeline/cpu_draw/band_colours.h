@@ -12,6 +12,19 @@ namespace stadion {
 
 using Colour3 = std::array<float, 3>;
 
+/// Shades fragments by material. A triangle kNoTriangle is the sky.
+class FragmentShading {
+public:
+  struct Colours {
+    float *red, *green, *blue, *alpha;
+  };
+  void shade(const PictureShading& picture, BandTriangles& triangles, const SurfaceBlocks& blocks,
+             const std::vector<unsigned>& pixels, const std::vector<unsigned>& of, const Colours& out);
+
+private:
+  std::vector<unsigned> surface_, material_, order_, ends_;
+};
+
 class BandColours {
 public:
   /// Fragments of a pixel lie next to each other.
@@ -26,30 +39,18 @@ public:
   Colour3 mean(std::size_t at) const;
   /// The colour of one sample; `shown`: the triangles of the pixel's samples.
   Colour3 ofSample(std::size_t at, const unsigned* shown, int sample) const;
-  std::size_t fragments() const { return pixels_.size(); }
 
 private:
   void find(const PictureShading& picture, VisibleBand& band);
   void add(unsigned pixel, unsigned triangle, float weight);
+  void addEach(unsigned pixel, const unsigned* shown, int samples);
   bool sharesWithNeighbour(const PictureShading& picture, int x, int y, int low, unsigned triangle);
   Colour3 colour(std::size_t fragment) const { return {red_[fragment], green_[fragment], blue_[fragment]}; }
 
+  FragmentShading shading_;
   std::vector<Pixel> at_;
   std::vector<unsigned> pixels_, triangles_;  ///< of fragments
   std::vector<float> weights_, red_, green_, blue_;
-};
-
-/// Shades fragments by material. A triangle kNoTriangle is the sky.
-class FragmentShading {
-public:
-  struct Colours {
-    float *red, *green, *blue, *alpha;
-  };
-  void shade(const PictureShading& picture, BandTriangles& triangles, const SurfaceBlocks& blocks,
-             const std::vector<unsigned>& pixels, const std::vector<unsigned>& of, const Colours& out);
-
-private:
-  std::vector<unsigned> surface_, material_, order_, ends_;
 };
 
 }  // namespace stadion

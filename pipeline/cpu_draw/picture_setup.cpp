@@ -85,15 +85,18 @@ std::uint32_t PictureSetup::materialNumber(const MaterialParameters& material) {
 }
 
 void PictureSetup::divide() {
-  chunks_.clear();
   for (auto* values : {&x_, &y_, &depth_})
     if (values->size() < vertices_ + kKernelPadding) values->resize(vertices_ + kKernelPadding);
+  chunksUsed_ = 0;
   Chunk* chunk = nullptr;
   for (std::uint32_t i = 0; i < stretches_.size(); ++i) {
     const TriangleStretch& s = stretches_[i];
     const Transparency which = s.part->transparent ? Transparency::Transparent : Transparency::Opaque;
-    if (!chunk || chunk->which != which || chunk->triangles + s.count > kTrianglesAPiece)
-      chunk = &chunks_.emplace_back(Chunk{which, i, i, 0, {}, {}, {}});
+    if (!chunk || chunk->which != which || chunk->triangles + s.count > kTrianglesAPiece) {
+      if (chunksUsed_ == chunks_.size()) chunks_.emplace_back();
+      chunk = &chunks_[chunksUsed_++];
+      chunk->which = which, chunk->firstStretch = i, chunk->triangles = 0;
+    }
     chunk->endStretch = i + 1, chunk->triangles += s.count;
   }
 }
@@ -118,8 +121,8 @@ SetupParameters PictureSetup::parametersOf(std::uint32_t number) const {
   return s;
 }
 
-void PictureSetup::setUpStretch(std::uint32_t number, std::vector<TriangleRecord>& records,
-                                std::vector<TriangleRecord>& raw) const {
+void PictureSetup::setUpStretch(std::uint32_t number, std::vector<TriangleRecord>& records) const {
+  constexpr std::uint32_t kAtOnce = 256;
   const TriangleStretch& stretch = stretches_[number];
   const PictureInstance& instance = instances_[stretch.instance];
   const SetupParameters by = parametersOf(number);
@@ -127,26 +130,34 @@ void PictureSetup::setUpStretch(std::uint32_t number, std::vector<TriangleRecord
   const PlacedVertices at{const_cast<float*>(x_.data()) + instance.firstVertex,
                           const_cast<float*>(y_.data()) + instance.firstVertex,
                           const_cast<float*>(depth_.data()) + instance.firstVertex};
-  raw.resize(stretch.count);
-  raw.resize(kernels_.setUp(instance.mesh->corners(), stretch.first, stretch.count, at, by, raw.data()));
   const TriangleClipper clipper(by, geometry_.parallel);
-  for (const TriangleRecord& r : raw) {
-    if (!(r.sourceAndFlags & kUnfinished)) {
-      records.push_back(r);
-      continue;
+  TriangleRecord made[kAtOnce];
+  for (std::uint32_t done = 0; done < stretch.count; done += kAtOnce) {
+    const std::uint32_t count = std::min(stretch.count - done, kAtOnce);
+    const unsigned found =
+        kernels_.setUp(instance.mesh->corners(), stretch.first + done, count, at, by, made);
+    for (const TriangleRecord& r : std::span(made, found)) {
+      if (r.sourceAndFlags & kUnfinished)
+        finish(r, stretch, clipper, records);
+      else
+        records.push_back(r);
     }
-    std::array<std::array<float, 3>, 3> corners;
-    const std::array<int, 3> triangle = instance.mesh->triangle(r.triangle);
-    std::ranges::transform(triangle, corners.begin(), [&](int v) { return instance.mesh->position(v); });
-    clipper.clip(corners, instance.matrix, r.triangle, !stretch.part->transparent, records);
   }
+}
+
+void PictureSetup::finish(const TriangleRecord& record, const TriangleStretch& stretch,
+                          const TriangleClipper& clipper, std::vector<TriangleRecord>& records) const {
+  const PictureInstance& instance = instances_[stretch.instance];
+  std::array<std::array<float, 3>, 3> corners;
+  std::ranges::transform(instance.mesh->triangle(record.triangle), corners.begin(),
+                         [&](int v) { return instance.mesh->position(v); });
+  clipper.clip(corners, instance.matrix, record.triangle, !stretch.part->transparent, records);
 }
 
 void PictureSetup::setUp(std::size_t piece) {
   Chunk& chunk = chunks_[piece];
   chunk.records.clear();
-  std::vector<TriangleRecord> raw;
-  for (std::uint32_t i = chunk.firstStretch; i < chunk.endStretch; ++i) setUpStretch(i, chunk.records, raw);
+  for (std::uint32_t i = chunk.firstStretch; i < chunk.endStretch; ++i) setUpStretch(i, chunk.records);
   sortIntoBands(chunk);
 }
 

@@ -38,6 +38,8 @@ struct TriangleStretch {
 /// Which part of a picture's triangles something is about.
 enum class Transparency { Opaque, Transparent };
 
+class TriangleClipper;
+
 class PictureSetup {
 public:
   explicit PictureSetup(const DrawKernels& kernels) : kernels_(kernels) {}
@@ -53,13 +55,13 @@ public:
 
   std::size_t placePieces() const { return placements_.size(); }
   void place(std::size_t piece);
-  std::size_t setUpPieces() const { return chunks_.size(); }
+  std::size_t setUpPieces() const { return chunksUsed_; }
   void setUp(std::size_t piece);
 
   /// Calls work(record, stretch) for the triangles that may cover a sample of a band.
   template <class Work>
   void forEach(Transparency which, std::size_t band, const Work& work) const {
-    for (const Chunk& chunk : chunks_) {
+    for (const Chunk& chunk : std::span(chunks_.data(), chunksUsed_)) {
       if (chunk.which != which) continue;
       for (std::uint32_t i = chunk.binEnds[band]; i < chunk.binEnds[band + 1]; ++i) {
         const TriangleRecord& record = chunk.records[chunk.bins[i]];
@@ -82,8 +84,8 @@ private:
     std::uint32_t instance, first, count;  ///< vertices
   };
   struct Chunk {
-    Transparency which;
-    std::uint32_t firstStretch, endStretch, triangles;
+    Transparency which = Transparency::Opaque;
+    std::uint32_t firstStretch = 0, endStretch = 0, triangles = 0;
     std::vector<TriangleRecord> records;
     std::vector<std::uint32_t> bins;     ///< numbers of records, by band
     std::vector<std::uint32_t> binEnds;  ///< where a band's begin; one more than there are bands
@@ -93,8 +95,9 @@ private:
   std::uint32_t materialNumber(const MaterialParameters& material);
   void divideStretches(Transparency which);
   SetupParameters parametersOf(std::uint32_t stretch) const;
-  void setUpStretch(std::uint32_t stretch, std::vector<TriangleRecord>& records,
-                    std::vector<TriangleRecord>& raw) const;
+  void setUpStretch(std::uint32_t stretch, std::vector<TriangleRecord>& records) const;
+  void finish(const TriangleRecord& record, const TriangleStretch& stretch, const TriangleClipper& clipper,
+              std::vector<TriangleRecord>& records) const;
   void sortIntoBands(Chunk& chunk) const;
 
   const DrawKernels& kernels_;
@@ -106,7 +109,8 @@ private:
   std::vector<TriangleStretch> stretches_;
   std::vector<const MaterialParameters*> materials_;
   std::vector<Placement> placements_;
-  std::vector<Chunk> chunks_;
+  std::vector<Chunk> chunks_;  ///< keep their memory
+  std::size_t chunksUsed_ = 0;
   std::size_t vertices_ = 0, partsAdded_ = 0;
   std::uint64_t trianglesAdded_ = 0;
   std::vector<float> x_, y_, depth_;

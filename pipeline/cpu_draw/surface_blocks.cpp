@@ -61,11 +61,12 @@ void SurfaceBlocks::fillWeights(const std::array<Corner, 3>& p, SurfaceBlock& ou
   }
   const double whole = p[0][0] * rows[0][0] + p[0][1] * rows[0][1] + p[0][2] * rows[0][2];
   const double per = 1 / whole;
+  float sum = 0;
   for (std::size_t k = 0; k < 3; ++k)
-    for (std::size_t i = 0; i < 3; ++i) {
-      const double x = rows[k][i] * per;
-      out.at[4 * k + i] = std::isfinite(x) ? static_cast<float>(x) : i == 2 ? 1.0f : 0.0f;
-    }
+    for (std::size_t i = 0; i < 3; ++i)
+      out.at[4 * k + i] = static_cast<float>(rows[k][i] * per), sum += out.at[4 * k + i];
+  if (std::isfinite(sum)) return;
+  for (std::size_t k = 0; k < 3; ++k) out.at[4 * k] = out.at[4 * k + 1] = 0, out.at[4 * k + 2] = 1;
 }
 
 /// As the vertex shader: the light in the place of the colour, the clearness of the air in that of the normal.

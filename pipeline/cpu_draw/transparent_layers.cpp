@@ -36,8 +36,8 @@ bool TransparentLayers::shade(const PictureShading& picture, std::size_t band, V
   pixels_.clear(), numbers_.clear();
   for (const LayerFragment& f : fragments_) pixels_.push_back(f.pixel), numbers_.push_back(f.triangle);
   for (auto* values : {&red_, &green_, &blue_, &alpha_}) values->resize(fragments_.size());
-  FragmentShading().shade(picture, triangles_, blocks, pixels_, numbers_,
-                          {red_.data(), green_.data(), blue_.data(), alpha_.data()});
+  shading_.shade(picture, triangles_, blocks, pixels_, numbers_,
+                 {red_.data(), green_.data(), blue_.data(), alpha_.data()});
   sortByPixel(picture, visible.low(),
               static_cast<std::size_t>(picture.width()) *
                   static_cast<std::size_t>(visible.end() - visible.low()));

@@ -34,6 +34,7 @@ private:
   void findLayers(std::size_t at, int sample, int samples);
 
   BandTriangles triangles_;
+  FragmentShading shading_;
   std::vector<LayerFragment> room_, fragments_;
   std::vector<unsigned> pixels_, numbers_;
   std::vector<float> red_, green_, blue_, alpha_;
