@@ -2,8 +2,8 @@
 /// Draws a wall's draw lists on the processor, without OpenGL.
 ///
 /// Method     Visibility first: triangles are placed, set up and drawn into bands of rows as depth and number
-///            for each sample. Then each triangle that a pixel shows is shaded once, several at a time, and the
-///            samples are averaged in linear light. So the cost follows what is seen, not what is drawn over.
+///            for each sample. Then each triangle that a pixel shows is shaded once, several at a time, and
+///            the samples are averaged in linear light. So the cost follows what is seen, not what is drawn over.
 ///            README.md has the steps.
 /// Light      the model of the shaders (pipeline/shader/shaders.h).
 /// Same pixels  for the same list on every processor, for any number of threads and walls.

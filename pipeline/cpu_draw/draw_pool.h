@@ -1,8 +1,8 @@
 #pragma once
 /// The worker pool of the CPU renderer: walls that draw at the same time share its threads.
 ///
-/// Order      the pieces of the wall that came first are taken first, in order. Results must not depend on the
-///            thread of a piece.
+/// Order      the pieces of the wall that came first are taken first, in order. Results must not depend on
+///            the thread of a piece.
 /// Threads    run() may be called on any number of threads at a time. A caller works at its own pieces while
 ///            fewer threads than the pool's number are at work.
 /// Errors     run() throws the first exception of a piece, by number; later pieces are then left out.

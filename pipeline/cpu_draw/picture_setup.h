@@ -44,10 +44,11 @@ class PictureSetup {
 public:
   explicit PictureSetup(const DrawKernels& kernels) : kernels_(kernels) {}
 
-  /// Begins a picture with no instances. Depths are moved by a multiple of the slope and of the smallest step.
+  /// Begins a picture with no instances. Depths are moved by a multiple of the slope and of the smallest
+  /// step.
   void begin(const ViewGeometry& geometry, int samples, float slopeOffset = 0, float stepOffset = 0);
-  /// Adds the opaque or the transparent parts of a mesh. Returns false, and adds nothing, if the matrix is not
-  /// finite.
+  /// Adds the opaque or the transparent parts of a mesh. Returns false, and adds nothing, if the matrix is
+  /// not finite.
   bool add(const std::shared_ptr<const CpuMesh>& mesh, std::uint32_t level,
            const std::array<float, 12>& model, Transparency which);
   /// After the last add().

@@ -170,12 +170,12 @@ void ShadowStore::updateRing(ShadowSet& set, const DrawShadows& shadows, std::si
                              CpuMeshCache& meshes, DrawPool& pool) {
   const DrawShadowRing& now = shadows.rings[ring];
   ShadowSet::Ring& held = set.rings_[ring];
-  const bool anew = !held.drawn || held.stillKey != now.stillKey;
-  if (!anew && held.movingKey == now.movingKey) return;
+  const bool redrawn = !held.drawn || held.stillKey != now.stillKey;
+  if (!redrawn && held.movingKey == now.movingKey) return;
   held.drawn = false;  // until it is finished; what interrupts it leaves it void
   const std::vector<float>& from = still(shadows, ring, meshes, pool).depths;
   const RingArea moved = movedOf(now),
-                 area = anew ? RingArea{0, 0, kRingSide, kRingSide} : aroundBoth(held.moved, moved);
+                 area = redrawn ? RingArea{0, 0, kRingSide, kRingSide} : aroundBoth(held.moved, moved);
   const auto corner = cornerOf(ring);
   float* depths = set.depths_.data() + static_cast<std::ptrdiff_t>(corner[1]) * kShadowSide + corner[0];
   for (int y = area[1]; y < area[3]; ++y)

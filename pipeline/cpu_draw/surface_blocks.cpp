@@ -69,7 +69,8 @@ void SurfaceBlocks::fillWeights(const std::array<Corner, 3>& p, SurfaceBlock& ou
   for (std::size_t k = 0; k < 3; ++k) out.at[4 * k] = out.at[4 * k + 1] = 0, out.at[4 * k + 2] = 1;
 }
 
-/// As the vertex shader: the light in the place of the colour, the clearness of the air in that of the normal.
+/// As in the vertex shader. The light takes the place of the colour, the clearness of the air that of the
+/// normal.
 void SurfaceBlocks::lightCorner(const MaterialParameters& material, float* corner) const {
   const std::array<float, 3> n{corner[0], corner[1], corner[2]};
   const std::array<float, 3> p{corner[kPositionOf], corner[kPositionOf + 1], corner[kPositionOf + 2]};

@@ -18,8 +18,8 @@ class TriangleClipper {
 public:
   TriangleClipper(const SetupParameters& by, bool parallel) : by_(by), parallel_(parallel) {}
 
-  /// Appends what is seen of the triangle with these corners in mesh coordinates. Corners that are not finite:
-  /// nothing. `grow`: overlaps its neighbours by 1/256 pixel instead of leaving a gap by rounding.
+  /// Appends what is seen of the triangle with these corners in mesh coordinates. If corners are not
+  /// finite: nothing. `grow`: overlaps its neighbours by 1/256 pixel instead of leaving a gap by rounding.
   void clip(const std::array<std::array<float, 3>, 3>& corners, const PixelMatrix& matrix, unsigned triangle,
             bool grow, std::vector<TriangleRecord>& out) const;
 
