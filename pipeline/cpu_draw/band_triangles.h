@@ -1,42 +1,43 @@
 #pragma once
 /// Triangles of a band, and the surface blocks of those that are visible.
 ///
+/// Numbers  of triangles: in the order of the list, from 0 on.
 /// Threads  one at a time. Keeps its memory from band to band.
 
 #include "pipeline/cpu_draw/surface_blocks.h"
 
+#include <span>
 #include <vector>
 
 namespace stadion {
 
 class BandTriangles {
 public:
-  void clear() { records_.clear(), stretches_.clear(), blockOf_.clear(), blocks_.clear(); }
+  /// Triangles that follow each other.
+  struct Run {
+    unsigned first, count;
+    bool masked;  ///< their materials leave holes
+  };
 
-  /// Returns the triangle's number.
-  unsigned add(const TriangleRecord& record, const TriangleStretch& stretch) {
-    records_.push_back(record), stretches_.push_back(&stretch), blockOf_.push_back(kNoTriangle);
-    return static_cast<unsigned>(records_.size() - 1);
-  }
-  const TriangleRecord& record(unsigned number) const { return records_[number]; }
-  const TriangleStretch& stretch(unsigned number) const { return *stretches_[number]; }
+  void collect(const PictureSetup& setup, Transparency which, std::size_t band);
 
-  /// Returns the number of a triangle's surface block, which is made at its first use.
-  unsigned block(unsigned number, const SurfaceBlocks& from) {
-    unsigned& block = blockOf_[number];
-    if (block == kNoTriangle) {
-      block = static_cast<unsigned>(blocks_.size());
-      from.fill(records_[number], *stretches_[number], blocks_.emplace_back());
-    }
-    return block;
-  }
+  std::span<const Run> runs() const { return runs_; }
+  unsigned size() const { return static_cast<unsigned>(records_.size()); }
+  const TriangleRecord& record(unsigned number) const { return *records_[number]; }
+  const TriangleRecord* const* records() const { return records_.data(); }
+
+  /// Makes the surface blocks of triangles that have none yet.
+  void makeBlocks(const SurfaceBlocks& from, std::span<const unsigned> numbers);
+  /// Expects a triangle whose block was made.
+  unsigned block(unsigned number) const { return blockOf_[number]; }
   const SurfaceBlock* blocks() const { return blocks_.data(); }
 
 private:
-  std::vector<TriangleRecord> records_;
-  std::vector<const TriangleStretch*> stretches_;
+  std::vector<Run> runs_;
+  std::vector<const TriangleRecord*> records_, without_;
   std::vector<unsigned> blockOf_;
-  std::vector<SurfaceBlock> blocks_;
+  std::vector<SurfaceBlock> blocks_;  ///< more than are used: it keeps its memory
+  unsigned blocksUsed_ = 0;
 };
 
 }  // namespace stadion

@@ -36,18 +36,17 @@ CpuMesh::CpuMesh(const Mesh& mesh, Look look) {
 void CpuMesh::copyVertices(const Mesh& mesh, Look look) {
   const std::size_t count = mesh.positions.size();
   for (auto* axis : {&x_, &y_, &z_}) axis->resize(count + kKernelPadding);
-  vertices_.resize(count);
+  vertexCount_ = static_cast<std::uint32_t>(count);
+  vertices_.resize(count * kVertexFloats);
   for (std::size_t i = 0; i < count; ++i) {
     const auto& p = mesh.positions[i];
-    x_[i] = finite(p[0]), y_[i] = finite(p[1]), z_[i] = finite(p[2]);
-    Vertex& v = vertices_[i];
-    std::ranges::transform(mesh.normals[i], v.normal.begin(), finite);
-    v.uv = mesh.uvs.empty() ? std::array<float, 2>{} : mesh.uvs[i];
-    v.colour = {1, 1, 1, 1};
-    if (mesh.colours.empty()) continue;
+    float* v = vertices_.data() + i * kVertexFloats;
+    for (std::size_t k = 0; k < 3; ++k) v[k] = finite(p[k]), v[3 + k] = finite(mesh.normals[i][k]);
+    x_[i] = v[0], y_[i] = v[1], z_[i] = v[2];
+    if (!mesh.uvs.empty()) v[6] = mesh.uvs[i][0], v[7] = mesh.uvs[i][1];
     for (std::size_t k = 0; k < 4; ++k) {
-      const double c = mesh.colours[i][k] / 255.0;
-      v.colour[k] = static_cast<float>(look == Look::Full && k < 3 ? linearFromSrgb(c) : c);
+      const double c = mesh.colours.empty() ? 1 : mesh.colours[i][k] / 255.0;
+      v[8 + k] = static_cast<float>(look == Look::Full && k < 3 ? linearFromSrgb(c) : c);
     }
   }
 }

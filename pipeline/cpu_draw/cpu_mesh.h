@@ -32,23 +32,17 @@ struct CpuPart {
 
 class CpuMesh {
 public:
-  /// What a vertex has besides its position.
-  struct Vertex {
-    std::array<float, 3> normal;
-    std::array<float, 2> uv;
-    std::array<float, 4> colour;  ///< as the look computes with it
-  };
-
   /// Expects a mesh without a drawingFault().
   CpuMesh(const Mesh& mesh, Look look);
 
-  std::uint32_t vertexCount() const { return static_cast<std::uint32_t>(vertices_.size()); }
+  std::uint32_t vertexCount() const { return vertexCount_; }
   MeshPositions positions() const { return {x_.data(), y_.data(), z_.data()}; }
   TriangleCorners corners() const { return {a_.data(), b_.data(), c_.data()}; }
   /// What is drawn at a level of detail; the coarsest there is, if there are not so many.
   const std::vector<CpuPart>& partsAt(std::uint32_t level) const;
   const MaterialParameters& material(std::uint32_t i) const { return materials_[i]; }
-  const Vertex& vertex(int i) const { return vertices_[static_cast<std::size_t>(i)]; }
+  /// kVertexFloats for each; colours as the look computes with them.
+  const float* vertices() const { return vertices_.data(); }
   std::array<float, 3> position(int i) const {
     const auto at = static_cast<std::size_t>(i);
     return {x_[at], y_[at], z_[at]};
@@ -61,8 +55,8 @@ private:
                 bool open);
   void makeMaterials(const Mesh& mesh, Look look);
 
-  std::vector<float> x_, y_, z_;
-  std::vector<Vertex> vertices_;
+  std::uint32_t vertexCount_;
+  std::vector<float> x_, y_, z_, vertices_;
   std::vector<int> a_, b_, c_;  ///< of all levels
   std::vector<std::vector<CpuPart>> levels_;
   std::vector<MaterialParameters> materials_;

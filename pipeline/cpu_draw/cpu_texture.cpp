@@ -47,6 +47,7 @@ CpuTexture::CpuTexture(const Texture& texture, float alphaCutoff, Look look) {
     for (const Texture& level : maskLevels(texture, alphaCutoff, look)) addLevel(Linear(level, look), look);
   else
     addHalves(whole, look);
+  texels_.resize(texels_.size() + kKernelPadding);
 }
 
 void CpuTexture::addHalves(Linear level, Look look) {
@@ -58,8 +59,7 @@ void CpuTexture::addHalves(Linear level, Look look) {
 
 void CpuTexture::addLevel(const Linear& level, Look look) {
   if (levels_.size() == TextureParameters::kMostLevels) return;
-  levels_.push_back(
-      {static_cast<int>(level.width), static_cast<int>(level.height), static_cast<int>(texels_.size())});
+  levels_.push_back({level.width, level.height, texels_.size()});
   const auto stored = [&](float c, bool colour) {
     const float root = colour && look == Look::Full ? std::sqrt(c) : c;
     return static_cast<std::uint32_t>(255 * std::clamp(root, 0.0f, 1.0f) + 0.5f);
@@ -75,7 +75,9 @@ void CpuTexture::addLevel(const Linear& level, Look look) {
 TextureParameters CpuTexture::parameters() const {
   TextureParameters p{};
   p.texels = texels_.data(), p.levels = static_cast<int>(levels_.size());
-  std::ranges::copy(levels_, p.level);
+  for (std::size_t i = 0; i < levels_.size(); ++i)
+    p.width[i] = static_cast<int>(levels_[i].width), p.height[i] = static_cast<int>(levels_[i].height),
+    p.first[i] = static_cast<int>(levels_[i].first);
   p.wrapU = p.wrapV = TextureWrap::Repeat;
   p.transform[0] = p.transform[4] = 1;
   return p;

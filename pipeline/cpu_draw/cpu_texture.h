@@ -26,8 +26,12 @@ private:
   void addLevel(const Linear& level, Look look);
   void addHalves(Linear level, Look look);
 
+  struct Level {
+    std::uint32_t width, height;
+    std::size_t first;
+  };
   std::vector<std::uint32_t> texels_;
-  std::vector<TextureLevel> levels_;
+  std::vector<Level> levels_;
 };
 
 }  // namespace stadion

@@ -4,24 +4,32 @@
 
 namespace stadion {
 
-const int* Cutouts::present(const DrawKernels& kernels, const TriangleRecord& record,
-                            const SurfaceBlock& surface, const MaterialParameters& material,
-                            bool nearestLevel, const CutoutBand& band) {
-  present_.resize(std::max(present_.size(), static_cast<std::size_t>(band.stride * (band.end - band.low))));
-  pixels_.clear(), order_.clear();
-  const int low = std::max<int>(record.low, band.low), end = std::min<int>(record.high + 1, band.end);
+/// In the pixels of the triangle's box between two rows.
+void Cutouts::find(const DrawKernels& kernels, const TriangleRecord& record, FragmentJob& job, int low,
+                   int end) {
+  pixels_.clear();
   for (int y = low; y < end; ++y)
-    for (int x = record.left; x <= record.right; ++x) {
-      order_.push_back(static_cast<unsigned>(pixels_.size()));
+    for (int x = record.left; x <= record.right; ++x)
       pixels_.push_back(static_cast<unsigned>(x) | static_cast<unsigned>(y) << 16);
-    }
-  if (pixels_.empty()) return present_.data();
-  surfaces_.assign(pixels_.size(), 0), found_.resize(pixels_.size());
-  FragmentJob job{};
-  job.surfaces = &surface, job.order = order_.data(), job.count = static_cast<unsigned>(order_.size());
-  job.pixel = pixels_.data(), job.surface = surfaces_.data(), job.material = &material;
-  job.nearestLevel = nearestLevel;
+  job.count = static_cast<unsigned>(pixels_.size());
+  const std::size_t padded = pixels_.size() + kKernelPadding;
+  pixels_.resize(padded), surfaces_.assign(padded, 0), found_.resize(padded);
+  job.pixel = pixels_.data(), job.surface = surfaces_.data(), job.place = surfaces_.data();
   kernels.cutOut(job, found_.data());
+}
+
+const int* Cutouts::present(const DrawKernels& kernels, const PictureSetup& setup, BandTriangles& list,
+                            unsigned number, const SurfaceBlocks& blocks, bool nearestLevel,
+                            const CutoutBand& band) {
+  const TriangleRecord& record = list.record(number);
+  list.makeBlocks(blocks, {&number, 1});
+  FragmentJob job{};
+  job.surfaces = list.blocks() + list.block(number);
+  job.material = setup.materials()[setup.stretchOf(record).material];
+  job.nearestLevel = nearestLevel;
+  const int low = std::max<int>(record.low, band.low), end = std::min<int>(record.high + 1, band.end);
+  find(kernels, record, job, low, end);
+  present_.resize(std::max(present_.size(), static_cast<std::size_t>(band.stride * (band.end - band.low))));
   const int* found = found_.data();
   for (int y = low; y < end; ++y)
     for (int x = record.left; x <= record.right; ++x, ++found)

@@ -19,13 +19,15 @@ struct CutoutBand {
 
 class Cutouts {
 public:
-  /// For each sample of the band in the triangle's box: -1 if it is there, else 0. A pixel is there or not as
-  /// a whole, as its middle is.
-  const int* present(const DrawKernels& kernels, const TriangleRecord& record, const SurfaceBlock& surface,
-                     const MaterialParameters& material, bool nearestLevel, const CutoutBand& band);
+  /// For each sample of the band in the box of a triangle of the list: -1 if it is there, else 0. A pixel is
+  /// there or not as a whole, as its middle is.
+  const int* present(const DrawKernels& kernels, const PictureSetup& setup, BandTriangles& list,
+                     unsigned number, const SurfaceBlocks& blocks, bool nearestLevel, const CutoutBand& band);
 
 private:
-  std::vector<unsigned> pixels_, order_, surfaces_;
+  void find(const DrawKernels& kernels, const TriangleRecord& record, FragmentJob& job, int low, int end);
+
+  std::vector<unsigned> pixels_, surfaces_;
   std::vector<int> found_, present_;
 };
 

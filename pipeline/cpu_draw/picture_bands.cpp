@@ -9,8 +9,6 @@
 namespace stadion {
 namespace {
 
-constexpr int kEncodedSteps = 16383;
-
 /// Linear light in steps, to sRGB.
 const std::array<std::uint8_t, kEncodedSteps + 1>& encodedSteps() {
   static const auto table = [] {
@@ -23,40 +21,24 @@ const std::array<std::uint8_t, kEncodedSteps + 1>& encodedSteps() {
   return table;
 }
 
-/// A value that is not a number becomes 0.
-float withinOne(float c) {
-  return c > 0 ? std::min(c, 1.0f) : 0.0f;
-}
-
 }  // namespace
 
 void PictureBand::draw(const PictureShading& picture, std::size_t band) {
-  const SurfaceBlocks blocks(*picture.setup, picture.rung.look, *picture.scene, *picture.view);
+  const SurfaceBlocks blocks(*picture.kernels, *picture.setup, picture.rung.look, *picture.scene,
+                             *picture.view);
   visible_.draw(picture, band, blocks);
   colours_.shade(picture, visible_, blocks);
-  encode(picture, layers_.shade(picture, band, visible_, blocks));
+  if (layers_.shade(picture, band, visible_, blocks)) layers_.blend(picture, visible_, colours_);
+  encode(picture);
 }
 
-void PictureBand::encode(const PictureShading& picture, bool layered) {
-  const auto& steps = encodedSteps();
-  const bool stored = picture.rung.look == Look::Plain;
-  const auto byte = [&](float c) {
-    const float within = withinOne(c);
-    return stored ? static_cast<std::uint8_t>(255 * within + 0.5f)
-                  : steps[static_cast<std::size_t>(kEncodedSteps * within + 0.5f)];
-  };
+void PictureBand::encode(const PictureShading& picture) {
+  const std::uint8_t* steps = picture.rung.look == Look::Plain ? nullptr : encodedSteps().data();
   const auto width = static_cast<std::size_t>(picture.width());
-  std::size_t at = 0;
   for (int y = visible_.low(); y < visible_.end(); ++y) {
-    const unsigned* shown = visible_.row(y);
     const auto fromTop = static_cast<std::size_t>(picture.setup->geometry().height - 1 - y);
-    std::uint8_t* out = picture.rgba.data() + 4 * width * fromTop;
-    for (std::size_t x = 0; x < width; ++x, ++at, shown += picture.rung.samples, out += 4) {
-      const Colour3 c = layered && layers_.has(at) ? layers_.over(at, colours_, picture.rung.samples, shown)
-                                                   : colours_.mean(at);
-      for (std::size_t k = 0; k < 3; ++k) out[k] = byte(c[k]);
-      out[3] = 255;
-    }
+    picture.kernels->encode(colours_.at(y - visible_.low(), 0), static_cast<unsigned>(width), steps,
+                            picture.rgba.data() + 4 * width * fromTop);
   }
 }
 

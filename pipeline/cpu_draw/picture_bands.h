@@ -20,7 +20,7 @@ public:
   void draw(const PictureShading& picture, std::size_t band);
 
 private:
-  void encode(const PictureShading& picture, bool layered);
+  void encode(const PictureShading& picture);
 
   VisibleBand visible_;
   BandColours colours_;

@@ -85,17 +85,17 @@ std::uint32_t PictureSetup::materialNumber(const MaterialParameters& material) {
 }
 
 void PictureSetup::divide() {
-  for (auto* values : {&x_, &y_, &depth_})
-    if (values->size() < vertices_ + kKernelPadding) values->resize(vertices_ + kKernelPadding);
+  if (const std::size_t size = 4 * (vertices_ + kKernelPadding); placed_.size() < size) placed_.resize(size);
   chunksUsed_ = 0;
   Chunk* chunk = nullptr;
   for (std::uint32_t i = 0; i < stretches_.size(); ++i) {
     const TriangleStretch& s = stretches_[i];
     const Transparency which = s.part->transparent ? Transparency::Transparent : Transparency::Opaque;
-    if (!chunk || chunk->which != which || chunk->triangles + s.count > kTrianglesAPiece) {
+    if (!chunk || chunk->which != which || chunk->masked != s.part->masked ||
+        chunk->triangles + s.count > kTrianglesAPiece) {
       if (chunksUsed_ == chunks_.size()) chunks_.emplace_back();
       chunk = &chunks_[chunksUsed_++];
-      chunk->which = which, chunk->firstStretch = i, chunk->triangles = 0;
+      chunk->which = which, chunk->masked = s.part->masked, chunk->firstStretch = i, chunk->triangles = 0;
     }
     chunk->endStretch = i + 1, chunk->triangles += s.count;
   }
@@ -105,9 +105,8 @@ void PictureSetup::place(std::size_t piece) {
   const Placement& p = placements_[piece];
   const PictureInstance& instance = instances_[p.instance];
   const MeshPositions from = instance.mesh->positions();
-  const std::size_t to = instance.firstVertex + p.first;
   kernels_.place({from.x + p.first, from.y + p.first, from.z + p.first}, p.count, instance.matrix,
-                 geometry_.parallel, {x_.data() + to, y_.data() + to, depth_.data() + to});
+                 geometry_.parallel, {placed(instance).at + 4 * std::size_t{p.first}});
 }
 
 SetupParameters PictureSetup::parametersOf(std::uint32_t number) const {
@@ -126,10 +125,7 @@ void PictureSetup::setUpStretch(std::uint32_t number, std::vector<TriangleRecord
   const TriangleStretch& stretch = stretches_[number];
   const PictureInstance& instance = instances_[stretch.instance];
   const SetupParameters by = parametersOf(number);
-  // The kernels only read.
-  const PlacedVertices at{const_cast<float*>(x_.data()) + instance.firstVertex,
-                          const_cast<float*>(y_.data()) + instance.firstVertex,
-                          const_cast<float*>(depth_.data()) + instance.firstVertex};
+  const PlacedVertices at = placed(instance);
   const TriangleClipper clipper(by, geometry_.parallel);
   TriangleRecord made[kAtOnce];
   for (std::uint32_t done = 0; done < stretch.count; done += kAtOnce) {

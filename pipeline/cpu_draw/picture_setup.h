@@ -59,21 +59,27 @@ public:
   std::size_t setUpPieces() const { return chunksUsed_; }
   void setUp(std::size_t piece);
 
-  /// Calls work(record, stretch) for the triangles that may cover a sample of a band.
+  /// Calls work(records, numbers, masked) for the triangles that may cover a sample of a band: the records with
+  /// these numbers.
   template <class Work>
   void forEach(Transparency which, std::size_t band, const Work& work) const {
     for (const Chunk& chunk : std::span(chunks_.data(), chunksUsed_)) {
-      if (chunk.which != which) continue;
-      for (std::uint32_t i = chunk.binEnds[band]; i < chunk.binEnds[band + 1]; ++i) {
-        const TriangleRecord& record = chunk.records[chunk.bins[i]];
-        work(record, stretches_[record.sourceAndFlags >> 4]);
-      }
+      const std::uint32_t first = chunk.binEnds[band], end = chunk.binEnds[band + 1];
+      if (chunk.which == which && first < end)
+        work(chunk.records.data(), std::span(chunk.bins).subspan(first, end - first), chunk.masked);
     }
+  }
+  const TriangleStretch& stretchOf(const TriangleRecord& record) const {
+    return stretches_[record.sourceAndFlags >> kFlagBits];
   }
 
   const ViewGeometry& geometry() const { return geometry_; }
   int samples() const { return samples_; }
   std::size_t bands() const { return bands_; }
+  /// Of an instance; not finite or without meaning for those behind the eye.
+  PlacedVertices placed(const PictureInstance& instance) const {
+    return {const_cast<float*>(placed_.data()) + 4 * instance.firstVertex};  // the kernels only read
+  }
   const PictureInstance& instance(std::uint32_t i) const { return instances_[i]; }
   std::span<const MaterialParameters* const> materials() const { return materials_; }
   /// Instances, a part of a mesh each, and their triangles.
@@ -86,6 +92,7 @@ private:
   };
   struct Chunk {
     Transparency which = Transparency::Opaque;
+    bool masked = false;
     std::uint32_t firstStretch = 0, endStretch = 0, triangles = 0;
     std::vector<TriangleRecord> records;
     std::vector<std::uint32_t> bins;     ///< numbers of records, by band
@@ -114,7 +121,7 @@ private:
   std::size_t chunksUsed_ = 0;
   std::size_t vertices_ = 0, partsAdded_ = 0;
   std::uint64_t trianglesAdded_ = 0;
-  std::vector<float> x_, y_, depth_;
+  std::vector<float> placed_;
 };
 
 }  // namespace stadion

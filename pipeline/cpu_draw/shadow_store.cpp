@@ -60,27 +60,26 @@ void drawCasterBand(const DrawKernels& kernels, const PictureSetup& setup, std::
                     int stride) {
   static constexpr SceneParameters kNoLight{};
   static constexpr ViewParameters kNoView{};
-  const SurfaceBlocks blocks(setup, Look::Full, kNoLight, kNoView);
+  const SurfaceBlocks blocks(kernels, setup, Look::Full, kNoLight, kNoView);
   Cutouts cutouts;
+  BandTriangles list;
   const int low = static_cast<int>(band) * kBandRows, end = low + kBandRows;
   const BandSamples samples{depths + static_cast<std::ptrdiff_t>(low) * stride, nullptr, stride, low, end};
-  for (const Transparency which : {Transparency::Opaque, Transparency::Transparent})
-    setup.forEach(which, band, [&](const TriangleRecord& record, const TriangleStretch& stretch) {
-      const int* present = nullptr;
-      if (stretch.part->masked) {
-        SurfaceBlock block;
-        blocks.fill(record, stretch, block);
-        present = cutouts.present(kernels, record, block, *setup.materials()[stretch.material], false,
-                                  {low, end, stride, 1});
-      }
-      kernels.coverDepth(record, present, samples);
-    });
+  for (const Transparency which : {Transparency::Opaque, Transparency::Transparent}) {
+    list.collect(setup, which, band);
+    for (const BandTriangles::Run& run : list.runs()) {
+      if (!run.masked) kernels.coverDepth(list.records() + run.first, run.count, nullptr, samples);
+      for (unsigned i = run.first; run.masked && i < run.first + run.count; ++i)
+        kernels.coverDepth(list.records() + i, 1,
+                           cutouts.present(kernels, setup, list, i, blocks, false, {low, end, stride, 1}),
+                           samples);
+    }
+  }
 }
 
 }  // namespace
 
-ShadowSet::ShadowSet()
-    : depths_(std::size_t{kShadowSide} * kShadowSide), least_(kTiles * kTiles), most_(kTiles * kTiles) {}
+ShadowSet::ShadowSet() : depths_(std::size_t{kShadowSide} * kShadowSide), bounds_(2 * kTiles * kTiles) {}
 
 bool ShadowSet::holds(const DrawShadows& shadows) const {
   for (std::size_t i = 0; i < kShadowRings; ++i)
@@ -109,8 +108,8 @@ void ShadowSet::bound(std::size_t ring, const std::array<int, 4>& area) {
         const float* row = depths_.data() + static_cast<std::ptrdiff_t>(y) * kShadowSide;
         for (int x = left; x < right; ++x) least = std::min(least, row[x]), most = std::max(most, row[x]);
       }
-      const auto tile = static_cast<std::size_t>(ty * kCount + tx);
-      least_[tile] = least, most_[tile] = most;
+      const auto tile = static_cast<std::size_t>(2 * (ty * kCount + tx));
+      bounds_[tile] = least, bounds_[tile + 1] = most;
     }
 }
 
@@ -132,7 +131,7 @@ ShadowParameters ShadowSet::parameters(const DrawShadows& shadows, int taps) con
     std::ranges::copy(ring, out.rings[i]);
     out.lift[i] = 2 * reach / kRingSide;
   }
-  out.depths = depths_.data(), out.least = least_.data(), out.most = most_.data(), out.taps = taps;
+  out.depths = depths_.data(), out.bounds = bounds_.data(), out.taps = taps;
   return out;
 }
 

@@ -37,7 +37,8 @@ private:
   bool holds(const DrawShadows& shadows) const;
   void bound(std::size_t ring, const std::array<int, 4>& area);
 
-  std::vector<float> depths_, least_, most_;
+  std::vector<float> depths_;
+  std::vector<float> bounds_;  ///< least and greatest depth of each tile
   std::array<Ring, kShadowRings> rings_;
 };
 

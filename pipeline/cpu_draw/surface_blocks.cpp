@@ -9,8 +9,8 @@ namespace stadion {
 namespace {
 
 /// In a SurfaceBlock.
-constexpr std::size_t kOriginX = 3, kOriginY = 7, kFacing = 11, kFirstCorner = 12, kCornerFloats = 12;
-constexpr std::size_t kNormalOf = 0, kPositionOf = 3, kUvOf = 6, kColourOf = 8;
+constexpr std::size_t kFirstCorner = 12, kCornerFloats = 12;
+constexpr std::size_t kNormalOf = 0, kPositionOf = 3, kColourOf = 8;
 
 double rowTimes(const float* row, const std::array<float, 3>& p) {
   return double{row[0]} * p[0] + double{row[1]} * p[1] + double{row[2]} * p[2] + row[3];
@@ -18,38 +18,47 @@ double rowTimes(const float* row, const std::array<float, 3>& p) {
 
 }  // namespace
 
-void SurfaceBlocks::fill(const TriangleRecord& record, const TriangleStretch& stretch,
-                         SurfaceBlock& out) const {
-  const PictureInstance& instance = picture_.instance(stretch.instance);
-  const CpuMesh& mesh = *instance.mesh;
-  const std::array<int, 3> triangle = mesh.triangle(record.triangle);
-  const bool parallel = picture_.geometry().parallel;
-  const auto& m = instance.model;
-  std::array<Corner, 3> inPicture;
-  for (std::size_t k = 0; k < 3; ++k) {
-    const std::array<float, 3> p = mesh.position(triangle[k]);
-    const CpuMesh::Vertex& v = mesh.vertex(triangle[k]);
-    const double w = parallel ? 1 : rowTimes(instance.matrix.w, p);
-    inPicture[k] = {rowTimes(instance.matrix.x, p) - record.left * w,
-                    rowTimes(instance.matrix.y, p) - record.low * w, w};
-    float* corner = out.at + kFirstCorner + k * kCornerFloats;
-    std::array<float, 3> n;
-    for (std::size_t row = 0; row < 3; ++row) {
-      const float *r = &m[4 * row], *c = &instance.normals[3 * row];
-      corner[kPositionOf + row] = r[0] * p[0] + r[1] * p[1] + r[2] * p[2] + r[3];
-      n[row] = c[0] * v.normal[0] + c[1] * v.normal[1] + c[2] * v.normal[2];
-    }
-    const float per = 1 / std::sqrt(std::max(n[0] * n[0] + n[1] * n[1] + n[2] * n[2], 1e-30f));
-    for (std::size_t row = 0; row < 3; ++row) corner[kNormalOf + row] = n[row] * per;
-    std::ranges::copy(v.uv, corner + kUvOf);
-    std::ranges::copy(v.colour, corner + kColourOf);
-    const MaterialParameters& material = *picture_.materials()[stretch.material];
-    corner[kColourOf + 3] *= material.baseColour[3];
-    if (look_ == Look::Plain) lightCorner(material, corner);
+void SurfaceBlocks::fill(std::span<const TriangleRecord* const> triangles, SurfaceBlock* out) const {
+  while (!triangles.empty()) {
+    const TriangleStretch* stretch = &picture_.stretchOf(*triangles[0]);
+    std::size_t same = 1;
+    while (same < triangles.size() && &picture_.stretchOf(*triangles[same]) == stretch) ++same;
+    fillStretch(triangles.first(same), out);
+    triangles = triangles.subspan(same), out += same;
   }
-  fillWeights(inPicture, out);
-  out.at[kOriginX] = record.left, out.at[kOriginY] = record.low;
-  out.at[kFacing] = (record.sourceAndFlags & kFacesAway) != 0 ? -1.0f : 1.0f;
+}
+
+/// Of triangles of one stretch.
+void SurfaceBlocks::fillStretch(std::span<const TriangleRecord* const> triangles, SurfaceBlock* out) const {
+  const TriangleStretch& stretch = picture_.stretchOf(*triangles[0]);
+  const PictureInstance& instance = picture_.instance(stretch.instance);
+  const MaterialParameters& material = *picture_.materials()[stretch.material];
+  SurfaceJob job{};
+  job.triangles = triangles.data(), job.count = static_cast<unsigned>(triangles.size());
+  job.corners = instance.mesh->corners(), job.vertices = instance.mesh->vertices();
+  job.placed = picture_.placed(instance), job.parallel = picture_.geometry().parallel;
+  job.model = instance.model.data(), job.normals = instance.normals.data();
+  job.alpha = material.baseColour[3], job.out = out;
+  kernels_.makeSurfaces(job);
+  for (std::size_t i = 0; i < triangles.size(); ++i) {
+    if (triangles[i]->sourceAndFlags & kClipped) weighClipped(*triangles[i], out[i]);
+    if (look_ == Look::Plain)
+      for (std::size_t k = 0; k < 3; ++k) lightCorner(material, out[i].at + kFirstCorner + k * kCornerFloats);
+  }
+}
+
+/// Corners of a clipped triangle may lie behind the eye: they have no place in the picture.
+void SurfaceBlocks::weighClipped(const TriangleRecord& record, SurfaceBlock& out) const {
+  const PictureInstance& instance = picture_.instance(picture_.stretchOf(record).instance);
+  const std::array<int, 3> triangle = instance.mesh->triangle(record.triangle);
+  std::array<Corner, 3> corners;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const std::array<float, 3> p = instance.mesh->position(triangle[k]);
+    const double w = picture_.geometry().parallel ? 1 : rowTimes(instance.matrix.w, p);
+    corners[k] = {rowTimes(instance.matrix.x, p) - record.left * w,
+                  rowTimes(instance.matrix.y, p) - record.low * w, w};
+  }
+  fillWeights(corners, out);
 }
 
 /// A corner's weight is the volume that a ray spans with the two others; corners behind the eye do no harm.

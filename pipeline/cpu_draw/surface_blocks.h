@@ -12,17 +12,21 @@ namespace stadion {
 class SurfaceBlocks {
 public:
   /// `scene`: lights corners in the plain look. `eye`: for haze.
-  SurfaceBlocks(const PictureSetup& picture, Look look, const SceneParameters& scene,
-                const ViewParameters& view)
-      : picture_(picture), look_(look), scene_(scene), view_(view) {}
+  SurfaceBlocks(const DrawKernels& kernels, const PictureSetup& picture, Look look,
+                const SceneParameters& scene, const ViewParameters& view)
+      : kernels_(kernels), picture_(picture), look_(look), scene_(scene), view_(view) {}
 
-  void fill(const TriangleRecord& record, const TriangleStretch& stretch, SurfaceBlock& out) const;
+  /// One block for each.
+  void fill(std::span<const TriangleRecord* const> triangles, SurfaceBlock* out) const;
 
 private:
   using Corner = std::array<double, 3>;
+  void fillStretch(std::span<const TriangleRecord* const> triangles, SurfaceBlock* out) const;
+  void weighClipped(const TriangleRecord& record, SurfaceBlock& out) const;
   static void fillWeights(const std::array<Corner, 3>& corners, SurfaceBlock& out);
   void lightCorner(const MaterialParameters& material, float* corner) const;
 
+  const DrawKernels& kernels_;
   const PictureSetup& picture_;
   Look look_;
   const SceneParameters& scene_;

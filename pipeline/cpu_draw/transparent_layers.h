@@ -17,10 +17,8 @@ public:
   /// Finds and shades the fragments that nothing opaque hides; false: there are none.
   bool shade(const PictureShading& picture, std::size_t band, VisibleBand& visible,
              const SurfaceBlocks& blocks);
-  /// Whether a pixel has some. `at`: (y - low) * width + x.
-  bool has(std::size_t at) const { return begins_[at] != begins_[at + 1]; }
-  /// Blends them over a pixel's samples and returns the mean.
-  Colour3 over(std::size_t at, const BandColours& behind, int samples, const unsigned* shown);
+  /// Blends them over the pixels that have some.
+  void blend(const PictureShading& picture, const VisibleBand& visible, BandColours& colours);
 
 private:
   struct Layer {
@@ -29,15 +27,19 @@ private:
   };
   void collect(const PictureShading& picture, std::size_t band, VisibleBand& visible,
                const SurfaceBlocks& blocks);
+  bool has(std::size_t at) const { return begins_[at] != begins_[at + 1]; }
+  Colour3 over(int row, int x, const BandColours& behind, int samples, const unsigned* shown);
   void sortByPixel(const PictureShading& picture, int low, std::size_t pixels);
+  float alpha(unsigned fragment) const { return colours_[4 * std::size_t{fragment} + 3]; }
   Colour3 blended(Colour3 behind) const;
   void findLayers(std::size_t at, int sample, int samples);
 
   BandTriangles triangles_;
   FragmentShading shading_;
   std::vector<LayerFragment> room_, fragments_;
-  std::vector<unsigned> pixels_, numbers_;
-  std::vector<float> red_, green_, blue_, alpha_;
+  Fragments list_;
+  std::vector<float> colours_;  ///< red, green, blue and alpha of each
+  int width_ = 0;
   std::vector<unsigned> begins_, byPixel_;  ///< fragments of each pixel
   std::vector<Layer> layers_;               ///< of one sample, nearest first
 };

@@ -109,7 +109,7 @@ void TriangleClipper::clip(const std::array<std::array<float, 3>, 3>& corners, c
     area +=
         (at[i][0] - at[0][0]) * (at[i + 1][1] - at[0][1]) - (at[i][1] - at[0][1]) * (at[i + 1][0] - at[0][0]);
   if (area == 0 || (by_.facing > 0 && area < 0) || (by_.facing < 0 && area > 0)) return;
-  unsigned flags = 0;
+  unsigned flags = kClipped;
   if (by_.mirrored > 0 ? area < 0 : area > 0) flags |= kFacesAway;
   if (grow) flags |= kGrown;
   const float most = std::min(static_cast<float>(nearest), by_.mostDepth);
@@ -139,7 +139,7 @@ void TriangleClipper::emit(const std::array<std::array<double, 2>, 3>& at, const
   r.depthX = static_cast<float>(plane.right), r.depthY = static_cast<float>(plane.up);
   r.depth = static_cast<float>(plane.at + plane.right * r.left + plane.up * r.low + offset);
   r.mostDepth = most + static_cast<float>(offset);
-  r.triangle = triangle, r.sourceAndFlags = by_.source << 4 | flags;
+  r.triangle = triangle, r.sourceAndFlags = by_.source << kFlagBits | flags;
   out.push_back(r);
 }
 

@@ -15,9 +15,22 @@ namespace stadion {
 class VisibleBand {
 public:
   void draw(const PictureShading& picture, std::size_t band, const SurfaceBlocks& blocks);
+  /// Calls work(first, count, present) for triangles of a list of this band that follow each other: those that
+  /// have no holes (present is null) or one that has.
+  template <class Work>
+  void forRuns(const PictureShading& picture, BandTriangles& list, const SurfaceBlocks& blocks,
+               const Work& work) {
+    for (const BandTriangles::Run& run : list.runs()) {
+      if (!run.masked) work(run.first, run.count, nullptr);
+      for (unsigned i = run.first; run.masked && i < run.first + run.count; ++i)
+        work(i, 1u,
+             cutouts_.present(*picture.kernels, *picture.setup, list, i, blocks, picture.rung.nearestLevel,
+                              {low_, end_, stride_, picture.rung.samples}));
+    }
+  }
 
   BandTriangles& triangles() { return triangles_; }
-  Cutouts& cutouts() { return cutouts_; }
+  const BandTriangles& triangles() const { return triangles_; }
   /// Numbers of triangles, or kNoTriangle: the samples of a row's pixels.
   const unsigned* row(int y) const { return seen_.data() + static_cast<std::ptrdiff_t>(y - low_) * stride_; }
   /// For kernels that compare depths with it.

@@ -92,9 +92,8 @@ struct Coverage : DrawLanes<By> {
   /// Calls `work(part, first sample in the row, covered, depth)` for the steps of a triangle in a band, and
   /// `next(x, y)` after each step.
   template <class Work, class Next>
-  [[gnu::always_inline]] static inline void walk(const TriangleRecord& t, int low, int end, const Work& work,
-                                                 const Next& next) {
-    const Pattern p = pattern();
+  [[gnu::always_inline]] static inline void walk(const TriangleRecord& t, const Pattern& p, int low, int end,
+                                                 const Work& work, const Next& next) {
     const int y0 = t.low > low ? t.low : low, y1 = t.high < end - 1 ? t.high : end - 1;
     for (int y = y0; y <= y1; ++y) {
       const Row r = row(t, p, y);
@@ -118,21 +117,27 @@ struct Coverage : DrawLanes<By> {
     return present ? covered & L::loadInts(present + at) : covered;
   }
 
-  [[gnu::always_inline]] static inline void cover(const TriangleRecord& t, unsigned number,
-                                                  const int* present, const BandSamples& band) {
-    const I mine = I{} + static_cast<int>(number);
-    walk(
-        t, band.low, band.end,
-        [&](int, int y, int x, I covered, F depth) {
-          const int at = (y - band.low) * band.stride + x;
-          const F before = L::load(band.depth + at);
-          const I passes = holes(covered, present, at) & (depth >= before);
-          if (L::bits(passes) == 0) return;
-          L::store(band.depth + at, L::select(passes, depth, before));
-          if (band.triangle)
-            L::storeInts(band.triangle + at, By::select(passes, mine, L::loadInts(band.triangle + at)));
-        },
-        [](int, int) {});
+  /// Without numbers of triangles if kDepthOnly.
+  template <bool kDepthOnly>
+  [[gnu::always_inline]] static inline void cover(const TriangleRecord* const* triangles, unsigned count,
+                                                  unsigned first, const int* present,
+                                                  const BandSamples& band) {
+    const Pattern p = pattern();
+    for (unsigned i = 0; i < count; ++i) {
+      const I mine = I{} + static_cast<int>(first + i);
+      walk(
+          *triangles[i], p, band.low, band.end,
+          [&](int, int y, int x, I covered, F depth) {
+            const int at = (y - band.low) * band.stride + x;
+            const F before = L::load(band.depth + at);
+            const I passes = holes(covered, present, at) & (depth >= before);
+            if (L::bits(passes) == 0) return;
+            L::store(band.depth + at, L::select(passes, depth, before));
+            if constexpr (!kDepthOnly)
+              L::storeInts(band.triangle + at, By::select(passes, mine, L::loadInts(band.triangle + at)));
+          },
+          [](int, int) {});
+    }
   }
 
   [[gnu::always_inline]] static inline unsigned coverLayer(const TriangleRecord& t, unsigned number,
@@ -143,7 +148,7 @@ struct Coverage : DrawLanes<By> {
     constexpr unsigned kPixel = (1U << kSamples) - 1;
     unsigned made = 0, passed = 0;
     walk(
-        t, band.low, band.end,
+        t, pattern(), band.low, band.end,
         [&](int part, int y, int x, I covered, F depth) {
           const int at = (y - band.low) * band.stride + x;
           const F opaque = L::load(band.depth + at);

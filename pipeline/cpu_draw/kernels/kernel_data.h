@@ -30,10 +30,12 @@ struct PixelMatrix {
   float x[4], y[4], w[4];
 };
 
-/// Vertices in the picture [pixels] and their depth, padded.
+/// Vertices in the picture, padded: x and y [pixels], depth, and a number without meaning.
 struct PlacedVertices {
-  float *x, *y, *depth;
+  float* at;
 };
+
+constexpr int kVertexFloats = 12;  ///< position (3), normal (3), texture coordinates (2), colour (4)
 
 /// Corners of triangles: numbers of vertices, padded.
 struct TriangleCorners {
@@ -58,7 +60,9 @@ enum TriangleFlags : unsigned {
   kFacesAway = 2,       ///< its back is seen
   kUnfinished = 4,      ///< crosses the near plane or is too large: TriangleClipper finishes it
   kGrown = 8,           ///< covers 1/256 pixel more on either side, so that no gap opens beside its neighbour
+  kClipped = 16,        ///< TriangleClipper has made it
 };
+constexpr int kFlagBits = 5;
 
 /// A triangle to draw. The inside of a row lies between the long edge and one of the two short edges; so
 /// neighbours that share an edge compute the same border from the same numbers and never leave a gap.
@@ -75,7 +79,7 @@ struct TriangleRecord {
   short left, low;          ///< first pixel that may be covered
   short right, high;        ///< last one
   unsigned triangle;        ///< number among the corners that were set up
-  unsigned sourceAndFlags;  ///< SetupParameters::source * 16 + flags
+  unsigned sourceAndFlags;  ///< SetupParameters::source << kFlagBits, and flags
 };
 static_assert(sizeof(TriangleRecord) == 64);
 
@@ -96,6 +100,36 @@ struct LayerFragment {
   unsigned samples;   ///< bit for each sample that it covers and that nothing opaque hides
 };
 
+/// A pixel with samples of several triangles. Their colours lie at the places [first, first + count).
+struct SharedPixel {
+  unsigned place;
+  unsigned first, count;
+};
+
+/// Fragments: pixels of visible triangles, in any order.
+struct FragmentList {
+  unsigned* number;  ///< of the triangle; the one after the last is the sky
+  unsigned* pixel;   ///< x + 65536 * y
+  unsigned* place;   ///< where the colour goes
+  unsigned size;
+  unsigned* times;  ///< by number: how many fragments there are
+};
+
+/// Pixels of a row whose fragments are to be found.
+struct FragmentSearch {
+  const unsigned* shown;  ///< numbers of triangles, or kNoTriangle: the samples of the pixels
+  int samples, x, y;      ///< of the first pixel
+  int width;              ///< pixels
+  unsigned place;         ///< of the first pixel
+  unsigned sky;           ///< the number of the sky
+  FragmentList* runs;     ///< stretches of as many pixels of one triangle as the kernel has lanes
+  FragmentList* ones;     ///< all others
+  SharedPixel* shared;
+  unsigned sharedSize;
+  float* weight;  ///< of the fragments of shared pixels, from `firstPart` on
+  unsigned firstPart, parts;
+};
+
 /// A visible triangle as shading needs it: kSurfaceFloats numbers.
 ///
 ///   0 ..  2   barycentric weight of the first corner, before division by the sum: for each pixel to the
@@ -111,9 +145,18 @@ struct SurfaceBlock {
   float at[kSurfaceFloats];
 };
 
-struct TextureLevel {
-  int width, height;
-  int first;  ///< number of its first texel; a row has width + 1 texels, the last repeats the first
+/// Visible triangles of one instance, of which shading needs a SurfaceBlock.
+struct SurfaceJob {
+  const TriangleRecord* const* triangles;
+  unsigned count;
+  TriangleCorners corners;
+  const float* vertices;  ///< kVertexFloats each
+  PlacedVertices placed;
+  bool parallel;
+  const float* model;    ///< (3 x 4), row major: mesh coordinates to World axes
+  const float* normals;  ///< (3 x 3), row major: normals to World axes, of any length
+  float alpha;           ///< of the material
+  SurfaceBlock* out;
 };
 
 enum class TextureWrap : int { Repeat, Clamp, Mirror };
@@ -121,10 +164,11 @@ enum class TextureWrap : int { Repeat, Clamp, Mirror };
 /// A texture with its mipmaps. Colours are square roots of linear light in the full look, as stored in the
 /// plain look; alpha is linear. Red is in the lowest byte.
 struct TextureParameters {
-  static constexpr int kMostLevels = 15;
+  static constexpr int kMostLevels = 16;
   const unsigned* texels;  ///< null: there is none
   int levels;
-  TextureLevel level[kMostLevels];
+  int width[kMostLevels], height[kMostLevels];
+  int first[kMostLevels];  ///< a level's first texel; a row has width + 1 texels, the last repeats the first
   TextureWrap wrapU, wrapV;
   float transform[6];    ///< (2 x 3), row major: applied to the coordinates
   int coordinates;       ///< the set of texture coordinates, 0 or 1
@@ -171,12 +215,12 @@ constexpr int kShadowTile = 8;     ///< texels a side for which the least and th
 /// Shadow maps. Depths are 1 towards the light.
 struct ShadowParameters {
   float right[3], up[3], towards[3];
-  float depthScale;           ///< [1/m]
-  float rings[4][4];          ///< offset in the map, offset in depth, scale
-  float lift[4];              ///< along the normal [m]
-  const float* depths;        ///< (kShadowSide x kShadowSide); null: nothing casts a shadow
-  const float *least, *most;  ///< by tile and its three next texels
-  int taps;                   ///< texels that are compared: 16 or 4
+  float depthScale;     ///< [1/m]
+  float rings[4][4];    ///< offset in the map, offset in depth, scale
+  float lift[4];        ///< along the normal [m]
+  const float* depths;  ///< (kShadowSide x kShadowSide); null: nothing casts a shadow
+  const float* bounds;  ///< least and greatest depth of each tile and its three next texels
+  int taps;             ///< texels that are compared: 16 or 4
 };
 
 /// The eye.
@@ -185,20 +229,23 @@ struct ViewParameters {
   float ray[3], rayX[3], rayY[3];  ///< direction at the lower left, and its change for each pixel
 };
 
-/// Fragments of one material to shade. A fragment is a pixel of a visible triangle.
+/// Fragments of one material to shade. Arrays are padded.
 struct FragmentJob {
   const SurfaceBlock* surfaces;
-  const unsigned* order;              ///< numbers of the fragments
-  unsigned count;                     ///< of these
-  const unsigned* pixel;              ///< of a fragment: x + 65536 * y
-  const unsigned* surface;            ///< of a fragment
-  float *red, *green, *blue, *alpha;  ///< of a fragment, linear (in the plain look: as stored)
+  const unsigned* pixel;    ///< x + 65536 * y
+  const unsigned* surface;  ///< numbers of surfaces
+  const unsigned* place;    ///< of the colours
+  unsigned count;
+  int runs;        ///< 1: each of them stands for as many pixels to the right as the kernel has lanes
+  float* colours;  ///< red, green, blue and alpha, linear (in the plain look: as stored)
   const MaterialParameters* material;
   const SceneParameters* scene;
   const ShadowParameters* shadow;
   const ViewParameters* view;
   int nearestLevel;  ///< 1: textures are read from one level
 };
+
+constexpr int kEncodedSteps = 16383;
 
 /// The kernels. All of them give the same bits for the same input, however many lanes they have.
 struct DrawKernels {
@@ -210,22 +257,30 @@ struct DrawKernels {
   /// number; expects room for `count`.
   unsigned (*setUp)(const TriangleCorners& corners, unsigned first, unsigned count, const PlacedVertices& at,
                     const SetupParameters& by, TriangleRecord* out);
-  /// Draws a triangle into a band; the later one of two at the same depth is seen. `present`: for each sample
-  /// of the band, -1 if the triangle is there, 0 if it has a hole; null: it has none.
-  void (*cover)(const TriangleRecord& triangle, unsigned number, int samples, const int* present,
-                const BandSamples& band);
+  /// Draws triangles into a band, numbered from `first` on; the later one of two at the same depth is seen.
+  /// `present`: for each sample of the band, -1 if the triangles are there, 0 if they have a hole; null: they
+  /// have none.
+  void (*cover)(const TriangleRecord* const* triangles, unsigned count, unsigned first, int samples,
+                const int* present, const BandSamples& band);
   /// Likewise, depths alone.
-  void (*coverDepth)(const TriangleRecord& triangle, const int* present, const BandSamples& band);
+  void (*coverDepth)(const TriangleRecord* const* triangles, unsigned count, const int* present,
+                     const BandSamples& band);
   /// Lists the pixels of a transparent triangle that nothing opaque hides. Returns their number; expects room
   /// for every pixel of its box.
   unsigned (*coverLayer)(const TriangleRecord& triangle, unsigned number, int samples, const int* present,
                          const BandSamples& band, LayerFragment* out);
+  /// Appends the fragments of a row.
+  void (*findFragments)(FragmentSearch& row);
+  void (*makeSurfaces)(const SurfaceJob& job);
   /// For each fragment: whether the material has no hole there (-1, else 0).
   void (*cutOut)(const FragmentJob& job, int* present);
   void (*shade)(const FragmentJob& job);
   void (*shadePlain)(const FragmentJob& job);
   void (*sky)(const FragmentJob& job);
   void (*skyPlain)(const FragmentJob& job);
+  /// Encodes colours as bytes: red, green, blue, 255. `steps`: the byte of each of kEncodedSteps + 1 steps of
+  /// light; null: colours are stored as they are.
+  void (*encode)(const float* colours, unsigned count, const unsigned char* steps, unsigned char* out);
 };
 
 extern const DrawKernels kDrawByFour;     ///< on every machine

@@ -65,9 +65,27 @@ struct DrawFour {
   [[gnu::always_inline]] static inline Ints pick(const int* from, Ints at) {
     return Ints{from[at[0]], from[at[1]], from[at[2]], from[at[3]]};
   }
-  /// The four floats at each of the rows, by column.
-  [[gnu::always_inline]] static inline void columns(const float* const* rows, Floats* out) {
-    for (int k = 0; k < 4; ++k) out[k] = Floats{rows[0][k], rows[1][k], rows[2][k], rows[3][k]};
+  /// The numbers at each place, and those that follow them.
+  [[gnu::always_inline]] static inline void pairs(const int* from, Ints at, Ints& first, Ints& second) {
+    first = pick(from, at), second = pick(from + 1, at);
+  }
+  /// Likewise, from a table of sixteen.
+  [[gnu::always_inline]] static inline Ints entry(const int* table, Ints at) {
+    return pick(table, at);
+  }
+  /// The four floats at row(lane), by column.
+  template <class Row>
+  [[gnu::always_inline]] static inline void columns(const Row& row, Floats* out) {
+    const float *a = row(0), *b = row(1), *c = row(2), *d = row(3);
+    for (int k = 0; k < 4; ++k) out[k] = Floats{a[k], b[k], c[k], d[k]};
+  }
+  /// Stores four columns at row(lane).
+  template <class Row>
+  [[gnu::always_inline]] static inline void rows(const Floats* columns, const Row& row) {
+    for (int lane = 0; lane < 4; ++lane) {
+      const Floats of{columns[0][lane], columns[1][lane], columns[2][lane], columns[3][lane]};
+      __builtin_memcpy(row(lane), &of, sizeof of);
+    }
   }
 };
 
@@ -95,15 +113,41 @@ struct DrawEight {
   [[gnu::always_inline]] static inline Ints pick(const int* from, Ints at) {
     return Ints(_mm256_i32gather_epi32(from, __m256i(at), 4));
   }
-  [[gnu::always_inline]] static inline void columns(const float* const* rows, Floats* out) {
+  [[gnu::always_inline]] static inline void pairs(const int* from, Ints at, Ints& first, Ints& second) {
+    const __m256i order = _mm256_permute4x64_epi64(__m256i(at), 0xd8);
+    const auto* base = reinterpret_cast<const long long*>(from);
+    const __m256 low = __m256(_mm256_i32gather_epi64(base, _mm256_castsi256_si128(order), 4));
+    const __m256 high = __m256(_mm256_i32gather_epi64(base, _mm256_extracti128_si256(order, 1), 4));
+    first = Ints(_mm256_shuffle_ps(low, high, 0x88)), second = Ints(_mm256_shuffle_ps(low, high, 0xdd));
+  }
+  [[gnu::always_inline]] static inline Ints entry(const int* table, Ints at) {
+    Ints low, high;
+    __builtin_memcpy(&low, table, sizeof low), __builtin_memcpy(&high, table + 8, sizeof high);
+    return select(at > 7, Ints(_mm256_permutevar8x32_epi32(__m256i(high), __m256i(at))),
+                  Ints(_mm256_permutevar8x32_epi32(__m256i(low), __m256i(at))));
+  }
+  template <class Row>
+  [[gnu::always_inline]] static inline void columns(const Row& row, Floats* out) {
     __m256 r[4];
     for (int k = 0; k < 4; ++k)
-      r[k] =
-          _mm256_insertf128_ps(_mm256_castps128_ps256(_mm_loadu_ps(rows[k])), _mm_loadu_ps(rows[k + 4]), 1);
+      r[k] = _mm256_insertf128_ps(_mm256_castps128_ps256(_mm_loadu_ps(row(k))), _mm_loadu_ps(row(k + 4)), 1);
     const __m256 a = _mm256_unpacklo_ps(r[0], r[1]), b = _mm256_unpackhi_ps(r[0], r[1]);
     const __m256 c = _mm256_unpacklo_ps(r[2], r[3]), d = _mm256_unpackhi_ps(r[2], r[3]);
     out[0] = Floats(_mm256_shuffle_ps(a, c, 0x44)), out[1] = Floats(_mm256_shuffle_ps(a, c, 0xee));
     out[2] = Floats(_mm256_shuffle_ps(b, d, 0x44)), out[3] = Floats(_mm256_shuffle_ps(b, d, 0xee));
+  }
+  template <class Row>
+  [[gnu::always_inline]] static inline void rows(const Floats* columns, const Row& row) {
+    const __m256 x = __m256(columns[0]), y = __m256(columns[1]), z = __m256(columns[2]),
+                 w = __m256(columns[3]);
+    const __m256 a = _mm256_unpacklo_ps(x, y), b = _mm256_unpackhi_ps(x, y);
+    const __m256 c = _mm256_unpacklo_ps(z, w), d = _mm256_unpackhi_ps(z, w);
+    const __m256 r[] = {_mm256_shuffle_ps(a, c, 0x44), _mm256_shuffle_ps(a, c, 0xee),
+                        _mm256_shuffle_ps(b, d, 0x44), _mm256_shuffle_ps(b, d, 0xee)};
+    for (int k = 0; k < 4; ++k) {
+      _mm_storeu_ps(row(k), _mm256_castps256_ps128(r[k]));
+      _mm_storeu_ps(row(k + 4), _mm256_extractf128_ps(r[k], 1));
+    }
   }
 };
 #endif
@@ -132,18 +176,44 @@ struct DrawSixteen {
   [[gnu::always_inline]] static inline Ints pick(const int* from, Ints at) {
     return Ints(_mm512_i32gather_epi32(__m512i(at), from, 4));
   }
-  [[gnu::always_inline]] static inline void columns(const float* const* rows, Floats* out) {
+  [[gnu::always_inline]] static inline void pairs(const int* from, Ints at, Ints& first, Ints& second) {
+    const __m512i low = _mm512_i32gather_epi64(_mm512_castsi512_si256(__m512i(at)), from, 4);
+    const __m512i high = _mm512_i32gather_epi64(_mm512_extracti64x4_epi64(__m512i(at), 1), from, 4);
+    constexpr Ints kEven{0, 2, 4, 6, 8, 10, 12, 14, 16, 18, 20, 22, 24, 26, 28, 30};
+    first = Ints(_mm512_permutex2var_epi32(low, __m512i(kEven), high));
+    second = Ints(_mm512_permutex2var_epi32(low, __m512i(kEven + 1), high));
+  }
+  [[gnu::always_inline]] static inline Ints entry(const int* table, Ints at) {
+    return Ints(_mm512_permutexvar_epi32(__m512i(at), _mm512_loadu_si512(table)));
+  }
+  template <class Row>
+  [[gnu::always_inline]] static inline void columns(const Row& row, Floats* out) {
     __m512 r[4];
     for (int k = 0; k < 4; ++k) {
-      r[k] = _mm512_castps128_ps512(_mm_loadu_ps(rows[k]));
-      r[k] = _mm512_insertf32x4(r[k], _mm_loadu_ps(rows[k + 4]), 1);
-      r[k] = _mm512_insertf32x4(r[k], _mm_loadu_ps(rows[k + 8]), 2);
-      r[k] = _mm512_insertf32x4(r[k], _mm_loadu_ps(rows[k + 12]), 3);
+      r[k] = _mm512_castps128_ps512(_mm_loadu_ps(row(k)));
+      r[k] = _mm512_insertf32x4(r[k], _mm_loadu_ps(row(k + 4)), 1);
+      r[k] = _mm512_insertf32x4(r[k], _mm_loadu_ps(row(k + 8)), 2);
+      r[k] = _mm512_insertf32x4(r[k], _mm_loadu_ps(row(k + 12)), 3);
     }
     const __m512 a = _mm512_unpacklo_ps(r[0], r[1]), b = _mm512_unpackhi_ps(r[0], r[1]);
     const __m512 c = _mm512_unpacklo_ps(r[2], r[3]), d = _mm512_unpackhi_ps(r[2], r[3]);
     out[0] = Floats(_mm512_shuffle_ps(a, c, 0x44)), out[1] = Floats(_mm512_shuffle_ps(a, c, 0xee));
     out[2] = Floats(_mm512_shuffle_ps(b, d, 0x44)), out[3] = Floats(_mm512_shuffle_ps(b, d, 0xee));
+  }
+  template <class Row>
+  [[gnu::always_inline]] static inline void rows(const Floats* columns, const Row& row) {
+    const __m512 x = __m512(columns[0]), y = __m512(columns[1]), z = __m512(columns[2]),
+                 w = __m512(columns[3]);
+    const __m512 a = _mm512_unpacklo_ps(x, y), b = _mm512_unpackhi_ps(x, y);
+    const __m512 c = _mm512_unpacklo_ps(z, w), d = _mm512_unpackhi_ps(z, w);
+    const __m512 r[] = {_mm512_shuffle_ps(a, c, 0x44), _mm512_shuffle_ps(a, c, 0xee),
+                        _mm512_shuffle_ps(b, d, 0x44), _mm512_shuffle_ps(b, d, 0xee)};
+    for (int k = 0; k < 4; ++k) {
+      _mm_storeu_ps(row(k), _mm512_castps512_ps128(r[k]));
+      _mm_storeu_ps(row(k + 4), _mm512_extractf32x4_ps(r[k], 1));
+      _mm_storeu_ps(row(k + 8), _mm512_extractf32x4_ps(r[k], 2));
+      _mm_storeu_ps(row(k + 12), _mm512_extractf32x4_ps(r[k], 3));
+    }
   }
 };
 #endif
@@ -185,6 +255,12 @@ struct DrawLanes {
   [[gnu::always_inline]] static inline I truncated(F x) { return __builtin_convertvector(x, I); }
   [[gnu::always_inline]] static inline F floor(F x) { return By::floor(x); }
   [[gnu::always_inline]] static inline F ceiling(F x) { return -By::floor(-x); }
+  /// The numbers of the lanes.
+  [[gnu::always_inline]] static inline I lanes() {
+    I out;
+    for (int lane = 0; lane < kLanes; ++lane) out[lane] = lane;
+    return out;
+  }
   [[gnu::always_inline]] static inline F perRoot(F x) { return 1.0f / By::root(x); }
 
   /// 2 to the x, for x <= 0; relative error below 4e-6.

@@ -15,13 +15,17 @@ struct LightModel : DrawLanes<By> {
   using F = typename L::F;
   using I = typename L::I;
   using T = Triple<F>;
+  static constexpr int kLanes = By::kLanes;
+  static constexpr int kTileShift = 3;
+  static_assert(1 << kTileShift == kShadowTile);
   static constexpr float kPerE = -1.442695f;  ///< exp(-x) = 2^(kPerE x)
 
   /// The sun's glow in the air.
   [[gnu::always_inline]] static inline T glow(const T& d, const SceneParameters& s) {
     const F off = L::most(1.0f - T::dot(d, T::of(s.sunDirection)), F{});
-    const F near = 1.0f / (1.0f + 900.0f * off);
-    return T::of(s.sunColour) * ((0.3f * near * near + 0.06f / (1.0f + 18.0f * off)) * s.sunShare);
+    const F narrow = 1.0f + 900.0f * off, wide = 1.0f + 18.0f * off, per = 1.0f / (narrow * wide);
+    const F near = wide * per;
+    return T::of(s.sunColour) * ((0.3f * near * near + 0.06f * (narrow * per)) * s.sunShare);
   }
   /// Air without end, seen in direction d.
   [[gnu::always_inline]] static inline T airWithoutGlow(const T& d, const SceneParameters& s) {
@@ -32,6 +36,7 @@ struct LightModel : DrawLanes<By> {
     return airWithoutGlow(d, s) + glow(d, s);
   }
   [[gnu::always_inline]] static inline F softClip(F c) {
+    if (L::bits(~I(c <= 0.8f)) == 0) return c;
     const F over = L::most(c - 0.8f, F{}) * 5.0f;
     return L::least(c, L::all(0.8f)) + 0.2f * over / (1.0f + over);
   }
@@ -108,15 +113,18 @@ struct LightModel : DrawLanes<By> {
     const auto corner = [](F x) { return L::truncated(L::most(L::least(x, L::all(kShadowSide - 4)), F{})); };
     const I x = corner(left), y = corner(low);
     // Most places are in light, or in shadow, as a whole.
-    const I tile = y / kShadowTile * (kShadowSide / kShadowTile) + x / kShadowTile;
-    const I light = depth >= L::pick(s.most, tile), dark = depth < L::pick(s.least, tile);
+    const I tile = ((y >> kTileShift) * (kShadowSide / kShadowTile) + (x >> kTileShift)) * 2;
+    I least, most;
+    By::pairs(reinterpret_cast<const int*>(s.bounds), tile, least, most);
+    const I light = depth >= F(most), dark = depth < F(least);
     F lit{};
     if (L::bits(light | dark) != L::kAll) {
-      const I at = y * kShadowSide + x;
+      alignas(64) int at[kLanes];
+      L::storeInts(at, y * kShadowSide + x);
       for (int j = 0; j < 4; ++j) {
-        F row{};
-        for (int i = 0; i < 4; ++i)
-          row += L::where(depth >= L::pick(s.depths + j * kShadowSide + i, at), across[i]);
+        F texel[4], row{};
+        By::columns([&](int lane) { return s.depths + at[lane] + j * kShadowSide; }, texel);
+        for (int i = 0; i < 4; ++i) row += L::where(depth >= texel[i], across[i]);
         lit += row * along[j];
       }
       lit *= 0.25f;
@@ -130,8 +138,9 @@ struct LightModel : DrawLanes<By> {
     const auto corner = [](F x) { return L::truncated(L::most(L::least(x, L::all(kShadowSide - 2)), F{})); };
     const I at = corner(low) * kShadowSide + corner(left);
     const auto row = [&](int first) {
-      return L::where(depth >= L::pick(s.depths + first, at), 1.0f - f) +
-             L::where(depth >= L::pick(s.depths + first + 1, at), f);
+      I here, next;
+      By::pairs(reinterpret_cast<const int*>(s.depths) + first, at, here, next);
+      return L::where(depth >= F(here), 1.0f - f) + L::where(depth >= F(next), f);
     };
     const F below = row(0), above = row(kShadowSide);
     return below + (above - below) * g;

@@ -19,35 +19,60 @@ struct SurfaceShading : DrawLanes<By> {
   using Filter = TextureFilter<By>;
   static constexpr int kLanes = By::kLanes;
 
-  /// Some fragments of a job. Lanes beyond its end repeat the last one.
+  /// Some fragments of a job, or a run. Lanes beyond its end have any fragments.
   struct Batch {
-    unsigned fragment[kLanes], surface[kLanes];
-    alignas(64) int x[kLanes], y[kLanes];
+    F x, y;  ///< middles of the pixels
+    const unsigned *surface, *place;
     unsigned count;
     bool uniform;  ///< all on one triangle
   };
   [[gnu::always_inline]] static inline Batch batch(const FragmentJob& job, unsigned first) {
     Batch b;
+    b.surface = job.surface + first, b.place = job.place + first;
     b.count = job.count - first < kLanes ? job.count - first : kLanes;
-    b.uniform = true;
-    for (unsigned lane = 0; lane < kLanes; ++lane) {
-      const unsigned which = job.order[first + (lane < b.count ? lane : b.count - 1)];
-      b.fragment[lane] = which, b.surface[lane] = job.surface ? job.surface[which] : 0;
-      b.x[lane] = static_cast<int>(job.pixel[which] & 0xffff),
-      b.y[lane] = static_cast<int>(job.pixel[which] >> 16);
-      b.uniform = b.uniform && b.surface[lane] == b.surface[0];
-    }
+    const I pixel = L::loadInts(job.pixel + first), surface = L::loadInts(b.surface);
+    b.x = L::whole(pixel & 0xffff) + 0.5f, b.y = L::whole((pixel >> 16) & 0xffff) + 0.5f;
+    const I differs = surface != I{} + static_cast<int>(b.surface[0]);
+    b.uniform = (L::bits(differs) & (L::kAll >> (kLanes - b.count))) == 0;
     return b;
   }
-  [[gnu::always_inline]] static inline void put(const Batch& b, float* to, F value) {
-    alignas(64) float values[kLanes];
-    L::store(values, value);
-    for (unsigned lane = 0; lane < b.count; ++lane) to[b.fragment[lane]] = values[lane];
+  [[gnu::always_inline]] static inline Batch run(const FragmentJob& job, unsigned number) {
+    Batch b;
+    b.surface = job.surface + number, b.place = job.place + number, b.count = kLanes, b.uniform = true;
+    const unsigned pixel = job.pixel[number];
+    b.x = L::whole(I{} + static_cast<int>(pixel & 0xffff) + L::lanes()) + 0.5f;
+    b.y = L::all(static_cast<float>(pixel >> 16) + 0.5f);
+    return b;
   }
-  [[gnu::always_inline]] static inline void put(const FragmentJob& job, const Batch& b, const T& colour) {
-    put(b, job.red, colour.x), put(b, job.green, colour.y), put(b, job.blue, colour.z);
+
+  /// Red, green, blue and alpha.
+  struct Colour {
+    F column[4];
+  };
+  [[gnu::always_inline]] static inline void put(const FragmentJob& job, const Batch& b, const Colour& c) {
+    if (job.runs != 0) {
+      float* to = job.colours + 4 * static_cast<unsigned long>(b.place[0]);
+      By::rows(c.column, [&](int lane) { return to + 4 * lane; });
+    } else if (b.count == kLanes) {
+      By::rows(c.column,
+               [&](int lane) { return job.colours + 4 * static_cast<unsigned long>(b.place[lane]); });
+    } else {
+      alignas(64) float colours[4 * kLanes];
+      By::rows(c.column, [&](int lane) { return colours + 4 * lane; });
+      for (unsigned lane = 0; lane < b.count; ++lane)
+        __builtin_memcpy(job.colours + 4 * static_cast<unsigned long>(b.place[lane]), colours + 4 * lane,
+                         4 * sizeof(float));
+    }
   }
-  [[gnu::always_inline]] static inline F middle(const int* at) { return L::whole(L::loadInts(at)) + 0.5f; }
+  /// Calls shader(batch) for all fragments and keeps the colours that it returns.
+  template <class Shader>
+  [[gnu::always_inline]] static inline void shadeAll(const FragmentJob& job, const Shader& shader) {
+    const unsigned step = job.runs != 0 ? 1 : kLanes;
+    for (unsigned i = 0; i < job.count; i += step) {
+      const Batch b = job.runs != 0 ? run(job, i) : batch(job, i);
+      put(job, b, shader(b));
+    }
+  }
 
   /// The surface blocks of a batch, by column.
   template <bool kUniform>
@@ -57,13 +82,9 @@ struct SurfaceShading : DrawLanes<By> {
 
     [[gnu::always_inline]] inline explicit Columns(const FragmentJob& job, const Batch& b) {
       one = job.surfaces[b.surface[0]].at;
-      if constexpr (!kUniform) {
-        const float* rows[kLanes];
-        for (int first = 0; first < kSurfaceFloats; first += 4) {
-          for (int lane = 0; lane < kLanes; ++lane) rows[lane] = job.surfaces[b.surface[lane]].at + first;
-          By::columns(rows, columns + first);
-        }
-      }
+      if constexpr (!kUniform)
+        for (int first = 0; first < kSurfaceFloats; first += 4)
+          By::columns([&](int lane) { return job.surfaces[b.surface[lane]].at + first; }, columns + first);
     }
     [[gnu::always_inline]] inline F operator[](int k) const {
       if constexpr (kUniform)
@@ -80,7 +101,7 @@ struct SurfaceShading : DrawLanes<By> {
     F first, second, third, per;
 
     [[gnu::always_inline]] inline Interpolation(const FragmentJob& job, const Batch& b) : of(job, b) {
-      const F x = middle(b.x) - of[3], y = middle(b.y) - of[7];
+      const F x = b.x - of[3], y = b.y - of[7];
       // The middle of a pixel may lie beside the triangle that covers one of its samples.
       first = L::most(of[0] * x + of[1] * y + of[2], F{}),
       second = L::most(of[4] * x + of[5] * y + of[6], F{});
@@ -127,7 +148,7 @@ struct SurfaceShading : DrawLanes<By> {
   }
 
   template <bool kUniform>
-  [[gnu::always_inline]] static inline void shadeBatch(const FragmentJob& job, const Batch& b) {
+  [[gnu::always_inline]] static inline Colour shadeBatch(const FragmentJob& job, const Batch& b) {
     const MaterialParameters& m = *job.material;
     const SceneParameters& scene = *job.scene;
     const Interpolation<kUniform> at(job, b);
@@ -147,8 +168,8 @@ struct SurfaceShading : DrawLanes<By> {
       const F clearness = L::exp2(squared * perDistance * (Light::kPerE * scene.perHaze));
       light = T::mix(Light::air(v * L::all(-1), scene), light, clearness);
     }
-    put(job, b, Light::softClip(light));
-    if (job.alpha) put(b, job.alpha, L::clamp(surface.alpha));
+    light = Light::softClip(light);
+    return {{light.x, light.y, light.z, L::clamp(surface.alpha)}};
   }
 
   [[gnu::always_inline]] static inline F fifth(F x) {
@@ -190,7 +211,7 @@ struct SurfaceShading : DrawLanes<By> {
   }
 
   template <bool kUniform>
-  [[gnu::always_inline]] static inline void shadePlainBatch(const FragmentJob& job, const Batch& b) {
+  [[gnu::always_inline]] static inline Colour shadePlainBatch(const FragmentJob& job, const Batch& b) {
     const MaterialParameters& m = *job.material;
     const SceneParameters& scene = *job.scene;
     const Interpolation<kUniform> at(job, b);
@@ -207,8 +228,7 @@ struct SurfaceShading : DrawLanes<By> {
       colour = {L::least(colour.x, one), L::least(colour.y, one), L::least(colour.z, one)};
     }
     if (scene.perHaze > 0) colour = T::mix(T::of(scene.horizon), colour, at(0));
-    put(job, b, colour);
-    if (job.alpha) put(b, job.alpha, L::clamp(alpha));
+    return {{colour.x, colour.y, colour.z, L::clamp(alpha)}};
   }
 
   template <bool kUniform>
@@ -221,29 +241,25 @@ struct SurfaceShading : DrawLanes<By> {
   }
 
   static void shade(const FragmentJob& job) {
-    for (unsigned i = 0; i < job.count; i += kLanes) {
-      const Batch b = batch(job, i);
-      b.uniform ? shadeBatch<true>(job, b) : shadeBatch<false>(job, b);
-    }
+    shadeAll(job, [&](const Batch& b) {
+      return b.uniform ? shadeBatch<true>(job, b) : shadeBatch<false>(job, b);
+    });
   }
   static void shadePlain(const FragmentJob& job) {
-    for (unsigned i = 0; i < job.count; i += kLanes) {
-      const Batch b = batch(job, i);
-      b.uniform ? shadePlainBatch<true>(job, b) : shadePlainBatch<false>(job, b);
-    }
+    shadeAll(job, [&](const Batch& b) {
+      return b.uniform ? shadePlainBatch<true>(job, b) : shadePlainBatch<false>(job, b);
+    });
   }
   static void cutOut(const FragmentJob& job, int* present) {
     for (unsigned i = 0; i < job.count; i += kLanes) {
       const Batch b = batch(job, i);
-      alignas(64) int values[kLanes];
-      L::storeInts(values, b.uniform ? presentIn<true>(job, b) : presentIn<false>(job, b));
-      for (unsigned lane = 0; lane < b.count; ++lane) present[b.fragment[lane]] = values[lane];
+      L::storeInts(present + i, b.uniform ? presentIn<true>(job, b) : presentIn<false>(job, b));
     }
   }
 
   /// The direction in which a pixel's middle lies, unit.
   [[gnu::always_inline]] static inline T direction(const ViewParameters& view, const Batch& b) {
-    const T d = T::of(view.ray) + T::of(view.rayX) * middle(b.x) + T::of(view.rayY) * middle(b.y);
+    const T d = T::of(view.ray) + T::of(view.rayX) * b.x + T::of(view.rayY) * b.y;
     return d * L::perRoot(L::most(T::dot(d, d), L::all(1e-30f)));
   }
   /// The share of the ground in an endless plain in thin haze.
@@ -256,25 +272,25 @@ struct SurfaceShading : DrawLanes<By> {
 
   static void sky(const FragmentJob& job) {
     const SceneParameters& s = *job.scene;
-    for (unsigned i = 0; i < job.count; i += kLanes) {
-      const Batch b = batch(job, i);
+    shadeAll(job, [&](const Batch& b) -> Colour {
       const T d = direction(*job.view, b), air = Light::air(d, s);
       const F off = L::most(1.0f - T::dot(d, T::of(s.sunDirection)), F{});
       const F t = L::clamp((off - 6.0e-5f) * (1 / 3.0e-5f));
       const F disc = (1.0f - t * t * (3.0f - 2.0f * t)) * (3.0f * s.sunShare);
       const T above = air + T::of(s.sunColour) * disc;
       const T below = T::mix(air, T::of(s.ground), groundShare(d));
-      put(job, b, Light::softClip(either(d.z >= 0.0f, above, below)));
-    }
+      const T sky = Light::softClip(either(d.z >= 0.0f, above, below));
+      return {{sky.x, sky.y, sky.z, L::all(1)}};
+    });
   }
   static void skyPlain(const FragmentJob& job) {
     const SceneParameters& s = *job.scene;
-    for (unsigned i = 0; i < job.count; i += kLanes) {
-      const Batch b = batch(job, i);
+    shadeAll(job, [&](const Batch& b) -> Colour {
       const T d = direction(*job.view, b);
       const T below = T::mix(T::of(s.horizon), T::of(s.ground), groundShare(d));
-      put(job, b, either(d.z >= 0.0f, Light::airWithoutGlow(d, s), below));
-    }
+      const T sky = either(d.z >= 0.0f, Light::airWithoutGlow(d, s), below);
+      return {{sky.x, sky.y, sky.z, L::all(1)}};
+    });
   }
 };
 

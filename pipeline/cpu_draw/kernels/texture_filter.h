@@ -48,38 +48,51 @@ struct TextureFilter : DrawLanes<By> {
     }
     return L::most(L::least(at, L::all(1)), F{});
   }
-  /// Of a texel and its neighbour, one of which may lie beyond the edge.
-  [[gnu::always_inline]] static inline void neighbours(I& first, I& second, int count, TextureWrap wrap) {
+  /// Of rows of texels and the next ones, which may lie beyond the edge.
+  [[gnu::always_inline]] static inline void neighbours(I& first, I& second, I count, TextureWrap wrap) {
     if (wrap == TextureWrap::Repeat) {
-      second &= ~I(second >= count);
       first += I(first < 0) & count;
+      first &= ~I(first >= count), second &= ~I(second >= count);
     } else {
-      second = second < count ? second : I{} + (count - 1);
+      second = second < count ? second : count - 1;
       first &= ~I(first < 0);
     }
   }
 
+  /// Levels of a texture, one in each lane.
+  struct Levels {
+    I width, height, first;
+    [[gnu::always_inline]] inline Levels(const TextureParameters& t, I number)
+        : width(By::entry(t.width, number)), height(By::entry(t.height, number)),
+          first(By::entry(t.first, number)) {}
+  };
+
   /// Adds the mean of the four texels around a place, times `weight` of 256.
-  [[gnu::always_inline]] static inline void add(const TextureParameters& t, const TextureLevel& level, F u,
-                                                F v, F weight, Sum& sum) {
-    F x = u * static_cast<float>(level.width) - 0.5f, y = v * static_cast<float>(level.height) - 0.5f;
+  [[gnu::always_inline]] static inline void add(const TextureParameters& t, const Levels& level, F u, F v,
+                                                F weight, Sum& sum) {
+    const F width = L::whole(level.width);
+    F x = u * width - 0.5f, y = v * L::whole(level.height) - 0.5f;
     if (t.magnifiesNearest) x = L::floor(x + 0.5f), y = L::floor(y + 0.5f);
+    if (t.wrapU != TextureWrap::Repeat) x = L::most(L::least(x, width - 1.0f), F{});
     const F left = L::floor(x), top = L::floor(y);
-    I x0 = L::truncated(left), y0 = L::truncated(top), x1 = x0 + 1, y1 = y0 + 1;
-    neighbours(x0, x1, level.width, t.wrapU), neighbours(y0, y1, level.height, t.wrapV);
+    I x0 = L::truncated(left), y0 = L::truncated(top), y1 = y0 + 1;
+    x0 += I(x0 < 0) & level.width;  // the texel at the end of a row is the first one
+    neighbours(y0, y1, level.height, t.wrapV);
     const I all = L::truncated(weight), right = L::truncated(weight * (x - left)), rest = all - right;
     const I lowRight = L::truncated(L::whole(right) * (y - top)),
             lowLeft = L::truncated(L::whole(rest) * (y - top));
-    const int* from = reinterpret_cast<const int*>(t.texels) + level.first;
-    const int row = level.width + 1;
-    sum.add(By::pick(from, y0 * row + x0), rest - lowLeft),
-        sum.add(By::pick(from, y0 * row + x1), right - lowRight);
-    sum.add(By::pick(from, y1 * row + x0), lowLeft), sum.add(By::pick(from, y1 * row + x1), lowRight);
+    const int* from = reinterpret_cast<const int*>(t.texels);
+    const I row = level.width + 1, column = level.first + x0;
+    I here, next;
+    By::pairs(from, y0 * row + column, here, next);
+    sum.add(here, rest - lowLeft), sum.add(next, right - lowRight);
+    By::pairs(from, y1 * row + column, here, next);
+    sum.add(here, lowLeft), sum.add(next, lowRight);
   }
 
   /// The level of detail: 0 = all of the texture.
   [[gnu::always_inline]] static inline F levelOf(const TextureParameters& t, const Place& p) {
-    const float w = static_cast<float>(t.level[0].width), h = static_cast<float>(t.level[0].height);
+    const float w = static_cast<float>(t.width[0]), h = static_cast<float>(t.height[0]);
     const F right = p.uRight * p.uRight * (w * w) + p.vRight * p.vRight * (h * h);
     const F up = p.uUp * p.uUp * (w * w) + p.vUp * p.vUp * (h * h);
     const F level = 0.5f * L::log2(L::most(L::most(right, up), L::all(1)));
@@ -92,19 +105,11 @@ struct TextureFilter : DrawLanes<By> {
     F level = levelOf(t, p);
     if (nearestLevel) level = L::floor(level + 0.5f);
     const F u = wrapped(p.u, t.wrapU), v = wrapped(p.v, t.wrapV);
-    const I whole = L::truncated(level);
-    const F between = level - L::whole(whole);
+    const I whole = L::truncated(level), last = I{} + (t.levels - 1);
+    const F coarser = L::floor(256.0f * (level - L::whole(whole)));
     Sum out;
-    for (unsigned left = L::kAll; left != 0;) {  // lanes of one level together
-      const int here = whole[static_cast<int>(__builtin_ctz(left))];
-      const I same = whole == here;
-      const bool two = !nearestLevel && here + 1 < t.levels;
-      Sum sum;
-      add(t, t.level[here], u, v, two ? 256.0f - L::floor(256.0f * between) : L::all(256), sum);
-      if (two) add(t, t.level[here + 1], u, v, L::floor(256.0f * between), sum);
-      out.redBlue |= sum.redBlue & same, out.greenAlpha |= sum.greenAlpha & same;
-      left &= ~L::bits(same);
-    }
+    add(t, Levels(t, whole), u, v, 256.0f - coarser, out);
+    if (L::bits(coarser > 0.0f) != 0) add(t, Levels(t, whole < last ? whole + 1 : last), u, v, coarser, out);
     const auto low = [](I two) { return L::whole(two & 0xffff) * (1.0f / 65280); };
     const auto high = [](I two) { return L::whole((two >> 16) & 0xffff) * (1.0f / 65280); };
     const T colour{low(out.redBlue), low(out.greenAlpha), high(out.redBlue)};

@@ -25,16 +25,18 @@ struct TriangleSetup : DrawLanes<By> {
       const auto row = [&](const float* r) { return r[0] * x + (r[1] * y + (r[2] * z + r[3])); };
       const F last = row(m.w);
       const F per = parallel ? L::all(1) : 1.0f / last;
-      L::store(to.x + i, row(m.x) * per), L::store(to.y + i, row(m.y) * per);
-      L::store(to.depth + i, parallel ? last : per);
+      const F columns[4] = {row(m.x) * per, row(m.y) * per, parallel ? last : per, F{}};
+      By::rows(columns, [&](int lane) { return to.at + 4 * (i + static_cast<unsigned>(lane)); });
     }
   }
 
   struct Corner {
     F x, y, depth;
   };
-  [[gnu::always_inline]] static inline Corner corner(const PlacedVertices& at, I which) {
-    return {L::pick(at.x, which), L::pick(at.y, which), L::pick(at.depth, which)};
+  [[gnu::always_inline]] static inline Corner corner(const PlacedVertices& at, const int* which) {
+    F columns[4];
+    By::columns([&](int lane) { return at.at + 4 * static_cast<long>(which[lane]); }, columns);
+    return {columns[0], columns[1], columns[2]};
   }
   [[gnu::always_inline]] static inline void order(Corner& low, Corner& high) {
     const I turned = high.y < low.y;
@@ -71,6 +73,36 @@ struct TriangleSetup : DrawLanes<By> {
     return (low <= high) & (first <= last);
   }
 
+  /// Slopes of the edges between sorted corners [x a row].
+  struct Edges {
+    F longest, lower, upper;
+    I longIsLeft;
+    [[gnu::always_inline]] inline Edges(const Corner& a, const Corner& b, const Corner& c)
+        : longest((c.x - a.x) / (c.y - a.y)), lower((b.x - a.x) / (b.y - a.y)),
+          upper((c.x - b.x) / (c.y - b.y)),
+          longIsLeft((c.x - a.x) * (b.y - a.y) - (c.y - a.y) * (b.x - a.x) < 0.0f) {}
+  };
+
+  /// Whether triangles cover a sample of the two by two pixels at (left, low). Computes what Coverage computes.
+  [[gnu::always_inline]] static inline I covers(const Corner& a, const Corner& b, const Corner& c,
+                                                const Edges& edges, F left, F low, int samples) {
+    const int(*places)[2] = samples == 1 ? kOneSample : samples == 4 ? kFourSamples : kEightSamples;
+    const float part = 1 / static_cast<float>(2 * samples);
+    I found{};
+    for (int i = 0; i < 2 * samples; ++i) {
+      const int* place = places[i < samples ? i : i - samples];
+      const F at = (i < samples ? low : low + 1.0f) + static_cast<float>(place[1]) * part;
+      const F up = at - a.y;
+      const F across = a.x + up * edges.longest;
+      const F beside = L::select(at < b.y, a.x + up * edges.lower, b.x + (at - b.y) * edges.upper);
+      const F from = L::select(edges.longIsLeft, across, beside),
+              to = L::select(edges.longIsLeft, beside, across);
+      const F x = left + static_cast<float>(place[0]) * part, next = x + 1.0f;
+      found |= (at >= a.y) & (at < c.y) & (((x >= from) & (x < to)) | ((next >= from) & (next < to)));
+    }
+    return found;
+  }
+
   /// Several lanes of one record's field.
   struct Fields {
     alignas(64) float at[12][kLanes];
@@ -81,8 +113,7 @@ struct TriangleSetup : DrawLanes<By> {
   [[gnu::always_inline]] static inline unsigned some(const TriangleCorners& corners, unsigned t,
                                                      unsigned lanes, const PlacedVertices& at,
                                                      const SetupParameters& s, TriangleRecord* out) {
-    Corner a = corner(at, L::loadInts(corners.a + t)), b = corner(at, L::loadInts(corners.b + t)),
-           c = corner(at, L::loadInts(corners.c + t));
+    Corner a = corner(at, corners.a + t), b = corner(at, corners.b + t), c = corner(at, corners.c + t);
     const I aSeen = isSeen(a, s), bSeen = isSeen(b, s), cSeen = isSeen(c, s);
     const I regular = aSeen & bSeen & cSeen & isNear(a) & isNear(b) & isNear(c);
     const I unfinished = (aSeen | bSeen | cSeen) & ~regular;
@@ -100,12 +131,15 @@ struct TriangleSetup : DrawLanes<By> {
 
     const I away = s.mirrored > 0 ? I(area < 0.0f) : I(area > 0.0f);
     order(a, b), order(b, c), order(a, b);
+    const Edges edges(a, b, c);
+    const I small = whole & (right - left < 2.0f) & (high - low < 2.0f);
+    if (L::bits(small) & lanes) wanted &= ~L::bits(small & ~covers(a, b, c, edges, left, low, s.samples));
+    if (wanted == 0) return 0;
     Fields f;
-    fill(a, b, c, left, low, s, f);
+    fill(a, b, c, edges, left, low, s, f);
     const auto number = [&](int k, F x) { L::storeInts(f.box[k], L::truncated(L::where(whole, x))); };
     number(0, left), number(1, low), number(2, right), number(3, high);
-    const F beside = (c.x - a.x) * (b.y - a.y) - (c.y - a.y) * (b.x - a.x);
-    L::storeInts(f.flags, (I(beside < 0.0f) & static_cast<int>(kLongEdgeIsLeft)) |
+    L::storeInts(f.flags, (edges.longIsLeft & static_cast<int>(kLongEdgeIsLeft)) |
                               (away & static_cast<int>(kFacesAway)) |
                               (unfinished & static_cast<int>(kUnfinished)));
     unsigned made = 0;
@@ -116,14 +150,15 @@ struct TriangleSetup : DrawLanes<By> {
       for (int k = 0; k < 12; ++k) to[k] = f.at[k][lane];
       r.left = static_cast<short>(f.box[0][lane]), r.low = static_cast<short>(f.box[1][lane]);
       r.right = static_cast<short>(f.box[2][lane]), r.high = static_cast<short>(f.box[3][lane]);
-      r.triangle = t + lane, r.sourceAndFlags = s.source << 4 | static_cast<unsigned>(f.flags[lane]);
+      r.triangle = t + lane, r.sourceAndFlags = s.source << kFlagBits | static_cast<unsigned>(f.flags[lane]);
     }
     return made;
   }
 
   /// Of sorted corners.
-  [[gnu::always_inline]] static inline void fill(const Corner& a, const Corner& b, const Corner& c, F left,
-                                                 F low, const SetupParameters& s, Fields& f) {
+  [[gnu::always_inline]] static inline void fill(const Corner& a, const Corner& b, const Corner& c,
+                                                 const Edges& edges, F left, F low, const SetupParameters& s,
+                                                 Fields& f) {
     const F bx = b.x - a.x, by = b.y - a.y, cx = c.x - a.x, cy = c.y - a.y;
     const F bd = b.depth - a.depth, cd = c.depth - a.depth;
     const F per = 1.0f / (bx * cy - by * cx);
@@ -134,8 +169,8 @@ struct TriangleSetup : DrawLanes<By> {
     const F offset =
         s.slopeOffset == 0 && s.stepOffset == 0 ? F{} : s.slopeOffset * steep + s.stepOffset * step;
     const F at = a.depth - right * (a.x - left) - up * (a.y - low) + offset;
-    const F values[12] = {a.x,   a.y, b.x, b.y,          c.y, cx / cy, bx / by, (c.x - b.x) / (c.y - b.y),
-                          right, up,  at,  most + offset};
+    const F values[12] = {a.x,         a.y,         b.x,   b.y, c.y, edges.longest,
+                          edges.lower, edges.upper, right, up,  at,  most + offset};
     for (int k = 0; k < 12; ++k) L::store(f.at[k], values[k]);
   }
 };

@@ -60,10 +60,12 @@ SetupParameters setupFor(int samples, float facing = 0) {
 CoveredBand drawn(PlacedTriangles t, int samples, const DrawKernels& by, bool layered = false) {
   const auto count = static_cast<unsigned>(t.a.size());
   for (auto* corners : {&t.a, &t.b, &t.c}) corners->resize(count + kKernelPadding);
-  for (auto* values : {&t.x, &t.y, &t.depth}) values->resize(values->size() + kKernelPadding);
+  std::vector<float> placed(4 * (t.x.size() + kKernelPadding));
+  for (std::size_t v = 0; v < t.x.size(); ++v)
+    placed[4 * v] = t.x[v], placed[4 * v + 1] = t.y[v], placed[4 * v + 2] = t.depth[v];
   CoveredBand out;
   out.records.resize(count);
-  const PlacedVertices at{t.x.data(), t.y.data(), t.depth.data()};
+  const PlacedVertices at{placed.data()};
   out.records.resize(
       by.setUp({t.a.data(), t.b.data(), t.c.data()}, 0, count, at, setupFor(samples), out.records.data()));
   const int stride = (kCoverWidth + 15) / 16 * 16 * samples;
@@ -80,7 +82,8 @@ CoveredBand drawn(PlacedTriangles t, int samples, const DrawKernels& by, bool la
       const unsigned made = by.coverLayer(r, r.triangle, samples, nullptr, band, room.data());
       out.fragments.insert(out.fragments.end(), room.begin(), room.begin() + made);
     } else {
-      by.cover(r, r.triangle, samples, nullptr, band);
+      const TriangleRecord* const one = &r;
+      by.cover(&one, 1, r.triangle, samples, nullptr, band);
     }
   }
   return out;
