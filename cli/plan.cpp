@@ -3,9 +3,9 @@
 #include "cli/commands.h"
 #include "cli/exit_code.h"
 #include "cli/options/command_options.h"
+#include "cli/options/renderer_options.h"
 #include "cli/options/show_options.h"
 #include "cli/terminal.h"
-#include "engine/base/atomic_file.h"
 #include "engine/base/installed_files.h"
 #include "engine/base/plain_file.h"
 #include "engine/display/wall_file.h"
@@ -14,6 +14,7 @@
 #include "profiling/plan/report.h"
 #include "show/base/stop_signal.h"
 #include "show/measure/plan_run.h"
+#include "show/output/output_files.h"
 #include "show/player/output_conflicts.h"
 
 #include <CLI/CLI.hpp>
@@ -36,7 +37,8 @@ constexpr double kQuietPlan = 0.5;  ///< threads of others for each core
 
 struct PlanOptions {
   PlanRunOptions run;
-  std::string walls = "cave4", mode = "all", stereo = "pair", pace = "free", provider = "osmesa", from, out;
+  std::string walls = "cave4", mode = "all", stereo = "pair", pace = "free", from, out;
+  RendererOptions renderer;
   std::optional<std::size_t> count;  ///< of walls to plan, if known before the costs are
   double cores = 0;                  ///< 0 = as here
   std::size_t machines = 1, wallCount = 0, latency = 0;
@@ -70,14 +72,16 @@ std::optional<plan::ShowCosts> measure(PlanOptions& o, Diagnostics& findings) {
   if (!show.settle(findings)) return {};
   const auto walls = loadWalls(show.walls, shareFolder() + "/walls", findings);
   if (!walls) return {};
-  auto provider = openGlProvider(o.provider == "egl" ? GlProviderKind::Egl : GlProviderKind::OsMesa);
-  if (!provider) return findings.add(provider.error()), std::nullopt;
+  const RendererSettings settings = o.renderer.settle(findings);
+  if (findings.hasErrors()) return {};
+  auto renderer = ShowRenderer::open(settings);
+  if (!renderer) return findings.add(renderer.error()), std::nullopt;
   o.run.layout = *stereoLayout(o.stereo);
   o.run.walls = std::min(o.count.value_or(walls->walls.size()), walls->walls.size());
   const double load = loadNow();
   MeasuredCosts measured;
   TerminalReporter terminal;
-  if (!measureCosts(o.run, *provider.value(), terminal, measured, findings)) return {};
+  if (!measureCosts(o.run, *renderer.value(), terminal, measured, findings)) return {};
 
   plan::ShowCosts costs;
   costs.show = std::filesystem::path(show.script).filename().string();
@@ -86,7 +90,9 @@ std::optional<plan::ShowCosts> measure(PlanOptions& o, Diagnostics& findings) {
   costs.eyes = o.stereo == "off" ? 1 : 2;
   costs.walls = walls->names();
   costs.walls.resize(o.run.walls);
-  costs.cores = coresHere(), costs.rasterThreads = rasterThreadsHere();
+  const bool byCpu = !renderer.value()->drawsWithGl();
+  costs.renderer = byCpu ? "cpu" : "gl", costs.cores = coresHere();
+  costs.rasterThreads = byCpu ? renderer.value()->threads() : rasterThreadsHere();
   costs.waitsInTurn = measured.waitsInTurn;
   costs.frames = plan::plannedCosts(measured.runs);
   if (costs.frames.empty())
@@ -107,7 +113,7 @@ plan::Question questionOf(const PlanOptions& o, const plan::ShowCosts& costs) {
   q.plan.walls = o.count.value_or(costs.walls.size());
   q.plan.machine = plan::machineWith(o.cores > 0 ? o.cores : costs.cores, costs);
   q.plan.machines = o.machines;
-  q.plan.waitsInTurn = costs.waitsInTurn;
+  q.plan.takesTurns = costs.renderer != "cpu", q.plan.waitsInTurn = costs.waitsInTurn;
   q.plan.rasterisers = o.processes ? q.plan.walls : 1;
   q.plan.pacing = o.pace == "lock"    ? plan::Pacing::Lock
                   : o.pace == "float" ? plan::Pacing::Float
@@ -126,7 +132,7 @@ void countWallsOf(PlanOptions& o, Diagnostics& findings) {
 
 void refuseMeasuring(const CLI::App& command, Diagnostics& findings) {
   for (const char* option : {"--size", "--stereo", "--look", "--frames", "--seconds", "--input",
-                             "--asset-root", "--app-threads", "--gl"})
+                             "--asset-root", "--app-threads", "--gl", "--renderer", "--draw-threads"})
     if (command.count(option) > 0)
       findings.error({}, std::string(option) + " is for measuring; --from has measured costs");
 }
@@ -135,9 +141,10 @@ int planShow(PlanOptions o, const CLI::App& command) {
   Diagnostics findings;
   if (o.wallCount > 0) o.count = o.wallCount;
   o.run.show.walls = o.count ? "cave6" : o.walls;
-  const std::string diagram = o.out.empty() ? "" : o.out + "/plan.svg";
-  const std::vector<NamedFile> files{{"--from", o.from, false}, {"--out's plan.svg", diagram}};
-  refuseOverwriting({&o.run.show, 1}, files, findings);
+  OutputFiles files(o.out, {"plan.svg", "plan.json"});
+  std::vector<NamedFile> named = files.named();
+  named.insert(named.begin(), {"--from", o.from, false});
+  refuseOverwriting({&o.run.show, 1}, named, findings);
   if (!o.from.empty()) refuseMeasuring(command, findings);
   if (o.mode == "sequential")
     for (const char* option : {"--latency", "--cull-draw"})
@@ -147,28 +154,22 @@ int planShow(PlanOptions o, const CLI::App& command) {
                                "of them out");
   if (!o.from.empty() && !o.count && command.count("--walls") > 0) countWallsOf(o, findings);
   if (findings.hasErrors()) return tell(findings), kBadInput;
-  std::optional<AtomicFile> svg;  // opened before anything is measured
-  std::error_code unmade;         // reported when the file is opened
-  if (!o.out.empty()) std::filesystem::create_directories(o.out, unmade);
-  if (!o.out.empty() && svg.emplace(diagram).error()) findings.add(*svg->error());
-  if (findings.hasErrors()) return tell(findings), kBadInput;
+  if (!files.open(findings)) return tell(findings), kBadInput;  // before anything is measured
   const auto costs = o.from.empty() ? measure(o, findings) : readFrom(o.from, findings);
   tell(findings);
   if (!costs) return stopSignal() ? kStopped + stopSignal() : kBadInput;
   const plan::Question question = questionOf(o, *costs);
-  std::printf("%s",
-              o.json ? (reportJson(*costs, question) + "\n").c_str() : reportText(*costs, question).c_str());
-  if (!svg) return kOk;
+  const std::string json = reportJson(*costs, question) + "\n";
+  std::fputs((o.json ? json : reportText(*costs, question)).c_str(), stdout);
+  if (!files.areWanted()) return kOk;
   const std::string title =
       fmt::format("{}: {} walls, {}, {:g} cores", costs->show, question.plan.walls,
                   question.plan.pipelined ? "pipelined" : "sequential", question.plan.machine.cores);
-  svg->write(diagramSvg(scheduleOf(costs->frames, question.plan), 4, title));
-  if (const auto wrong = svg->commit()) {
-    findings = {};
-    findings.add(*wrong);
-    return tell(findings), kBadInput;
-  }
-  return kOk;
+  files.write("plan.svg", diagramSvg(scheduleOf(costs->frames, question.plan), 4, title));
+  files.write("plan.json", json);
+  findings = {};
+  const bool written = files.commit(findings);
+  return tell(findings), written ? kOk : kBadInput;
 }
 
 constexpr const char* kPlanFooter =
@@ -183,7 +184,7 @@ would change it` plays the same frames on other machines: the rasteriser then ha
 the same part of them busy. A rasteriser for each wall is what walls as processes would have.
 
   ./stadion plan scripts/kick.evs --wall-count 6
-  ./stadion plan scripts/olympia.evs --walls cave4 --cores 16 --out plan    # plan/plan.svg: a timing diagram
+  ./stadion plan scripts/olympia.evs --walls cave4 --cores 16 --out plan    # plan/plan.svg, a timing diagram; plan/plan.json
   ./stadion plan scripts/kick.evs --latency 1 --cull-draw apart
   ./stadion plan scripts/kick.evs --json > costs.json; ./stadion plan --from costs.json --cores 8 --pace lock --rate 60
 
@@ -212,7 +213,7 @@ void addPlanCommand(CLI::App& app, int& code) {
   options.add("--size", show.size);
   options.add("--look", show.look);
   addLengthOptions(*command, show);
-  options.add("--gl", o->provider, {.words = "osmesa|egl"});
+  o->renderer.addTo(*command);
   options.add("--out", o->out);
   options.add("--json", o->json);
   command->footer(kPlanFooter);

@@ -4,10 +4,10 @@
 #include "cli/commands.h"
 #include "cli/exit_code.h"
 #include "cli/options/command_options.h"
+#include "cli/options/renderer_options.h"
 #include "cli/options/run_options.h"
 #include "cli/options/show_options.h"
 #include "cli/terminal.h"
-#include "engine/base/atomic_file.h"
 #include "profiling/record/black_box.h"
 #include "profiling/record/black_box_folder.h"
 #include "profiling/report/last_frames_report.h"
@@ -19,7 +19,6 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdio>
-#include <filesystem>
 #include <fmt/format.h>
 #include <memory>
 #include <unistd.h>
@@ -30,6 +29,7 @@ namespace {
 struct ProfileOptions {
   FidelityOptions fidelity;
   ProfileRunOptions run;
+  RendererOptions renderer;
   TraceRequest trace;
   std::size_t nodes = 25;
   double millimetres = 1;
@@ -58,24 +58,25 @@ std::string newestBlackBox() {
   return newest;
 }
 
-/// What a run left behind; an empty name: the newest one. --out receives a page.
+/// What a run left behind; an empty name: the newest one. --out receives a page and JSON.
 int showBlackBox(std::string file, const ProfileOptions& o) {
   if (file.empty() && (file = newestBlackBox()).empty()) return kBadInput;
   Diagnostics findings;
-  const std::string page = o.out.empty() ? "" : o.out + "/last-frames.html";
-  const std::vector<NamedFile> files{{"--black-box", file, false}, {"--out's last-frames.html", page}};
-  refuseOverwriting({}, files, findings);
+  OutputFiles files(o.out, {"last-frames.html", "last-frames.json"});
+  std::vector<NamedFile> named = files.named();
+  named.insert(named.begin(), {"--black-box", file, false});
+  refuseOverwriting({}, named, findings);
   const auto content = BlackBox::read(file);
   if (!content) findings.add(content.error());
-  if (!findings.hasErrors() && !page.empty()) {
-    std::error_code unmade;  // reported when the page is opened
-    std::filesystem::create_directories(o.out, unmade);
-    if (const auto wrong = writeFile(page, lastFramesPage(content.value(), file))) findings.add(*wrong);
+  const std::string json = content ? lastFramesJson(content.value(), file) : "";
+  if (!findings.hasErrors() && files.open(findings) && files.areWanted()) {
+    files.write("last-frames.html", lastFramesPage(content.value(), file));
+    files.write("last-frames.json", json);
+    files.commit(findings);
   }
   tell(findings);
   if (findings.hasErrors()) return kBadInput;
-  std::fputs((o.json ? lastFramesJson(content.value(), file) : lastFramesText(content.value())).c_str(),
-             stdout);
+  std::fputs((o.json ? json : lastFramesText(content.value())).c_str(), stdout);
   return kOk;
 }
 
@@ -97,20 +98,19 @@ int profileFrames(ProfileOptions o) {
   ProfileRunOptions& options = o.run;
   options.show = o.fidelity.show;
   options.layout = *stereoLayout(options.stereo);
-  options.drawn = options.provider != "none";
-  if (!o.out.empty()) options.html = o.out + "/profile.html";
   options.fidelity = o.fidelity, options.fidelity.report = tell, options.fidelityAsked = o.fidelityAsked;
   options.fidelity.tolerance = 1e-3 * o.millimetres;
   Diagnostics findings;
-  const std::vector<NamedFile> files{{"--out's profile.html", options.html}, {"--trace", o.trace.file}};
-  refuseOverwriting({&options.show, 1}, files, findings);
+  OutputFiles files = profileFiles(o.out, o.fidelityAsked);
+  std::vector<NamedFile> named = files.named();
+  named.push_back({"--trace", o.trace.file});
+  refuseOverwriting({&options.show, 1}, named, findings);
   options.trace = o.trace.settle(findings);
+  options.renderer = o.renderer.settle(findings);
   const bool settled = options.show.settle(findings) && !findings.hasErrors();
   TerminalReporter terminal;
-  std::error_code unmade;  // reported when the page is opened
-  if (settled && !o.out.empty()) std::filesystem::create_directories(o.out, unmade);
   Failure failure;
-  const auto figures = settled ? profileShow(options, terminal, findings, failure) : std::nullopt;
+  const auto figures = settled ? profileShow(options, files, terminal, findings, failure) : std::nullopt;
   tell(findings);
   if (!figures) return failure ? exitCodeOf(*failure) : kBadInput;
   std::printf("%s", o.json  ? (toJson(*figures) + "\n").c_str()
@@ -155,12 +155,12 @@ constexpr const char* kProfileFooter =
 Cull by wall, shared among the nodes that it looked at; Draw by drawing a few batches alone in some frames, in their
 place in the frame, until every node has had its turn. `visitor` stands for the trackers and for the eyes in front of the walls.
 `explained` says how much of what the stages took is found with nodes, or with parts of the stages themselves.
-The first four frames are not recorded. `-` (JSON: null, CSV: empty) is what was not measured, for want of frames.
+The figures leave out the first four frames; the trace has them. `-` (JSON: null, CSV: empty) is what was not measured, for want of frames.
 
---out DIR receives profile.html, a page for a browser: each thread in the frames around the longest, costs along the
-scene tree, histograms, walls and eyes, late frames with their causes, bodies' costs beside their errors. With --trace
-FILE every span is written, for ui.perfetto.dev; App, Cull and Draw of a frame are joined by arrows. docs/profiling.md
-teaches to read both.
+--out DIR receives the figures as profile.json and profile.csv, with --fidelity also fidelity.json; and profile.html, a
+page for a browser: each thread in the frames around the longest, costs along the scene tree, histograms, walls and
+eyes, late frames with their causes, bodies' costs beside their errors. With --trace FILE every span is written, for
+ui.perfetto.dev; App, Cull and Draw of a frame are joined by arrows. docs/profiling.md teaches to read both.
 
   ./stadion profile scripts/kick.evs --out kick --trace kick.json --trace-frames 100..160
 
@@ -195,7 +195,7 @@ void addProfileCommand(CLI::App& app, int& code) {
   addShowOptions(*command, show);
   CommandOptions options(*command);
   options.add("--stereo", o->run.stereo, {.words = "pair|off"});
-  options.add("--gl", o->run.provider, {.words = "osmesa|egl|none"});
+  o->renderer.addTo(*command, true);
   o->blackBox = options.add("--black-box", o->blackBoxFile).valueMayBeMissing().option();
   addGuardOption(*command, o->run.guard);
   options.add("--nodes", o->nodes);

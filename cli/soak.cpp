@@ -4,6 +4,7 @@
 #include "cli/exit_code.h"
 #include "cli/options/command_options.h"
 #include "cli/options/plugin_option.h"
+#include "cli/options/renderer_options.h"
 #include "cli/terminal.h"
 #include "engine/base/installed_files.h"
 #include "engine/base/run_stopped.h"
@@ -44,6 +45,7 @@ struct SoakOptions {
   std::vector<std::string> shows;
   std::uint64_t frames = 1'000'000, visit = 400'000;
   std::string record, look = "plain";
+  RendererOptions renderer;
   bool noMemory = false;  ///< what grows is not judged
 };
 
@@ -52,8 +54,8 @@ enum class Way { Pipelined, Sequential, Killed };
 
 class Soak {
 public:
-  Soak(const SoakOptions& o, SoakRecord& record, GlProvider& provider, const std::atomic<bool>& stop)
-      : options_(o), record_(record), provider_(provider), stop_(stop) {}
+  Soak(const SoakOptions& o, SoakRecord& record, ShowRenderer& renderer, const std::atomic<bool>& stop)
+      : options_(o), record_(record), renderer_(renderer), stop_(stop) {}
 
   /// False, and told, if a show could not be played.
   bool play();
@@ -67,7 +69,7 @@ private:
 
   const SoakOptions& options_;
   SoakRecord& record_;
-  GlProvider& provider_;
+  ShowRenderer& renderer_;
   const std::atomic<bool>& stop_;
   std::map<std::string, ReusableResources> kept_;  ///< by show, as from group to group
   // Of the present visit.
@@ -126,11 +128,11 @@ bool Soak::visit(const std::string& show, Way way, std::uint64_t frames) try {
   const auto recorded = ShowRecording::create(std::move(recording), findings);
   SoakVisitor visitor;
   ShowParts parts = player->parts(StereoLayout::Off, &visitor);
-  parts.provider = &provider_;
   if (way == Way::Killed)
-    parts.workers.emplace().everyFrame = true;
+    parts.workers.emplace().renderer = renderer_.kind();
   else
     parts.contexts = &kept.contexts;
+  renderer_.drawFor(parts);
   parts.probe = &recorded->probe();
   const ShowStages* running = nullptr;
   parts.observer = [&](const TimeSignature& now, const InputSample& input, const Scene& scene) {
@@ -290,18 +292,19 @@ int soak(SoakOptions o) {
   const std::string what =
       fmt::format("{}, look {}, visits of {} frames", fmt::join(o.shows, ", "), o.look, o.visit);
   TerminalReporter terminal;
+  const RendererSettings settings = o.renderer.settle(findings);
   const auto record = SoakRecord::open(o.record, what, terminal.faultFunction(), findings);
   tell(findings);
-  if (!record) return kBadInput;
+  if (!record || findings.hasErrors()) return kBadInput;
   if (record->counts.frames >= o.frames) {
     std::fprintf(stderr, "soak: it is finished, by the record: nothing is played\n");
     return tellVerdicts(o, *record).well() ? kOk : kCheckFailed;
   }
-  auto provider = openGlProvider(GlProviderKind::OsMesa);
-  if (!provider)
-    return std::fprintf(stderr, "stadion: %s\n", provider.error().message.c_str()), kInternalFault;
+  const auto renderer = ShowRenderer::open(settings);
+  if (!renderer)
+    return std::fprintf(stderr, "stadion: %s\n", renderer.error().message.c_str()), kInternalFault;
   record->begin();
-  Soak run(o, *record, *provider.value(), stop);
+  Soak run(o, *record, *renderer.value(), stop);
   if (!run.play()) return kBadInput;
   const Verdicts verdicts = tellVerdicts(o, *record);
   record->end(verdicts.failed());
@@ -323,6 +326,7 @@ void addSoakCommand(CLI::App& app, int& code) {
   options.add("--visit", o->visit);
   options.add("--record", o->record);
   options.add("--look", o->look);
+  o->renderer.addTo(*command);
   addPluginOption(*command, o->plugins, o->types);
   options.add("--no-memory", o->noMemory);
   command->footer(

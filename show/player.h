@@ -4,7 +4,9 @@
 ///     ShowOptions options;
 ///     options.script = "kick.evs";
 ///     Diagnostics findings;
-///     const auto player = options.settle(findings) ? Player::create(options, findings) : nullptr;
+///     if (!options.settle(findings)) return 2;  // `findings` has the reason
+///     const auto player = Player::create(options, findings);
+///     if (!player) return 2;
 ///     ShowParts parts = player->parts(StereoLayout::Off);
 ///     parts.provider = ...;  // openOsMesa(), openGlProvider()
 ///     ShowStages stages(std::move(parts));

@@ -103,9 +103,11 @@ int benchAttribution(const BenchAttributionOptions& o) {
     options.show.script = show.script, options.show.walls = show.walls, options.show.size = show.size;
     options.show.mode = "sequential";  // so that nothing else of the process is at work meanwhile
     options.show.frames = o.frames, options.show.assetRoots = {scripts};
+    options.renderer = {RendererChoice::Gl, GlProviderKind::OsMesa};  // it draws single nodes
     if (!options.show.settle(findings)) return tell(findings), kBadInput;
     Failure failure;
-    const auto figures = profileShow(options, terminal, findings, failure);
+    OutputFiles none({}, {});
+    const auto figures = profileShow(options, none, terminal, findings, failure);
     tell(findings);
     if (!figures) return stopSignal() ? kStopped + stopSignal() : kBadInput;
     met = tellFigures(*figures, show, o.json) && met;

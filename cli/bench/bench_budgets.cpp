@@ -154,7 +154,7 @@ private:
     if (const auto wrong = watch.finish()) findings.add(*wrong);
     played_.history = historyOf(watch);
     if (const auto log = loadInputLog(folder_.path("live.input"), findings))
-      played_.decisions = log->decisions.relief;
+      played_.decisions = log->decisions.degradation;
     return findings.hasErrors() ? std::nullopt : std::optional(std::move(played_));
   }
 

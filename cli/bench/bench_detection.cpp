@@ -142,7 +142,7 @@ private:
     return true;
   }
 
-  /// Both are played anew, side by side: nothing of it is read from a clock.
+  /// Plays both side by side; no result comes from a clock.
   std::pair<CountedInstructions, CountedInstructions> countBoth(const std::string& planted) const {
     auto before = std::async(std::launch::async,
                              [&] { return countInstructions(case_, {program_}, true, measuring(1)); });

@@ -2,6 +2,7 @@
 
 #include "cli/exit_code.h"
 #include "cli/options/command_options.h"
+#include "cli/options/renderer_options.h"
 #include "cli/terminal.h"
 #include "engine/base/installed_files.h"
 #include "profiling/plan/forecast.h"
@@ -28,6 +29,7 @@ struct BenchPlanOptions {
   std::uint64_t frames = 24;
   std::size_t rounds = 5;
   double within = 15;  ///< [%]
+  RendererOptions renderer;
   bool json = false;
 };
 
@@ -59,7 +61,7 @@ double Combination::middleOfRounds(double Round::*what) const {
 
 class Validation {
 public:
-  Validation(const BenchPlanOptions& o, GlProvider& provider) : o_(o), provider_(provider) {}
+  Validation(const BenchPlanOptions& o, ShowRenderer& renderer) : o_(o), renderer_(renderer) {}
 
   /// False, with the findings, if something of the user's is wrong. `met`: all within the limit.
   bool run(const std::string& script, Diagnostics& findings, bool& met) {
@@ -78,7 +80,7 @@ public:
         const auto forecast = predict(options, c, findings);
         if (!forecast) return false;
         options.walls = c.walls;
-        const auto played = playTimes(options, c.mode, provider_, terminal_, findings);
+        const auto played = playTimes(options, c.mode, renderer_, terminal_, findings);
         if (!played) return false;
         c.rounds.push_back({forecast->period, played->period, forecast->latency, played->latency});
       }
@@ -93,10 +95,10 @@ private:
   std::optional<plan::Forecast> predict(PlanRunOptions options, const Combination& c, Diagnostics& findings) {
     options.walls = *std::ranges::max_element(o_.walls);
     MeasuredCosts costs;
-    if (!measureCosts(options, provider_, terminal_, costs, findings)) return {};
+    if (!measureCosts(options, renderer_, terminal_, costs, findings)) return {};
     plan::Plan p;
     p.machine.cores = std::max(1u, std::thread::hardware_concurrency());
-    p.waitsInTurn = costs.waitsInTurn;
+    p.takesTurns = renderer_.drawsWithGl(), p.waitsInTurn = costs.waitsInTurn;
     p.frames = options.show.frames;
     p.walls = c.walls, p.pipelined = c.mode == Mode::Pipelined;
     return plan::forecastOf(plan::scheduleOf(plan::plannedCosts(costs.runs), p), p);
@@ -156,7 +158,7 @@ private:
   }
 
   const BenchPlanOptions& o_;
-  GlProvider& provider_;
+  ShowRenderer& renderer_;
   TerminalReporter terminal_;
 };
 
@@ -164,10 +166,12 @@ int benchPlan(BenchPlanOptions o) {
   if (o.shows.empty())
     o.shows = {shareFolder() + "/scripts/kick.evs", shareFolder() + "/scripts/olympia.evs"};
   Diagnostics findings;
-  auto provider = openGlProvider(GlProviderKind::OsMesa);
-  if (!provider) return findings.add(provider.error()), tell(findings), kBadInput;
+  const RendererSettings settings = o.renderer.settle(findings);
+  if (findings.hasErrors()) return tell(findings), kBadInput;
+  const auto renderer = ShowRenderer::open(settings);
+  if (!renderer) return findings.add(renderer.error()), tell(findings), kBadInput;
   bool met = true;
-  Validation validation(o, *provider.value());
+  Validation validation(o, *renderer.value());
   for (const std::string& show : o.shows)
     if (!validation.run(show, findings, met)) {
       tell(findings);
@@ -191,6 +195,7 @@ void addBenchPlan(CLI::App& bench, int& code) {
   options.add("--frames", o->frames, {.least = 12, .most = 1e5});
   options.add("--rounds", o->rounds, {.most = 99});
   options.add("--within", o->within, {.least = 0.01});
+  o->renderer.addTo(*command);
   options.add("--json", o->json);
   command->footer("Plays kick and olympia if no SHOW is named. Quick shows play at least a second. --within "
                   "limits the error "

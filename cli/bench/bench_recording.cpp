@@ -3,6 +3,7 @@
 #include "cli/bench/bench_recording_instructions.h"
 #include "cli/exit_code.h"
 #include "cli/options/command_options.h"
+#include "cli/options/renderer_options.h"
 #include "cli/terminal.h"
 #include "engine/base/atomic_file.h"
 #include "engine/base/installed_files.h"
@@ -37,6 +38,7 @@ struct BenchRecordingOptions {
   std::string size = "400x300";
   double most = 1;  ///< [%]
   bool json = false, noInstructions = false;
+  RendererOptions renderer;
 };
 
 double processMs() {
@@ -79,8 +81,9 @@ private:
 /// A show whose frames wait for their turns.
 class TurningShow {
 public:
-  static std::unique_ptr<TurningShow> create(const ShowOptions& options, GlProvider& provider, bool recorded,
-                                             Turns& turns, std::size_t turn, Diagnostics& findings) {
+  static std::unique_ptr<TurningShow> create(const ShowOptions& options, ShowRenderer& renderer,
+                                             bool recorded, Turns& turns, std::size_t turn,
+                                             Diagnostics& findings) {
     std::unique_ptr<TurningShow> made(new TurningShow(turns, turn));
     made->player_ = Player::create(options, findings, tell);
     if (!made->player_) return nullptr;
@@ -88,7 +91,7 @@ public:
     everything.keep = unaskedLastFrames(made->player_->walls().names());
     if (recorded) made->recording_ = ShowRecording::create(std::move(everything), findings);
     ShowParts parts = made->player_->parts(StereoLayout::Pair);
-    parts.provider = &provider;
+    renderer.drawFor(parts);
     parts.probe = made->probe();
     parts.observer = [show = made.get()](const TimeSignature&, const InputSample&, const Scene& scene) {
       if (show->recording_) show->recording_->see(scene);
@@ -150,12 +153,12 @@ struct Measured {
   double ratio = 1, ms = 0;
 };
 
-std::optional<Measured> measureRound(const ShowOptions& options, GlProvider& provider, std::size_t recorded,
+std::optional<Measured> measureRound(const ShowOptions& options, ShowRenderer& renderer, std::size_t recorded,
                                      Diagnostics& findings) {
   Turns turns;
   std::array<std::unique_ptr<TurningShow>, 2> shows;
   for (std::size_t turn = 0; turn < 2; ++turn) {
-    shows[turn] = TurningShow::create(options, provider, turn == recorded, turns, turn, findings);
+    shows[turn] = TurningShow::create(options, renderer, turn == recorded, turns, turn, findings);
     if (!shows[turn]) return {};
   }
   std::thread second([&] { shows[1]->play(); });
@@ -169,13 +172,14 @@ std::optional<Measured> measureRound(const ShowOptions& options, GlProvider& pro
 }
 
 /// How much more a frame executes when it is recorded; nothing, with the findings, if that cannot be counted.
-std::optional<double> moreInstructions(const ShowOptions& show, const TemporaryFolder& folder,
-                                       Diagnostics& findings) {
+std::optional<double> moreInstructions(const ShowOptions& show, const RendererOptions& renderer,
+                                       const TemporaryFolder& folder, Diagnostics& findings) {
   const std::atomic<bool>& stop = catchStopSignals();
   std::vector<std::string> words{"run",     show.script, "--walls",      show.walls,
                                  "--size",  show.size,   "--mode",       "sequential",
                                  "--input", "none",      "--asset-root", show.assetRoots.front(),
                                  "--json"};
+  for (const std::string& word : renderer.words()) words.push_back(word);
   words.push_back("--unrecorded");
   const FrameInstructions without = instructionsAFrame(words, folder.path(""), stop);
   words.back() = "--profile";
@@ -192,13 +196,13 @@ int benchRecording(const BenchRecordingOptions& o) {
   ShowOptions show;
   show.script = folder.path("grid.evs"), show.walls = "desktop", show.size = o.size, show.input = "none";
   show.frames = o.frames + kFramesBefore, show.assetRoots = {shareFolder() + "/scripts"};
-  auto provider = openGlProvider(GlProviderKind::OsMesa);
-  if (!provider) findings.add(provider.error());
+  const auto renderer = ShowRenderer::open(o.renderer.settle(findings));
+  if (!renderer) findings.add(renderer.error());
   if (findings.hasErrors() || !show.settle(findings)) return tell(findings), kBadInput;
   std::vector<double> ratios;
   double ms = 0;
   for (std::size_t round = 0; round < o.rounds; ++round) {
-    const auto measured = measureRound(show, *provider.value(), round % 2, findings);
+    const auto measured = measureRound(show, *renderer.value(), round % 2, findings);
     tell(findings);
     if (!measured) return kBadInput;
     ratios.push_back(measured->ratio), ms = measured->ms;
@@ -206,7 +210,7 @@ int benchRecording(const BenchRecordingOptions& o) {
   }
   const double more = medianOfRounds(ratios) - 1;
   std::optional<double> executed;
-  if (!o.noInstructions && !(executed = moreInstructions(show, folder, findings)))
+  if (!o.noInstructions && !(executed = moreInstructions(show, o.renderer, folder, findings)))
     return tell(findings), kBadInput;
   const bool ok = more <= o.most / 100 && executed.value_or(0) <= o.most / 100;
   if (o.json)
@@ -240,6 +244,7 @@ void addBenchRecording(CLI::App& bench, int& code) {
   options.add("--size", o->size);
   options.add("--within", o->most, {.least = 0.001});
   options.add("--no-instructions", o->noInstructions);
+  o->renderer.addTo(*command);
   options.add("--json", o->json);
   command->footer("--within is the share of a frame that recording may cost.");
   command->callback([o, &code] { code = benchRecording(*o); });

@@ -5,6 +5,8 @@
 #include "cli/bench/walls_rounds.h"
 #include "cli/exit_code.h"
 #include "cli/options/command_options.h"
+#include "cli/options/renderer_options.h"
+#include "cli/terminal.h"
 #include "engine/base/atomic_file.h"
 #include "profiling/bench/walls/wall_files.h"
 #include "profiling/bench/walls/walls_judge.h"
@@ -34,10 +36,11 @@ struct BenchWallsOptions {
   std::string workers;  ///< empty: thread for one case, process for the table
   bool scaling = false, json = false;
   std::string out, record;
+  RendererOptions renderer;
 };
 
 /// In this process, so that its processor time is that setting's.
-int measureOne(WallsSetting s, bool control) {
+int measureOne(WallsSetting s, const std::string& out, bool control) {
   if (control) return std::printf("%s\n", measureTicks(s.frames).dump().c_str()), kOk;
   const TemporaryFolder folder;
   const std::string wrong =
@@ -45,7 +48,10 @@ int measureOne(WallsSetting s, bool control) {
   if (!wrong.empty()) return std::fprintf(stderr, "stadion: %s\n", wrong.c_str()), kBadInput;
   const auto row = measureWalls(s, folder.path(""));
   if (!row) return complain(row.error(), kInternalFault);
-  std::printf("%s\n", row.value().dump().c_str());
+  const std::string line = row.value().dump() + "\n";
+  std::fputs(line.c_str(), stdout);
+  if (const auto unwritten = out.empty() ? std::nullopt : writeFile(out + "/rows.jsonl", line))
+    return complain(*unwritten, kBadInput);
   return kOk;
 }
 
@@ -122,6 +128,8 @@ std::string ignoredIn(const CLI::App& command, const BenchWallsOptions& o) {
   if (!o.measureOne) {
     if (o.scaling && isGiven("--scenes"))
       return "--scaling has scenes of its own: leave out --scenes, or --scaling for the table";
+    if (!o.renderer.words().empty())
+      return "the table compares OpenGL with OpenGL: --renderer, --gl and --draw-threads need --one";
     return {};
   }
   for (const char* name : {"--scenes", "--rounds", "--minutes", "--scaling", "--record"})
@@ -152,7 +160,10 @@ int benchWalls(const CLI::App& command, const BenchWallsOptions& o) {
   if (const std::string why = unwritable(one); !why.empty()) return refuse(why);
   one.flat = o.layout == "flat";
   if (!o.workers.empty()) one.workers = o.workers;
-  return measureOne(std::move(one), o.control);
+  Diagnostics findings;
+  one.renderer = o.renderer.settle(findings);
+  if (findings.hasErrors()) return tell(findings), kBadInput;
+  return measureOne(std::move(one), o.out, o.control);
 }
 
 void addTableTo(CommandOptions& options, BenchWallsOptions& o) {
@@ -177,7 +188,6 @@ void addOneTo(CommandOptions& options, BenchWallsOptions& o) {
   add("--mode", one.mode, {.words = "pipelined|sequential"});
   add("--pace", one.pace, {.words = "free|lock"});
   add("--latency", one.latency);
-  add("--gl", one.gl, {.words = "osmesa|egl"});
   add("--layout", o.layout);
   add("--wall-count", one.walls, {.most = 6});
   add("--width", one.width);
@@ -199,10 +209,12 @@ void addBenchWalls(CLI::App& bench, int& code) {
   CommandOptions options(*command);
   addTableTo(options, *o);
   addOneTo(options, *o);
+  o->renderer.addTo(*command);
   options.add("--wall-workers", o->workers, {.words = "thread|process"});
-  command->footer("--out DIR receives the rows and a plot; with --one the pictures of the next frame, "
-                  "picture_WALL_EYE.ppm.\n"
-                  "With --pace lock, frames begin on ticks of 1/60 s.");
+  command->footer(
+      "--out DIR receives the rows and a plot; with --one its row and the pictures of the next frame, "
+      "picture_WALL_EYE.ppm.\n"
+      "With --pace lock, frames begin on ticks of 1/60 s.");
   command->callback([o, command, &code] { code = benchWalls(*command, *o); });
 }
 

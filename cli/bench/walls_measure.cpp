@@ -145,20 +145,20 @@ Result<nlohmann::json> measureWalls(const WallsSetting& s, const std::string& fo
     return Diagnostic{Severity::Error, {folder, 0, 0}, what, {}};
   };
   if (!show.settle(findings)) return wrong("bad settings");
-  auto provider = openGlProvider(s.gl == "egl" ? GlProviderKind::Egl : GlProviderKind::OsMesa);
-  if (!provider) return provider.error();
+  const auto renderer = ShowRenderer::open(s.renderer);
+  if (!renderer) return renderer.error();
   const auto player = Player::create(show, findings, tell);
   if (!player) return wrong("the show cannot be played");
   LastPictures pictures(s, player->walls().names());
   Completed completed;
   ShowParts parts = player->parts(StereoLayout::Pair);
-  parts.provider = provider.value().get();
   parts.sink = &pictures;
   if (s.kind == "STRICT") parts.quality.mostAtOnce = 1, parts.quality.leavesOutUnseen = false;
   if (s.without == "unseen") parts.quality.leavesOutUnseen = false;
-  if (s.without == "small") parts.quality.drawsSmallThings = false;
+  if (s.without == "small") parts.quality.drawsSmallObjects = false;
   parts.shown = [&] { completed.add(s); };
-  if (s.workers == "process") parts.workers = WallWorkers{s.gl == "egl"};
+  if (s.workers == "process") parts.workers = WallWorkers{renderer.value()->kind()};
+  renderer.value()->drawFor(parts);
   ShowStages stages(std::move(parts));
   const std::atomic<bool> never = false;
   FrameLoopOptions options = player->loopOptions();
@@ -194,8 +194,8 @@ Result<nlohmann::json> measureWalls(const WallsSetting& s, const std::string& fo
   return nlohmann::json{{"engine", "stadion"},
                         {"class", s.kind},
                         {"without", s.without},
-                        {"backend", s.gl},
-                        {"renderer", stages.glDescription()},
+                        {"backend", nameOf(renderer.value()->kind())},
+                        {"renderer", stages.drawnBy()},
                         {"scene", s.scene},
                         {"flat", s.flat ? 1 : 0},
                         {"walls", s.walls},

@@ -3,6 +3,7 @@
 
 #include "engine/base/diagnostic.h"
 #include "profiling/bench/walls/wall_scene.h"
+#include "show/player/show_renderer.h"
 
 #include <nlohmann/json.hpp>
 
@@ -18,7 +19,7 @@ struct WallsSetting {
   std::size_t latency = 1;         ///< frames under way at most (FrameLoopOptions)
   std::string workers = "thread";  ///< or process
   std::string without;             ///< OPEN, SUBMIT: without this trick, "unseen" or "small"; empty: with all
-  std::string gl = "osmesa";
+  RendererSettings renderer{};
   std::string pace = "free";          ///< or lock: frames begin on ticks of 1/60 s
   std::size_t nodes = 0, moving = 0;  ///< for curves; 0: as the scene has them
   double far = 0;                     ///< [m]; 0: as the scene has it

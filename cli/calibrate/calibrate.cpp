@@ -93,7 +93,8 @@ int remember(const std::string& file, Calibration known, MachineCalibration meas
   std::printf("%s\n", textOf(shown.machine).c_str());
   for (std::size_t i = 0; i < shown.rooms.size(); ++i)
     std::printf("\n%s", tableOf(shown.rooms[i], o.walls[i]).c_str());
-  std::printf("\nremembered in %s; stadion run and view draw by it from now on\n", file.c_str());
+  std::printf("\nremembered in %s; stadion run and view draw by it from now on with --gl osmesa\n",
+              file.c_str());
   return kOk;
 }
 
@@ -159,6 +160,9 @@ void addCalibrateCommand(CLI::App& app, int& code) {
       "--walls may be repeated: a run takes the measured room with the nearest number of walls. --seconds is "
       "the time for\n"
       "all measurements; more make the result surer. Use the --size and --look of your shows.\n\n"
+      "Measures OpenGL in software (--gl osmesa) alone. The CPU renderer, which draws where no graphics card "
+      "is, needs no\n"
+      "calibration: all walls share one pool of threads.\n\n"
       "With software (Mesa's llvmpipe) all contexts of a process share one rasteriser. Which is faster then, "
       "a\n"
       "thread for each wall in one process, with rasteriser threads that help it, or a process for each "

@@ -8,6 +8,8 @@
 #include "cli/options/command_options.h"
 #include "cli/options/run_options.h"
 #include "cli/terminal.h"
+#include "engine/base/atomic_file.h"
+#include "engine/base/plain_file.h"
 #include "pipeline/cluster/cluster_leader.h"
 #include "pipeline/record/journal.h"
 #include "pipeline/supervision/shared_progress.h"
@@ -19,6 +21,7 @@
 
 #include <cstdio>
 #include <filesystem>
+#include <fmt/format.h>
 #include <memory>
 #include <unistd.h>
 
@@ -78,6 +81,22 @@ bool mergeTracesOf(const ClusterFile& cluster, const std::string& file) {
   return writeMergedTrace(traces, file);
 }
 
+/// One object with the summary of each host, as --json prints it. False if it cannot be written.
+bool writeSummaries(const ClusterFile& cluster, const std::string& out) {
+  if (out.empty()) return true;
+  constexpr std::size_t kMostBytes = 64 << 20;
+  std::string all;
+  for (const ClusterNode& node : cluster.nodes) {
+    const auto written = readPlainFile(folderOfHost(out, node.name) + "/summary.json", kMostBytes);
+    std::string summary = written ? written.value() : "null";  // it has died before it could write any
+    while (summary.ends_with('\n')) summary.pop_back();
+    all += fmt::format("{}\"{}\": {}", all.empty() ? "{" : ",\n", node.name, summary);
+  }
+  const auto wrong = writeFile(out + "/summaries.json", all + "}\n");
+  if (wrong) std::fprintf(stderr, "%s\n", format(*wrong).c_str());
+  return !wrong;
+}
+
 /// This program, which ends with us. `progress`: where it says that it shows pictures.
 std::vector<std::string> programOf(const std::vector<std::string>& arguments,
                                    const SharedProgress* progress) {
@@ -116,20 +135,22 @@ int playCluster(const ClusterOptions& o, const CLI::App& command) {
       fromSeconds(o.run.settings.supervision.hangAfter + cluster::ClusterLeader::kStuck * cluster->deadline));
   if (findings.hasErrors()) return tell(findings), kBadInput;
   const int code = nodes.play();
-  const bool merged = code != kOk || mergeTracesOf(*cluster, o.run.trace.file);
+  const bool written = writeSummaries(*cluster, o.run.settings.record.out);
+  const bool merged = written && (code != kOk || mergeTracesOf(*cluster, o.run.trace.file));
   std::fputs((o.run.json ? nodes.saidAsJson() : nodes.said()).c_str(), stdout);
   return merged ? code : kBadInput;
 }
 
 constexpr const char* kClusterFooter =
     R"(Each node is a process of its own, as `stadion run SHOW --cluster FILE --node NAME` is on a machine of its own. A node that
-dies, by a signal or with exit code 3, is begun again, and goes on from the others' scene. SIGINT (Ctrl-C) and SIGTERM are
+dies, by a signal or with exit code 3, restarts and continues from the others' scene. SIGINT (Ctrl-C) and SIGTERM are
 handed on to all nodes, and the exit code is 130 or 143; one that has not ended after 10 s is killed.
 
   ./stadion cluster walls/four.cluster scripts/kick.evs --frames 300 --out pictures
   ./stadion cluster walls/four.cluster scripts/olympia.evs --size 320x240
 
---out DIR receives a folder for each host. --json prints one object with each host's summary under its name.
+--out DIR receives a folder for each host. --json prints one object with each host's summary under its name; --out DIR
+also receives it, as summaries.json.
 
 docs/cluster.md has the file's format, and what happens when a machine or the network fails.)";
 

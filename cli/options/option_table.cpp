@@ -91,11 +91,17 @@ constexpr OptionRow kRows[] = {
      "fast in "
      "software",
      Drawing},
-    {"--gl", word("osmesa|egl|none|auto"),
-     "implementation of OpenGL: osmesa (software), egl (same pixels), none: nothing is drawn; auto: egl if "
-     "the display "
-     "is accelerated",
+    {"--renderer", word("auto|cpu|gl"),
+     "what draws: cpu: the processors without OpenGL; gl: OpenGL; auto: gl with a graphics card or with --gl "
+     "osmesa|egl, else cpu",
      Drawing},
+    {"--gl", word("auto|osmesa|egl|none"),
+     "implementation of OpenGL: osmesa (software), egl (same pixels), none: nothing is drawn; auto: egl with "
+     "a "
+     "graphics card, else osmesa",
+     Drawing},
+    {"--draw-threads", whole("N", 1, 1024),
+     "threads of --renderer cpu; pictures do not depend on it (default: one for each processor)", Drawing},
     {"--display", flag(),
      "plays live on the outputs that the wall file names, in a window for each wall without one; Escape ends "
      "it. "
@@ -114,13 +120,14 @@ constexpr OptionRow kRows[] = {
     {"--wall-workers", word("thread|process|auto"),
      "what draws the walls: a thread each in this program; a process each (uses more processors for software "
      "drawing, "
-     "and a driver that crashes takes one wall only); auto: what stadion calibrate found to be faster, else "
-     "threads",
+     "and a driver that crashes takes one wall only); auto: with OpenGL what stadion calibrate found to be "
+     "faster, "
+     "else threads",
      Drawing},
     {"--pin", word("on|off|auto"),
-     "on: each wall is drawn on processors of its own; off: the system chooses; auto: what stadion calibrate "
-     "found to "
-     "be faster, else off",
+     "on: each wall is drawn on processors of its own; off: the system chooses; auto: with OpenGL what "
+     "stadion "
+     "calibrate found to be faster, else off",
      Drawing},
     {"--cull-draw", word("overlap|apart"),
      "overlap: Draw begins with the first part of a frame's list while Cull fills the rest; apart: Draw "

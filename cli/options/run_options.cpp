@@ -104,7 +104,6 @@ void addDrawingOptions(CommandOptions& options, RunOptions& o) {
   options.add("--display", o.settings.play.display);
   options.add("--hud", o.settings.play.hud);
   options.add("--pace", o.pace);
-  options.add("--gl", o.provider, {.words = "osmesa|egl|none"});
   options.add("--wall-workers", o.wallWorkers);
   options.add("--pin", o.pin);
 }
@@ -116,6 +115,7 @@ void addRunOptions(CLI::App& command, RunOptions& o) {
   SessionSettings& settings = o.settings;
   addShowOptions(command, settings.show);
   addDrawingOptions(options, o);
+  o.renderer.addTo(command, true);
   addOutputOptions(options, o);
   addBlackBoxOption(command, settings.record);
   addGuardOption(command, settings.play.guard);

@@ -4,6 +4,7 @@
 /// Ownership  the options' values are written into `o`, which must stay where it is until the command line
 /// has been read.
 
+#include "cli/options/renderer_options.h"
 #include "cli/options/trace_options.h"
 #include "show/output/output_names.h"
 #include "show/session/session_settings.h"
@@ -21,7 +22,8 @@ namespace stadion {
 /// them.
 struct RunOptions {
   SessionSettings settings;
-  std::string stereo = "pair", pace, pictures = "last", provider = "osmesa";
+  std::string stereo = "pair", pace, pictures = "last";
+  RendererOptions renderer;
   std::string cullDraw = "overlap", predict = "off", wallWorkers = "auto", pin = "auto";
   TraceRequest trace;
   std::vector<double> reach{0.05, 0.25};  ///< --latch-reach [m], [rad]

@@ -52,12 +52,13 @@ void RunOptions::refuseInSupervision(Diagnostics& findings) const {
   refuse(!r.spans.file.empty() || r.countWork || r.profile || !trace.file.empty(),
          "--spans, --count-work, --profile and --trace", "what is measured is one process's; leave one out");
   refuse(!settings.cluster.file.empty(), "--cluster",
-         "a node that dies joins the others again by itself; `stadion cluster` begins it anew");
+         "supervision is for a single player; `stadion cluster` restarts a node that died, and the node "
+         "joins again");
 }
 
 /// Without a rasteriser, tables and records are written, but no pictures.
 void RunOptions::settleUndrawn(Diagnostics& findings) const {
-  if (provider != "none") return;
+  if (!renderer.drawsNothing()) return;
   const RecordSettings& r = settings.record;
   if (settings.play.display) findings.error({}, "--gl none draws nothing that --display could show");
   if (!r.out.empty() && r.pictures.kind != PictureChoice::Kind::None)
@@ -81,7 +82,7 @@ void RunOptions::settleDrawing(Diagnostics& findings) {
                        "--wall-workers process gives to others: say --wall-workers thread");
   if (wallWorkers == "process" && display)
     findings.error({}, "--display draws into windows of this program: say --wall-workers thread");
-  if (wallWorkers == "process" && provider == "none")
+  if (wallWorkers == "process" && renderer.drawsNothing())
     findings.error({}, "--gl none draws nothing that --wall-workers process could: leave one of them out");
   if (inTurn && (s.play.latency != 0 || cullDrawGiven))
     findings.error({}, std::string(s.play.latency != 0 ? "--latency" : "--cull-draw") +
@@ -92,10 +93,7 @@ void RunOptions::settleDrawing(Diagnostics& findings) {
                    "--pin on is for walls that are drawn beside each other: leave out --display, and --mode "
                    "sequential without --wall-workers process");
   s.draw.layout = display && !stereoGiven ? StereoLayout::Off : *stereoLayout(stereo);
-  if (provider == "none")
-    s.draw.provider.reset();
-  else
-    s.draw.provider = provider == "egl" ? GlProviderKind::Egl : GlProviderKind::OsMesa;
+  s.draw.renderer = renderer.settle(findings);
   s.draw.processes = wish(wallWorkers, "process");
   s.draw.pinned = wish(pin, "on");
   s.play.drawBeginsEarly = cullDraw == "overlap";

@@ -30,7 +30,7 @@ bool endsInHalfALine(const std::string& path) {
   return file.tellg() > 0 && file.seekg(-1, std::ios::end).get() != '\n';
 }
 
-/// A program that is built anew is another one.
+/// A rebuilt program counts as another one.
 void addProgram(const std::string& path, StateHash& hash) {
   std::error_code none;
   hash.add(std::string_view(path));
@@ -62,7 +62,8 @@ bool RegressFolder::open(const RegressOptions& o, const std::string& suiteText) 
   if (!lock() || !openOutputs()) return false;
   const std::string identity = identityOf(o, suiteText);
   if (o.resume) done_ = regression::readProgress(textOf(pathOf(kProgress)), identity);
-  if (o.resume && done_.empty()) std::fprintf(stderr, "nothing to resume: the suite begins anew\n");
+  if (o.resume && done_.empty())
+    std::fprintf(stderr, "nothing to resume: the suite starts from the beginning\n");
   if (!write(kProgress, regression::progressHeading(identity))) return false;
   for (const auto& [name, results] : done_)
     if (!note(name, results)) return false;

@@ -34,7 +34,8 @@ long in more rounds than before, and mean, p95, p99, longest and late frames of 
 again in as many fresh rounds. --instructions counts instead: less than the tolerance apart on any machine, however busy.
 
 State hashes, image hashes and counts (nodes visited, messages, draw calls, triangles and so on, by wall and eye) have to
-be equal. Images are compared only where the same renderer on the same processor drew them. All modes of a case have to
+be equal. Images are compared only where the same renderer drew them: the CPU renderer draws alike everywhere, OpenGL on the same
+processor. With --renderer all programs of the comparison must know it. All modes of a case have to
 give the same state and images, whether there is a baseline or not.
 
 Exit codes: 0 all is equal, 1 a comparison failed, 2 bad usage, a suite or show with mistakes, no baseline (and no
@@ -72,6 +73,7 @@ void RegressOptions::addTo(CLI::App& command) {
   options.add("--instructions", instructions);
   options.add("--rounds", rounds, {.least = 12, .most = 80});
   options.add("--limit", limit);
+  renderer.addTo(command);
   options.add("--out", out);
   options.add("--resume", resume);
   options.add("--json", json);
@@ -88,6 +90,7 @@ bool RegressOptions::settle(Diagnostics& findings) {
                    "one of them out");
   if (resume && (out.empty() || update))
     findings.error({}, "--resume needs the --out DIR of the run that was interrupted, and no --update");
+  renderer.settle(findings);
   baselineGiven = !baseline.empty();
   if (baseline.empty()) baseline = regression::baselineBeside(suite);
   return !findings.hasErrors();
@@ -116,6 +119,7 @@ bool RegressOptions::choose(regression::Suite& suiteRead, Diagnostics& findings)
     m.state &= wanted.state, m.images &= wanted.images, m.counts &= wanted.counts;
     m.instructions &= wanted.instructions, m.times &= wanted.times;
     if (rounds > 0) c.rounds = rounds;
+    c.renderer = renderer.words();
   }
   // A case that compares nothing of what was asked for is not played.
   std::erase_if(suiteRead.cases, [](const regression::SuiteCase& c) { return c.metrics.none(); });

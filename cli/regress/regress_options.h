@@ -1,6 +1,7 @@
 #pragma once
 /// What `stadion regress` can be asked for.
 
+#include "cli/options/renderer_options.h"
 #include "engine/base/diagnostic.h"
 #include "show/regress/regress_settings.h"
 
@@ -25,6 +26,7 @@ struct RegressOptions {
   bool baselineGiven = false;  ///< by --baseline: then it has to be there
   std::size_t rounds = 0;      ///< 0: as the suite says
   std::size_t limit = 600;     ///< [s] for a child
+  RendererOptions renderer;
   bool update = false, instructions = false, json = false, resume = false;
 
   /// Expects that this object stays where it is until the command line has been read.

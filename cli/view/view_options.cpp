@@ -25,7 +25,7 @@ void ViewOptions::addTo(CLI::App& command) {
   addLoadOptions(command, run);
   addBlackBoxOption(command, session.record);
   addGuardOption(command, session.play.guard);
-  options.add("--gl", provider, {.words = "osmesa|egl|auto"});
+  renderer.addTo(command);
   std::string keys = "Keys and mouse:\n";
   for (const std::string& line : viewKeys()) keys += "  " + line + "\n";
   command.footer(
@@ -43,8 +43,7 @@ bool ViewOptions::settle(Diagnostics& findings) {
   session.play.windows = true;
   session.play.drawBeginsEarly = run.cullDraw == "overlap";
   settings.oneWindow = windows == "one";
-  if (provider != "auto")
-    settings.provider = provider == "egl" ? GlProviderKind::Egl : GlProviderKind::OsMesa;
+  session.draw.renderer = renderer.settle(findings);
   std::tie(settings.width, settings.height) = *parseSize(window);
   if (session.show.input.empty())
     session.show.input = "none";  // the viewer is the visitor, not the log beside the script

@@ -1,6 +1,7 @@
 #pragma once
 /// The options of `stadion view`.
 
+#include "cli/options/renderer_options.h"
 #include "cli/options/run_options.h"
 #include "show/view/view_settings.h"
 
@@ -10,7 +11,8 @@ namespace stadion {
 
 struct ViewOptions {
   RunOptions run;  ///< script, walls, rate, input, records
-  std::string windows = "one", stereo = "off", window = "1200x800", provider = "auto";
+  std::string windows = "one", stereo = "off", window = "1200x800";
+  RendererOptions renderer;
   ViewSettings settings{};
 
   /// Expects that this object stays where it is until the command line has been read.

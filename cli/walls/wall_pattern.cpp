@@ -51,8 +51,8 @@ int writePatterns(const WallFile& walls, const PatternOptions& options) {
 int showPattern(const WallFile& walls, const PatternOptions& options, const std::atomic<bool>& stop) {
   if (!options.out.empty()) return writePatterns(walls, options);
   Diagnostics findings;
-  const auto displays =
-      WallDisplays::open(walls, options.windowStereo, options.width, options.height, findings);
+  const auto displays = WallDisplays::open(walls, windowSurface(false, options.windowStereo),
+                                           options.windowStereo, options.width, options.height, findings);
   tell(findings);
   if (!displays) return kBadInput;
   std::vector<EyePictures> pictures(walls.walls.size());

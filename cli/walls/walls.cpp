@@ -8,12 +8,15 @@
 #include "engine/base/installed_files.h"
 #include "engine/display/wall_lint.h"
 #include "engine/plain_text/number_text.h"
+#include "pipeline/platform/processor_set.h"
+#include "pipeline/target/graphics_card.h"
 #include "show/base/stop_signal.h"
 #include "show/player/drawing_plan.h"
 #include "show/player/player.h"
 #include "show/player/thread_count.h"
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cstdio>
 #include <memory>
 #include <tuple>
@@ -47,6 +50,14 @@ struct WallsOptions {
   }
 };
 
+/// Of a run without options: --renderer auto.
+ThreadCount threadsHere(std::size_t walls, std::size_t processors, Diagnostics& findings) {
+  if (!graphicsCardFile()) return threadsOfCpuRenderer(static_cast<std::uint32_t>(processors), walls);
+  DrawingNeeds needs;
+  needs.walls = walls;
+  return threadsOf(DrawingPlan(needs, knownMachine(findings)).setting(), walls);
+}
+
 int lookAtWalls(WallsOptions o) {
   Diagnostics findings;
   const bool settled = o.settle(findings);
@@ -55,12 +66,10 @@ int lookAtWalls(WallsOptions o) {
   if (!walls) return kBadInput;
   if (o.pattern) return showPattern(*walls, o.shown, catchStopSignals());
   Diagnostics ofMachine;
-  const KnownMachine machine = knownMachine(ofMachine);
-  DrawingNeeds needs;
-  needs.walls = walls->walls.size();
-  const ThreadCount threads = threadsOf(DrawingPlan(needs, machine).setting(), needs.walls);
+  const std::size_t processors = std::max<std::size_t>(1, processorsOfThisThread().size());
+  const ThreadCount threads = threadsHere(walls->walls.size(), processors, ofMachine);
   tell(ofMachine);
-  std::printf("%s\n%s", floorPlan(*walls).c_str(), textOf(threads, machine.processors, o.file).c_str());
+  std::printf("%s\n%s", floorPlan(*walls).c_str(), textOf(threads, processors, o.file).c_str());
   return kOk;
 }
 

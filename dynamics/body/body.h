@@ -37,7 +37,7 @@ PairSurface combine(const Surface& a, const Surface& b);
 
 /// A body embeds its tip, like a javelin, in the first collider that the tip hits faster than 1 m/s. The
 /// collider must stand still.
-struct Stick {
+struct TipEmbedding {
   Vec3 nose = Vec3::UnitX();  ///< direction of the tip, unit, in N
   double tip = 0;             ///< of the foremost point, along the nose [m]
   double reach = 0.01;        ///< points so far behind it still belong to the tip [m]
@@ -57,7 +57,7 @@ struct BodyDef {
   double damping = 0;            ///< velocity lost as exp(-c t) [1/s]
   double dragArea = 0;           ///< drag coefficient times cross section, for media [m2]
   double releaseDistance = 0.5;  ///< [m]; if infinite, no release is reported
-  std::optional<Stick> stick;
+  std::optional<TipEmbedding> embedding;
   std::shared_ptr<const BodyFlight> flight;  ///< null: media act on a point with its drag area
 };
 
@@ -113,10 +113,10 @@ struct BodyState {
 };
 
 /// One side of a pair; body and collider ids count separately.
-struct Party {
+struct ContactSide {
   bool isBody = false;
   std::uint32_t id = 0;
-  auto operator<=>(const Party&) const = default;
+  auto operator<=>(const ContactSide&) const = default;
 
   template <class Self, class Fields>
   static void fields(Self& p, Fields& f) {
@@ -129,7 +129,7 @@ struct ContactEvent {
   enum class Kind : std::uint8_t { Impact, Release };
   Kind kind = Kind::Impact;
   Nanoseconds time = 0;  ///< [ns]
-  Party other;           ///< collider, or the body of a body pair with the smaller id
+  ContactSide other;     ///< collider, or the body of a body pair with the smaller id
   BodyId body = 0;
   Vec3 point = Vec3::Zero();   ///< in World [m]
   Vec3 normal = Vec3::Zero();  ///< from `other` to the body

@@ -39,7 +39,7 @@ Vec3 symmetryAxis(const MassProperties& mass) {
   return axis[largest] < 0 ? Vec3(-axis) : axis;
 }
 
-Stick stickAlong(const Vec3& nose, double angle, double depth, const Mesh& mesh) {
+TipEmbedding tipEmbeddingAlong(const Vec3& nose, double angle, double depth, const Mesh& mesh) {
   const Extent e = extentAlong(nose, mesh);
   return {nose, e.front, kTipShare * (e.front - e.back), det::cos(angle), depth};
 }

@@ -14,6 +14,6 @@ namespace stadion {
 Vec3 symmetryAxis(const MassProperties& mass);
 
 /// How a body with this nose sticks, up to `angle` [rad] from straight on, `depth` [m] deep.
-Stick stickAlong(const Vec3& nose, double angle, double depth, const Mesh& mesh);
+TipEmbedding tipEmbeddingAlong(const Vec3& nose, double angle, double depth, const Mesh& mesh);
 
 }  // namespace stadion

@@ -5,13 +5,13 @@
 
 namespace stadion {
 
-Mobile mobileOf(const RigidBody& b, double tau) {
+SolverBody solverBodyOf(const RigidBody& b, double tau) {
   if (!b.movable()) {
     const Kinematics k = b.at(tau);
     return {0, Mat3::Zero(), k.p, k.v, k.omega, k.pose.q * b.X_NC.q};
   }
   const Quat q = b.orientation(tau);
-  Mobile m{b.inverseMass, Mat3::Zero(), b.position(tau), b.velocity(tau), b.turning(tau, q), q};
+  SolverBody m{b.inverseMass, Mat3::Zero(), b.position(tau), b.velocity(tau), b.turning(tau, q), q};
   const Vec3 inverse = b.inertia.cwiseInverse();
   if (inverse.x() == inverse.y() && inverse.y() == inverse.z()) {
     m.inverseInertia = inverse.x() * Mat3::Identity();
@@ -22,12 +22,12 @@ Mobile mobileOf(const RigidBody& b, double tau) {
   return m;
 }
 
-Mobile mobileOf(const Collider& c, double tau) {
+SolverBody solverBodyOf(const Collider& c, double tau) {
   const Kinematics k = c.motion.at(tau);
   return {0, Mat3::Zero(), k.p, k.v, k.omega, k.pose.q};
 }
 
-Mat3 response(const Mobile& m, const Vec3& x) {
+Mat3 response(const SolverBody& m, const Vec3& x) {
   if (m.inverseMass == 0) return Mat3::Zero();
   const Mat3 r = skew(x - m.p);
   return m.inverseMass * Mat3::Identity() - r * m.inverseInertia * r;
@@ -36,7 +36,7 @@ Mat3 response(const Mobile& m, const Vec3& x) {
 namespace {
 
 /// The same along n alone.
-double responseAlong(const Mobile& m, const Vec3& x, const Vec3& n) {
+double responseAlong(const SolverBody& m, const Vec3& x, const Vec3& n) {
   if (m.inverseMass == 0) return 0;
   const Vec3 turn = (x - m.p).cross(n);
   return m.inverseMass + turn.dot(m.inverseInertia * turn);
@@ -76,7 +76,8 @@ Vec3 withoutGain(const Vec3& u, const Mat3& K, const Vec3& n, double restitution
 
 }  // namespace
 
-Vec3 collide(Mobile& a, Mobile& b, const Vec3& x, const Vec3& n, double restitution, double friction) {
+Vec3 collide(SolverBody& a, SolverBody& b, const Vec3& x, const Vec3& n, double restitution,
+             double friction) {
   const Vec3 u = a.velocityAt(x) - b.velocityAt(x);
   const double closing = -u.dot(n);
   if (!(closing > 0)) return Vec3::Zero();

@@ -10,7 +10,7 @@
 namespace stadion {
 
 /// Velocities of one side that an impulse changes.
-struct Mobile {
+struct SolverBody {
   double inverseMass = 0;              ///< 0: nothing moves it
   Mat3 inverseInertia = Mat3::Zero();  ///< in World
   Vec3 p = Vec3::Zero(), v = Vec3::Zero(), omega = Vec3::Zero();
@@ -23,14 +23,14 @@ struct Mobile {
   }
 };
 
-Mobile mobileOf(const RigidBody& b, double tau);
-Mobile mobileOf(const Collider& c, double tau);
+SolverBody solverBodyOf(const RigidBody& b, double tau);
+SolverBody solverBodyOf(const Collider& c, double tau);
 
 /// Change of velocity at x per impulse at x.
-Mat3 response(const Mobile& m, const Vec3& x);
+Mat3 response(const SolverBody& m, const Vec3& x);
 
 /// Resolves the approach of a against b at x, n from b to a. Returns the impulse on a; zero if they part
 /// already.
-Vec3 collide(Mobile& a, Mobile& b, const Vec3& x, const Vec3& n, double restitution, double friction);
+Vec3 collide(SolverBody& a, SolverBody& b, const Vec3& x, const Vec3& n, double restitution, double friction);
 
 }  // namespace stadion

@@ -78,7 +78,7 @@ struct GuidedMotion {
 
 /// A flat face that a ball slides or rolls on.
 struct Support {
-  Party on;                    ///< collider, or none
+  ContactSide on;              ///< collider, or none
   std::int32_t triangle = -1;  ///< of a mesh
   Vec3 point = Vec3::Zero();   ///< the plane that the ball's surface touches
   Vec3 normal = Vec3::UnitZ();
@@ -107,8 +107,9 @@ struct Hook {
   FieldId field = 0;
 };
 
-/// How a body that hardly moves changes its velocity. A body that accelerates does not fall asleep.
-struct Calm {
+/// Records how the velocity of a body that hardly moves changes. A body that accelerates does not fall
+/// asleep.
+struct SleepCandidate {
   Vec3 v = Vec3::Zero(), omega = Vec3::Zero();  ///< when the present look began
   double since = 0;                             ///< its quiet time then [s]
   double span = 0;                              ///< how long this look takes [s]
@@ -138,8 +139,8 @@ struct alignas(64) RigidMotion {
   Spin spin;
 };
 
-/// The way out of a collider that a hand has put the body into (way_out.h).
-struct WayOut {
+/// The way out of a collider into which a hand has put the body (penetration_recovery.h).
+struct PenetrationRecovery {
   ColliderId of = 0;
   Vec3 normal = Vec3::UnitZ();  ///< unit, in the collider's frame
   double side = 1;              ///< 1: out of the front of its faces, -1: out of their back
@@ -159,7 +160,7 @@ struct BodyMatter {
   double damping = 0;                ///< [1/s]
   double dragArea = 0;               ///< [m2]
   double releaseDistance = 0.5;      ///< [m]
-  std::optional<Stick> stick;
+  std::optional<TipEmbedding> embedding;
   std::shared_ptr<const BodyFlight> flight;
   Quat q_CA = Quat::Identity();  ///< flight frame A to C, of a body with `flight`
 };
@@ -167,18 +168,18 @@ struct BodyMatter {
 /// A body in lasting contact. Much of it outlasts the mode: a sleeping body keeps its neighbours and forces,
 /// and wakes with them.
 struct BodyContact {
-  std::vector<Party> touching;   ///< what the body leans on, or nearly; also of a body at rest
-  std::vector<Party> leaning;    ///< those of them that the memory of pairs calls touching
-  std::vector<Pressed> presses;  ///< forces of the last step on the points of this body
+  std::vector<ContactSide> touching;  ///< what the body leans on, or nearly; also of a body at rest
+  std::vector<ContactSide> leaning;   ///< those of them that the memory of pairs calls touching
+  std::vector<Pressed> presses;       ///< forces of the last step on the points of this body
   Vec3 endL = Vec3::Zero();  ///< angular momentum at the end of the step, except for Driven spins [kg m2/s]
   double dueAge = 0;         ///< age at which the solver continues; 0: at once [s]
-  bool crowd = false;        ///< a member of a pile, advanced together with the others
-  bool drowsy = false;       ///< in a pile: it falls asleep when the present step is over
-  bool heaped = false;       ///< at rest: it fell asleep as a member of a pile
+  bool inPile = false;       ///< a member of a pile, advanced together with the others
+  bool sleepsNext = false;   ///< in a pile: it falls asleep when the present step is over
+  bool restsInPile = false;  ///< at rest: it fell asleep as a member of a pile
   bool wedged = false;       ///< in an island: external motion presses it against something fixed
   bool restless = false;     ///< in an island: the last step had no exact solution, or not soon
   double quiet = 0;          ///< how long it has hardly moved [s]
-  Calm calm;                 ///< in an island
+  SleepCandidate sleepCandidate;                    ///< in an island
   Vec3 drift = Vec3::Zero(), twist = Vec3::Zero();  ///< since it is quiet, or since the last look [m], [rad]
   std::uint32_t slot = 0;                           ///< scratch of the contact solver
 };
@@ -192,7 +193,7 @@ struct BodyGrip {
   Instant woundTo;                ///< until when
   Vec3 freePlace = Vec3::Zero();  ///< the last place of the middle of its bound where it was in nothing
   bool letGo = false;             ///< a hand has released it at this moment
-  std::vector<WayOut> waysOut;    ///< out of the colliders in which it was released
+  std::vector<PenetrationRecovery> recoveries;  ///< out of the colliders in which it was released
 };
 
 /// The record of a body's path within a frame (state/body_traces.h).

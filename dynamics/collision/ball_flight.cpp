@@ -16,7 +16,7 @@ double riseTime(double g, double u, double b) {
 
 /// When a height h over a surface, that changes at the rate u, falls to zero under b; 0 if it has, infinity
 /// if it does not within `most`.
-double fallTime(double h, double u, double b, double most) {
+double ballFallTime(double h, double u, double b, double most) {
   constexpr double kLeaves = 1e-9;  ///< so deep it has just bounced [m]
   if (h <= 0 && !(u > 0 && h > -kLeaves)) return 0;
   h = std::max(h, 0.0);
@@ -45,7 +45,7 @@ Aabb BallFlight::around(double s, double t) const {
 double BallFlight::timeToPlane(const Triangle& t, double most) const {
   double h = t.normal.dot(p - t.v[0]), u = t.normal.dot(v), b = t.normal.dot(a);
   if (h < 0) h = -h, u = -u, b = -b;
-  return fallTime(h - radius, u, b, most);
+  return ballFallTime(h - radius, u, b, most);
 }
 
 BallFlight::Entry BallFlight::timeToBox(const BoxShape& box, double most) const {
@@ -56,7 +56,7 @@ BallFlight::Entry BallFlight::timeToBox(const BoxShape& box, double most) const 
     for (const double side : {-1.0, 1.0}) {
       // While it is outside of one face's plane it is outside of all.
       const double h = side * f.p[axis] - box.half[axis] - radius;
-      const double time = fallTime(h, side * f.v[axis], side * f.a[axis], most);
+      const double time = ballFallTime(h, side * f.v[axis], side * f.a[axis], most);
       if (time > entry.time) entry.time = time, face = axis;
     }
   if (face < 0 || !(entry.time < kNever)) return entry;

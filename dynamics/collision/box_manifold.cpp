@@ -10,7 +10,7 @@ namespace {
 constexpr double kFavourFaces = 1e-5;  ///< an edge pair must separate better than any face by this [m]
 constexpr double kSquare = 1e-6;       ///< sine of the angle by which a normal may miss that of two edges
 
-struct Vertex {
+struct ClippedVertex {
   Vec3 p;
   std::uint32_t key;
 };
@@ -22,12 +22,12 @@ int closestAxis(const Pose& X, const Vec3& n) {
 }
 
 /// The face of a box whose outward normal is nearest to n, in order round it.
-std::vector<Vertex> faceTowards(const Pose& X, const Vec3& half, const Vec3& n) {
+std::vector<ClippedVertex> faceTowards(const Pose& X, const Vec3& half, const Vec3& n) {
   const Vec3 l = X.q.conjugate() * n;
   int k = 0;
   l.cwiseAbs().maxCoeff(&k);
   const int u = (k + 1) % 3, v = (k + 2) % 3;
-  std::vector<Vertex> face;
+  std::vector<ClippedVertex> face;
   for (const auto& [su, sv] : {std::pair(-1, -1), std::pair(1, -1), std::pair(1, 1), std::pair(-1, 1)}) {
     Vec3 c;
     c[k] = l[k] < 0 ? -half[k] : half[k], c[u] = su * half[u], c[v] = sv * half[v];
@@ -37,10 +37,10 @@ std::vector<Vertex> faceTowards(const Pose& X, const Vec3& half, const Vec3& n) 
 }
 
 /// Sutherland and Hodgman: what of the polygon has n . p <= d.
-void clip(std::vector<Vertex>& polygon, const Vec3& n, double d, std::uint32_t side) {
-  std::vector<Vertex> out;
+void clip(std::vector<ClippedVertex>& polygon, const Vec3& n, double d, std::uint32_t side) {
+  std::vector<ClippedVertex> out;
   for (std::size_t i = 0; i < polygon.size(); ++i) {
-    const Vertex &a = polygon[i], &b = polygon[(i + 1) % polygon.size()];
+    const ClippedVertex &a = polygon[i], &b = polygon[(i + 1) % polygon.size()];
     const double ha = n.dot(a.p) - d, hb = n.dot(b.p) - d;
     if (ha <= 0) out.push_back(a);
     if ((ha < 0 && hb > 0) || (ha > 0 && hb < 0))
@@ -54,7 +54,7 @@ void faceContact(const Pose& R, const Vec3& halfR, const Pose& I, const Vec3& ha
   const int k = closestAxis(R, out);
   Vec3 n = R.q * Vec3::Unit(k);
   if (n.dot(out) < 0) n = -n;
-  std::vector<Vertex> polygon = faceTowards(I, halfI, -n);
+  std::vector<ClippedVertex> polygon = faceTowards(I, halfI, -n);
   std::uint32_t side = 0;
   for (const int axis : {(k + 1) % 3, (k + 2) % 3}) {
     const Vec3 across = R.q * Vec3::Unit(axis);
@@ -62,7 +62,7 @@ void faceContact(const Pose& R, const Vec3& halfR, const Pose& I, const Vec3& ha
     clip(polygon, -across, -across.dot(R.p) + halfR[axis], ++side);
   }
   const double level = n.dot(R.p) + halfR[k];
-  for (const Vertex& x : polygon) {
+  for (const ClippedVertex& x : polygon) {
     const double gap = n.dot(x.p) - level;
     if (gap > margin) continue;
     const Vec3 onB = referenceIsB ? Vec3(x.p - gap * n) : x.p;

@@ -75,7 +75,7 @@ public:
     widest_ = 0, widestAcross_ = 0, filedApart_ = 0;
   }
 
-  /// So many have changed that sorting anew is cheaper.
+  /// Returns true if so many boxes have changed that sorting all of them is cheaper.
   bool crowded() const {
     return static_cast<double>(apart_.size() - filedApart_) >
            32 + 4 * std::sqrt(static_cast<double>(sorted_.size()));

@@ -6,7 +6,7 @@
 namespace stadion {
 namespace {
 
-constexpr double kNear = 1e-5;     ///< cores closer than this have their normal from their features [m]
+constexpr double kNearGap = 1e-5;  ///< cores closer than this have their normal from their features [m]
 constexpr double kFavour = 1e-11;  ///< faces and edges are preferred to what was only searched by this [m]
 constexpr double kHold = 1e-4;     ///< distance to hold off for a first look [m]
 constexpr double kLeastHold = 1e-7;
@@ -212,7 +212,7 @@ ConvexGap convexGap(const ConvexCore& a, const ConvexCore& b, const Vec3& guess,
   }
   const CoreDistance d = coreDistance(a, b, guess, accuracy);
   ConvexGap g;
-  if (d.apart && d.distance > kNear) {
+  if (d.apart && d.distance > kNearGap) {
     // What the supports say is certain; the distance found may be too long where the search ended in
     // rounding.
     const double sure = separationAlong(d.normal, a, b);

@@ -8,17 +8,17 @@ namespace {
 
 constexpr int kMostSteps = 96;
 
-struct Vertex {
+struct SimplexVertex {
   Vec3 w = Vec3::Zero(), a = Vec3::Zero(), b = Vec3::Zero();
   double weight = 1;
 };
 
 struct Simplex {
-  std::array<Vertex, 4> at;
+  std::array<SimplexVertex, 4> at;
   int count = 0;
 
-  Vertex& operator[](int i) { return at[static_cast<std::size_t>(i)]; }
-  const Vertex& operator[](int i) const { return at[static_cast<std::size_t>(i)]; }
+  SimplexVertex& operator[](int i) { return at[static_cast<std::size_t>(i)]; }
+  const SimplexVertex& operator[](int i) const { return at[static_cast<std::size_t>(i)]; }
   Vec3 point() const {
     Vec3 x = Vec3::Zero();
     for (int i = 0; i < count; ++i) x += (*this)[i].weight * (*this)[i].w;
@@ -26,14 +26,14 @@ struct Simplex {
   }
 };
 
-Simplex only(const Vertex& a) {
+Simplex only(const SimplexVertex& a) {
   Simplex s;
   s.count = 1, s[0] = a, s[0].weight = 1;
   return s;
 }
 
 /// The part of a segment that is nearest to the origin.
-Simplex nearest(const Vertex& a, const Vertex& b) {
+Simplex nearest(const SimplexVertex& a, const SimplexVertex& b) {
   const Vec3 e = b.w - a.w;
   const double t = -a.w.dot(e), n = e.squaredNorm();
   if (!(t > 0)) return only(a);
@@ -49,7 +49,7 @@ Simplex better(const Simplex& a, const Simplex& b) {
 }
 
 /// Of a triangle; its regions as in Ericson, Real-Time Collision Detection, 2005, section 5.1.5.
-Simplex nearest(const Vertex& a, const Vertex& b, const Vertex& c) {
+Simplex nearest(const SimplexVertex& a, const SimplexVertex& b, const SimplexVertex& c) {
   const Vec3 n = (b.w - a.w).cross(c.w - a.w);
   const double u = n.dot(b.w.cross(c.w)), v = n.dot(c.w.cross(a.w)), w = n.dot(a.w.cross(b.w));
   const double sum = u + v + w;
@@ -85,7 +85,7 @@ bool nearest(const Simplex& t, Simplex& out) {
 CoreDistance coreDistance(const ConvexCore& A, const ConvexCore& B, const Vec3& guess, double accuracy) {
   CoreDistance out;
   const auto vertex = [&](const Vec3& d) {
-    Vertex x;
+    SimplexVertex x;
     x.a = A.support(-d), x.b = B.support(d), x.w = x.a - x.b;
     return x;
   };
@@ -95,7 +95,7 @@ CoreDistance coreDistance(const ConvexCore& A, const ConvexCore& B, const Vec3& 
   for (; out.steps < kMostSteps; ++out.steps) {
     const double vv = v.squaredNorm();
     if (!(vv > 1e-30 * size * size)) return out;
-    const Vertex x = vertex(v);
+    const SimplexVertex x = vertex(v);
     size = std::max(size, x.w.cwiseAbs().maxCoeff());
     const double room = vv - v.dot(x.w);  // upper less lower bound, times |v|
     if (room <= accuracy * vv || room <= 1e-16 * size * std::sqrt(vv)) break;

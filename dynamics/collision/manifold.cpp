@@ -11,12 +11,12 @@
 namespace stadion {
 namespace {
 
-constexpr std::size_t kMostPairs = 16;
+constexpr std::size_t kMostManifoldPairs = 16;
 constexpr double kOnFace = 1e-6;  ///< a centre this near to a face is inside [m]
 constexpr std::size_t kMostDeep = 4;
 constexpr double kSameWay = 0.7;  ///< cosine of directions that lead out at the same side
 
-void flip(Gap& g) {
+void flipGap(Gap& g) {
   g.point += g.distance * g.normal;
   g.normal = -g.normal;
 }
@@ -56,7 +56,7 @@ void waysOut(const Vec3& c, double r, const TriangleTree& tree, const std::vecto
                       i + 1});
   }
   std::ranges::stable_sort(points, std::greater{}, [](const ManifoldPoint& p) { return p.gap.distance; });
-  keepDistinct(points, kMostPairs);
+  keepDistinct(points, kMostManifoldPairs);
 }
 
 /// A ball touches a mesh wherever a face, a ridge or a peak is near enough; merged edges do not count.
@@ -83,7 +83,7 @@ void ballOnMesh(const Vec3& centre, double r, const MeshShape& mesh, const Pose&
       const bool known = std::any_of(points.begin(), points.end(), [&](const ManifoldPoint& p) {
         return p.gap.normal.dot(X.q * n) > 1 - 1e-6;
       });
-      if (known || points.size() >= kMostPairs) continue;
+      if (known || points.size() >= kMostManifoldPairs) continue;
       points.push_back({{away - r, X * q.point, X.q * n, !edges, static_cast<std::int32_t>(i)}, i + 1});
     }
   }
@@ -117,14 +117,14 @@ void cornersNear(const Side& a, const Side& b, double tau, double margin, bool f
     // A corner of a flat thing lies beside another's edge as well as above its face: only faces carry
     // corners.
     if (!g.face && std::holds_alternative<BoxShape>(*b.shape)) return;
-    if (flipped) flip(g);
+    if (flipped) flipGap(g);
     found.push_back({g, key, flipped ? Carrier::B : Carrier::A});
   });
-  if (found.size() > kMostPairs) {  // keep the deepest and the widest spread
+  if (found.size() > kMostManifoldPairs) {  // keep the deepest and the widest spread
     std::stable_sort(found.begin(), found.end(),
                      [](const auto& l, const auto& r) { return l.gap.distance < r.gap.distance; });
     std::vector<ManifoldPoint> kept{found.front()};
-    while (kept.size() < kMostPairs) {
+    while (kept.size() < kMostManifoldPairs) {
       std::size_t best = 0;
       double far = -1;
       for (std::size_t i = 0; i < found.size(); ++i) {
@@ -139,10 +139,10 @@ void cornersNear(const Side& a, const Side& b, double tau, double margin, bool f
   points.insert(points.end(), found.begin(), found.end());
 }
 
-bool isBall(const Side& s) {
+bool isBallSide(const Side& s) {
   return std::holds_alternative<BallShape>(*s.shape);
 }
-bool isPlane(const Side& s) {
+bool isPlaneSide(const Side& s) {
   return std::holds_alternative<PlaneShape>(*s.shape);
 }
 
@@ -179,11 +179,11 @@ bool triangleManifold(const Side& a, const Side& b, double tau, double margin,
 
 void manifold(const Side& a, const Side& b, double tau, double margin, std::vector<ManifoldPoint>& points) {
   points.clear();
-  if (isBall(a)) {
+  if (isBallSide(a)) {
     ballPoints(a, b, tau, margin, points);
-  } else if (isBall(b)) {
+  } else if (isBallSide(b)) {
     ballPoints(b, a, tau, margin, points);
-    for (ManifoldPoint& p : points) flip(p.gap);
+    for (ManifoldPoint& p : points) flipGap(p.gap);
   } else if (const auto* boxA = std::get_if<BoxShape>(a.shape), *boxB = std::get_if<BoxShape>(b.shape);
              boxA && boxB) {
     boxManifold(a.at(tau).pose * boxA->pose, boxA->half, b.at(tau).pose * boxB->pose, boxB->half, margin,
@@ -191,9 +191,9 @@ void manifold(const Side& a, const Side& b, double tau, double margin, std::vect
   } else if (triangleManifold(a, b, tau, margin, points) || solidManifold(a, b, tau, margin, points)) {
     return;
   } else {
-    if (!isPlane(a)) cornersNear(a, b, tau, margin, false, 1000, points);
-    if (!isPlane(b)) cornersNear(b, a, tau, margin, true, 1000000, points);
-    if (isPlane(a) || isPlane(b)) return;
+    if (!isPlaneSide(a)) cornersNear(a, b, tau, margin, false, 1000, points);
+    if (!isPlaneSide(b)) cornersNear(b, a, tau, margin, true, 1000000, points);
+    if (isPlaneSide(a) || isPlaneSide(b)) return;
     const Gap nearest = points.empty() ? gapBetween(a, b, tau, {margin}) : Gap{};
     if (nearest.distance < margin) points.push_back({nearest, 99});
   }

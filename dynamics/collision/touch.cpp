@@ -149,7 +149,7 @@ std::optional<Touch> planeRoot(const BallFlight& flight, const Collider& plane, 
 class OwnFace {
 public:
   OwnFace(const Side& ball, const Side& mesh, const Pose& X)
-      : support_(ball.body && ball.body->support.on == mesh.party && ball.body->support.on.id
+      : support_(ball.body && ball.body->support.on == mesh.key && ball.body->support.on.id
                      ? &ball.body->support
                      : nullptr),
         X_(X) {}

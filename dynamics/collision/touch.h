@@ -13,7 +13,7 @@ namespace stadion {
 
 /// One side of a pair through the present frame.
 struct Side {
-  Party party;
+  ContactSide key;
   const Shape* shape = nullptr;
   const RigidBody* body = nullptr;  ///< exactly one of these two
   const Collider* collider = nullptr;

@@ -20,7 +20,7 @@ constexpr double kFlush = 1e-4;  ///< pieces make up one surface if their levels
 
 /// A point at which a body touches a piece, or nearly.
 struct Bearing {
-  Party of;
+  ContactSide of;
   const Shape* shape = nullptr;
   Pose X_WN;  ///< of the shape
   Gap gap;    ///< normal to the body

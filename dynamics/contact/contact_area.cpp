@@ -16,7 +16,7 @@ constexpr std::size_t kMostPairs = 1 << 14;  ///< and pairs of them
 constexpr double kRimWider = 0.99348693742900583;
 constexpr double kThinnest = 1e-3;   ///< three points of a flatter triangle lie on a line
 constexpr double kFlatGap = 1e-5;    ///< points farther apart are not in contact [m]
-constexpr double kDeep = 1e-3;       ///< those that overlap by more are pushed out: no face carries them [m]
+constexpr double kDeepArea = 1e-3;   ///< those that overlap by more are pushed out: no face carries them [m]
 constexpr double kOneSide = 0.9999;  ///< cosine of normals that are one face's
 
 using Ring = std::vector<Vec2>;
@@ -193,7 +193,7 @@ std::vector<FlatContact> flatContacts(const Side& a, std::span<const Side> b, do
   std::vector<char> used(points.size(), 0);
   std::vector<Vec3> at;
   for (std::size_t i = 0; i + 2 < points.size(); ++i) {
-    if (used[i] != 0 || points[i].distance > kFlatGap || points[i].distance < -kDeep) continue;
+    if (used[i] != 0 || points[i].distance > kFlatGap || points[i].distance < -kDeepArea) continue;
     FlatContact flat;
     at.clear();
     double deepest = 0;

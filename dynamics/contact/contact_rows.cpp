@@ -9,10 +9,10 @@ namespace {
 constexpr double kTurns = 1e-12;     ///< of what resists turning, so that nothing is infinite
 constexpr double kNarrowest = 1e-3;  ///< part of an area that a load at its rim presses on
 
-ContactRow rowOf(const SolverContact& c, const std::vector<Mobile>& m) {
+ContactRow rowOf(const SolverContact& c, const std::vector<SolverBody>& m) {
   ContactRow row;
   row.a = c.a, row.b = c.b;
-  const Mobile &a = m[c.a], &b = m[c.b];
+  const SolverBody &a = m[c.a], &b = m[c.b];
   for (int i = 0; i < 3; ++i) {
     ContactAxis& x = row.axis[static_cast<std::size_t>(i)];
     x.n = c.rows.col(i), x.p = c.push.col(i);
@@ -50,11 +50,11 @@ ContactRow rowOf(const SolverContact& c, const std::vector<Mobile>& m) {
 
 }  // namespace
 
-std::vector<ContactRow> rowsOf(const std::vector<Mobile>& mobiles,
+std::vector<ContactRow> rowsOf(const std::vector<SolverBody>& solverBodies,
                                const std::vector<SolverContact>& contacts) {
   std::vector<ContactRow> rows;
   rows.reserve(contacts.size());
-  for (const SolverContact& c : contacts) rows.push_back(rowOf(c, mobiles));
+  for (const SolverContact& c : contacts) rows.push_back(rowOf(c, solverBodies));
   for (std::size_t k = 0; k < contacts.size(); ++k) {
     const std::int32_t patch = contacts[k].patch;
     if (patch < 0) continue;

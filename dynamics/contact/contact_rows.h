@@ -13,10 +13,10 @@ struct ContactAxis {
   Vec3 n = Vec3::Zero(), spinA = Vec3::Zero(), spinB = Vec3::Zero();  ///< the velocity along it
   Vec3 p = Vec3::Zero(), turnA = Vec3::Zero(), turnB = Vec3::Zero();  ///< what an impulse of 1 N s changes
 
-  double velocity(const Mobile& a, const Mobile& b) const {
+  double velocity(const SolverBody& a, const SolverBody& b) const {
     return n.dot(a.v - b.v) + spinA.dot(a.omega) - spinB.dot(b.omega);
   }
-  void give(Mobile& a, Mobile& b, double impulse) const {
+  void give(SolverBody& a, SolverBody& b, double impulse) const {
     a.v += a.inverseMass * impulse * p, a.omega += impulse * turnA;
     b.v -= b.inverseMass * impulse * p, b.omega -= impulse * turnB;
   }
@@ -33,10 +33,10 @@ struct ContactRow {
   Vec2 at = Vec2::Zero();    ///< of a point that carries an area: where, in units of the area's radius
   Mat3 stop = Mat3::Zero();  ///< of an area: the impulse that stops a slip [kg]
 
-  Vec3 velocity(const std::vector<Mobile>& m) const {
+  Vec3 velocity(const std::vector<SolverBody>& m) const {
     return {axis[0].velocity(m[a], m[b]), axis[1].velocity(m[a], m[b]), axis[2].velocity(m[a], m[b])};
   }
-  void give(std::vector<Mobile>& m, const Vec3& impulse) const {
+  void give(std::vector<SolverBody>& m, const Vec3& impulse) const {
     for (int i = 0; i < 3; ++i)
       if (impulse[i] != 0) axis[static_cast<std::size_t>(i)].give(m[a], m[b], impulse[i]);
   }
@@ -59,7 +59,7 @@ private:
   Mat3 to_ = Mat3::Identity();  ///< slip about the middle to slip as the narrower area sees it
 };
 
-std::vector<ContactRow> rowsOf(const std::vector<Mobile>& mobiles,
+std::vector<ContactRow> rowsOf(const std::vector<SolverBody>& solverBodies,
                                const std::vector<SolverContact>& contacts);
 
 }  // namespace stadion

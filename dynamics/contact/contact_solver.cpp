@@ -1,6 +1,6 @@
 #include "dynamics/contact/contact_solver.h"
 
-#include "dynamics/contact/contact_choice.h"
+#include "dynamics/contact/contact_active_set.h"
 
 #include <algorithm>
 #include <cmath>
@@ -18,7 +18,7 @@ constexpr int kNewton = 3;                        ///< steps towards the slip of
 constexpr double kExactly = 1e-17;                ///< the same where an exact solution is at hand [m/s]
 
 /// One pass over a contact; returns the change of velocity it made.
-double relax(std::vector<Mobile>& m, SolverContact& c, const ContactRow& row) {
+double relax(std::vector<SolverBody>& m, SolverContact& c, const ContactRow& row) {
   const double normal = row.axis[0].velocity(m[row.a], m[row.b]) + row.shortfall * c.impulse[0];
   const double pressed = std::max(0.0, c.impulse[0] + (c.floor - normal) * row.normalMass);
   const double dn = pressed - c.impulse[0];
@@ -41,7 +41,7 @@ double relax(std::vector<Mobile>& m, SolverContact& c, const ContactRow& row) {
 
 /// The same for an area. It sticks if it can; else a few of Newton's steps look for the slip that goes with
 /// the friction against it.
-double relaxArea(std::vector<Mobile>& m, std::vector<SolverContact>& contacts, std::size_t k,
+double relaxArea(std::vector<SolverBody>& m, std::vector<SolverContact>& contacts, std::size_t k,
                  const ContactRow& row) {
   SolverContact& c = contacts[k];
   const LoadedArea area(contacts, row, *c.area);
@@ -78,7 +78,7 @@ double relaxArea(std::vector<Mobile>& m, std::vector<SolverContact>& contacts, s
 }
 
 struct Sweeps {
-  std::vector<Mobile>& mobiles;
+  std::vector<SolverBody>& solverBodies;
   std::vector<SolverContact>& contacts;
   const std::vector<ContactRow>& rows;
   std::vector<Vec3> direction, previous;
@@ -87,8 +87,8 @@ struct Sweeps {
   double sweep() {
     double change = 0;
     for (std::size_t k = 0; k < contacts.size(); ++k)
-      change = std::max(change, contacts[k].area ? relaxArea(mobiles, contacts, k, rows[k])
-                                                 : relax(mobiles, contacts[k], rows[k]));
+      change = std::max(change, contacts[k].area ? relaxArea(solverBodies, contacts, k, rows[k])
+                                                 : relax(solverBodies, contacts[k], rows[k]));
     return change;
   }
 
@@ -113,7 +113,7 @@ struct Sweeps {
       for (std::size_t k = 0; k < n; ++k) {
         const Vec3 step = beta * direction[k], gradient = contacts[k].impulse - previous[k];
         contacts[k].impulse += step;
-        rows[k].give(mobiles, step);
+        rows[k].give(solverBodies, step);
         direction[k] = step + gradient;
       }
     }
@@ -136,11 +136,12 @@ Mat3 basisAround(const Vec3& n) {
   return B;
 }
 
-bool solveContacts(std::vector<Mobile>& mobiles, std::vector<SolverContact>& contacts, Effort effort) {
-  const std::vector<ContactRow> rows = rowsOf(mobiles, contacts);
-  for (std::size_t k = 0; k < rows.size(); ++k) rows[k].give(mobiles, contacts[k].impulse);
-  Sweeps sweeps{mobiles, contacts, rows, {}, {}, 0};
-  ContactChoice choice(mobiles, contacts, rows);
+bool solveContacts(std::vector<SolverBody>& solverBodies, std::vector<SolverContact>& contacts,
+                   Effort effort) {
+  const std::vector<ContactRow> rows = rowsOf(solverBodies, contacts);
+  for (std::size_t k = 0; k < rows.size(); ++k) rows[k].give(solverBodies, contacts[k].impulse);
+  Sweeps sweeps{solverBodies, contacts, rows, {}, {}, 0};
+  ContactActiveSet choice(solverBodies, contacts, rows);
   const bool atRest = effort == Effort::AtRest;
   double work = atRest ? kWorkAtRest : kWork * std::max(1.0, static_cast<double>(contacts.size()) / kUsual);
   for (int round = 0; round < (atRest ? kRoundsAtRest : kRounds) && work > 0; ++round) {

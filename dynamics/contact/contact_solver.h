@@ -18,7 +18,7 @@ namespace stadion {
 /// A contact point through one step. Bases are (n, t1, t2), n from b to a; they and the arms differ where the
 /// bodies turn during the step: velocities are judged at its end, impulses act in its middle.
 struct SolverContact {
-  std::uint32_t a = 0, b = 0;                             ///< indices of mobiles
+  std::uint32_t a = 0, b = 0;                             ///< indices of solverBodies
   Mat3 rows = Mat3::Identity(), push = Mat3::Identity();  ///< bases at the end and in the middle
   Vec3 armA = Vec3::Zero(), armB = Vec3::Zero();          ///< from the centres of mass at the end [m]
   Vec3 pushA = Vec3::Zero(), pushB = Vec3::Zero();        ///< the same in the middle [m]
@@ -38,7 +38,7 @@ struct SolverContact {
 
   /// Takes place at a point of a (at pa) and b (at pb), as at one moment.
   void placeAt(const Vec3& point, const Vec3& n, const Vec3& pa, const Vec3& pb);
-  Vec3 velocity(const std::vector<Mobile>& m) const {
+  Vec3 velocity(const std::vector<SolverBody>& m) const {
     Vec3 u = rows.transpose() * (m[a].v + m[a].omega.cross(armA) - m[b].v - m[b].omega.cross(armB));
     if (area) u[0] = area->radius() * rows.col(0).dot(m[a].omega - m[b].omega);
     return u;
@@ -53,7 +53,7 @@ Mat3 basisAround(const Vec3& n);
 enum class Effort : std::uint8_t { Moving, AtRest };
 
 /// Raises every contact's normal velocity to its `floor`, with friction. True if it holds to rounding.
-bool solveContacts(std::vector<Mobile>& mobiles, std::vector<SolverContact>& contacts,
+bool solveContacts(std::vector<SolverBody>& solverBodies, std::vector<SolverContact>& contacts,
                    Effort effort = Effort::Moving);
 
 }  // namespace stadion

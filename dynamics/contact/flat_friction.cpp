@@ -13,7 +13,7 @@ constexpr double kThin = 1e-4;      ///< an area this much narrower than long is
 constexpr double kAgrees = 1e-12;   ///< of a direction on the limit surface
 constexpr int kSearch = 40;         ///< steps towards one at most
 
-double cross(const Vec2& a, const Vec2& b) {
+double planarCross(const Vec2& a, const Vec2& b) {
   return a.x() * b.y() - a.y() * b.x();
 }
 
@@ -93,7 +93,7 @@ void ContactArea::cancelInner() {
 void ContactArea::measure() {
   for (const Side& s : sides_) {
     const Vec2 a = s.from, b = s.from + s.length * s.along;
-    const double twice = cross(a, b);
+    const double twice = planarCross(a, b);
     area_ += 0.5 * twice;
     xx_ += twice * (a.x() * a.x() + a.x() * b.x() + b.x() * b.x()) / 12;
     yy_ += twice * (a.y() * a.y() + a.y() * b.y() + b.y() * b.y()) / 12;
@@ -117,7 +117,7 @@ bool ContactArea::close() {
   double twice = 0, extent = 0;
   for (const Edge& e : edges_) {
     const Vec2 a = e.from - origin, b = e.to - origin;
-    const double c = cross(a, b);
+    const double c = planarCross(a, b);
     twice += c, sum += c * (a + b) / 3, extent = std::max(extent, b.squaredNorm());
   }
   if (!(twice > kThin * extent)) return false;

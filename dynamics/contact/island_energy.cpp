@@ -9,13 +9,13 @@ namespace {
 constexpr double kRounding = 1e-13;  ///< relative excess that is none
 
 /// I w [kg m2/s].
-Vec3 spun(const Mobile& m, const Vec3& w) {
+Vec3 spun(const SolverBody& m, const Vec3& w) {
   return w.isZero(0) ? Vec3(Vec3::Zero()) : Vec3(m.inverseInertia.inverse() * w);
 }
 
 }  // namespace
 
-void boundWork(std::size_t members, const std::vector<Mobile>& free, std::vector<Mobile>& end,
+void boundWork(std::size_t members, const std::vector<SolverBody>& free, std::vector<SolverBody>& end,
                const std::vector<Vec3>& falls, double allowed) {
   double b = 0, c = 0, size = 0;
   for (std::size_t i = 0; i < members; ++i) {
@@ -33,7 +33,7 @@ void boundWork(std::size_t members, const std::vector<Mobile>& free, std::vector
   }
 }
 
-double pushOutWork(std::size_t members, const std::vector<Mobile>& start, const std::vector<Vec3>& pull,
+double pushOutWork(std::size_t members, const std::vector<SolverBody>& start, const std::vector<Vec3>& pull,
                    double h, double speed) {
   if (!(speed > 0)) return 0;
   double moves = 0, wanted = 0, lifts = 0;

@@ -16,11 +16,11 @@ namespace stadion {
 /// `free` are the velocities without the impulses, `end` those with them; a body that falls does so, on the
 /// mean of the step, by `falls` less than at its end [m/s]; empty: an instant. `allowed` is work that they
 /// may do [J]. Those behind the first `members` are moved by nothing.
-void boundWork(std::size_t members, const std::vector<Mobile>& free, std::vector<Mobile>& end,
+void boundWork(std::size_t members, const std::vector<SolverBody>& free, std::vector<SolverBody>& end,
                const std::vector<Vec3>& falls, double allowed);
 
 /// What pushing out overlap at `speed` may cost in a step of h seconds [J].
-double pushOutWork(std::size_t members, const std::vector<Mobile>& start, const std::vector<Vec3>& pull,
+double pushOutWork(std::size_t members, const std::vector<SolverBody>& start, const std::vector<Vec3>& pull,
                    double h, double speed);
 
 }  // namespace stadion

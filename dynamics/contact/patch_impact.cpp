@@ -10,17 +10,17 @@
 namespace stadion {
 namespace {
 
-constexpr double kTogether = 1e-5;  ///< way that the last point of an impact has still to go [m]
-constexpr double kSoon = 1e-4;      ///< and time [s]
-constexpr double kSameSide = 0.99;  ///< cosine between the normals of its points
+constexpr double kSameImpact = 1e-5;  ///< way that the last point of an impact has still to go [m]
+constexpr double kSoon = 1e-4;        ///< and time [s]
+constexpr double kSameSide = 0.99;    ///< cosine between the normals of its points
 
-bool strikesWithAPoint(const Side& s, const Mobile& m, const Vec3& n) {
+bool strikesWithAPoint(const Side& s, const SolverBody& m, const Vec3& n) {
   ConvexCore core;
   const Pose turned{Vec3::Zero(), s.body ? Quat(m.q * s.body->X_CN.q) : m.q};
-  return isConvex(*s.shape) && coreOf(*s.shape, turned, core) && pointed(core, n, kTogether);
+  return isConvex(*s.shape) && coreOf(*s.shape, turned, core) && pointed(core, n, kSameImpact);
 }
 
-double closing(const Mobile& a, const Mobile& b, const Gap& g) {
+double closing(const SolverBody& a, const SolverBody& b, const Gap& g) {
   return g.normal.dot(b.velocityAt(g.point) - a.velocityAt(g.point));
 }
 
@@ -33,7 +33,7 @@ public:
     double pushed = 0;  ///< along the normals [N s]
   };
 
-  FlatLanding(const Side& a, double tau, const Gap& first, const Mobile& ma, const Mobile& mb)
+  FlatLanding(const Side& a, double tau, const Gap& first, const SolverBody& ma, const SolverBody& mb)
       : a_(a), tau_(tau), first_(first), ma_(ma), mb_(mb) {}
 
   /// Adds the points that strike `side`, whose part is null for the first side.
@@ -46,7 +46,7 @@ public:
   Push pushOf(const PatchSide* part);
   /// Whether all sides together push, and add no energy.
   bool isSound() const { return !(work_ > 0 || !(pushed_ > 0)); }
-  const std::vector<Mobile>& after() const { return after_; }
+  const std::vector<SolverBody>& after() const { return after_; }
   /// The place about which the push acts.
   Vec3 middleOf(const Push& push) const {
     return push.pushed > 0 ? Vec3(ma_.p + push.arm / push.pushed) : first_.point;
@@ -56,9 +56,9 @@ private:
   const Side& a_;
   double tau_;
   const Gap& first_;
-  const Mobile &ma_, &mb_;              ///< before the impact
-  std::vector<Mobile> before_, after_;  ///< of solve()
-  std::vector<ManifoldPoint> points_;   ///< gather()'s own
+  const SolverBody &ma_, &mb_;              ///< before the impact
+  std::vector<SolverBody> before_, after_;  ///< of solve()
+  std::vector<ManifoldPoint> points_;       ///< gather()'s own
   std::vector<SolverContact> contacts_;
   std::vector<PatchSide*> whose_;   ///< by contact; null: the first side's
   std::vector<Gap> gaps_;           ///< by point
@@ -67,7 +67,7 @@ private:
 };
 
 void FlatLanding::gather(const Side& side, PatchSide* part, double bounce, double grip) {
-  manifold(a_, side, tau_, std::max(first_.distance, 0.0) + kTogether, points_);
+  manifold(a_, side, tau_, std::max(first_.distance, 0.0) + kSameImpact, points_);
   for (const ManifoldPoint& p : points_) {
     const double comes = closing(ma_, mb_, p.gap);
     if (p.gap.normal.dot(first_.normal) < kSameSide || !(p.gap.distance < kSoon * comes)) continue;
@@ -121,7 +121,7 @@ FlatLanding::Push FlatLanding::pushOf(const PatchSide* part) {
 }  // namespace
 
 std::optional<PatchImpact> collidePatch(const Side& a, const Side& b, double tau, const Gap& first,
-                                        Mobile& ma, Mobile& mb, double restitution, double friction,
+                                        SolverBody& ma, SolverBody& mb, double restitution, double friction,
                                         std::vector<PatchSide>& beside) {
   if (!(closing(ma, mb, first) > 0) || strikesWithAPoint(a, ma, first.normal) ||
       strikesWithAPoint(b, mb, first.normal))

@@ -29,9 +29,9 @@ struct PatchImpact {
 };
 
 /// The impact of a against b, and against what is `beside` b, that begins with the touch `first`, if it has
-/// more points than that one: changes the velocities of the mobiles. None of it brings energy.
+/// more points than that one: changes the velocities of the solverBodies. None of it brings energy.
 std::optional<PatchImpact> collidePatch(const Side& a, const Side& b, double tau, const Gap& first,
-                                        Mobile& ma, Mobile& mb, double restitution, double friction,
+                                        SolverBody& ma, SolverBody& mb, double restitution, double friction,
                                         std::vector<PatchSide>& beside);
 
 }  // namespace stadion

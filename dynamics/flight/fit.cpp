@@ -11,7 +11,7 @@ namespace stadion {
 namespace {
 
 using Numbers = Eigen::VectorXd;
-constexpr int kRounds = 40;
+constexpr int kFitRounds = 40;
 
 /// What is tuned: numbers that make a rung.
 struct Tuning {
@@ -36,7 +36,8 @@ Residuals residualsOf(const FitTask& task, const FitTolerance& tolerance, const 
 }
 
 FittedRung tuned(const FitTask& task, const FitTolerance& tolerance, const Tuning& tuning) {
-  return tuning.make(leastSquares(residualsOf(task, tolerance, tuning), tuning.start, tuning.scale, kRounds));
+  return tuning.make(
+      leastSquares(residualsOf(task, tolerance, tuning), tuning.start, tuning.scale, kFitRounds));
 }
 
 /// A model of numbers; `start` says of which kind.

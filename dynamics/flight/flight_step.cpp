@@ -3,7 +3,7 @@
 #include "dynamics/flight/model_laws.h"
 #include "dynamics/flight/step_kernel.h"
 #include "dynamics/flight/swarm_step.h"
-#include "dynamics/maths/wide.h"
+#include "dynamics/maths/double4.h"
 
 #include <array>
 #include <cstring>
@@ -111,7 +111,7 @@ void FlightStepper::step(FlightState& state) const {
 }
 
 void FlightStepper::step(FlightSwarm& swarm) const {
-  const SwarmSteps& steps = hasWide() ? kFourSteps : kTwoSteps;
+  const SwarmSteps& steps = hasAvx2() ? kFourSteps : kTwoSteps;
   const auto n = asNumbers(numbers_->n);
   std::array<double*, FlightSwarm::kArrays> arrays;
   for (std::size_t k = 0; k < arrays.size(); ++k) arrays[k] = swarm.array(k);

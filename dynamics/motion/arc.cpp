@@ -1,6 +1,6 @@
 #include "dynamics/motion/arc.h"
 
-#include "dynamics/maths/wide.h"
+#include "dynamics/maths/double4.h"
 #include "engine/maths/functions.h"
 
 #include <algorithm>
@@ -24,26 +24,26 @@ void decay(double x, double& first, double& second) {
 /// with quaternions as (w, x, y, z). `k` are the moments' differences over the third, `q` and `w` begin with
 /// theirs.
 struct SpinSeries {
-  Wide q[Spin::kOrder + 1], w[Spin::kOrder + 1], k;
+  Double4 q[Spin::kOrder + 1], w[Spin::kOrder + 1], k;
 };
 
 /// In sums, what has just been found comes last: the rest does not wait for it.
 [[gnu::always_inline]] inline void expandSeries(SpinSeries& s) {
   constexpr int n = Spin::kOrder;
   // The products of quaternions are sums of permutations of q; those of w' are of (y, z, x) and (z, x, y).
-  Wide byI[n], byJ[n], byK[n], next[n], last[n];
+  Double4 byI[n], byJ[n], byK[n], next[n], last[n];
 #pragma GCC unroll 16
   for (int i = 0; i < n; ++i) {
-    const Wide q = s.q[i], v = s.w[i];
-    byI[i] = Wide{-1, 1, 1, -1} * __builtin_shufflevector(q, q, 1, 0, 3, 2);
-    byJ[i] = Wide{-1, -1, 1, 1} * __builtin_shufflevector(q, q, 2, 3, 0, 1);
-    byK[i] = Wide{-1, 1, -1, 1} * __builtin_shufflevector(q, q, 3, 2, 1, 0);
+    const Double4 q = s.q[i], v = s.w[i];
+    byI[i] = Double4{-1, 1, 1, -1} * __builtin_shufflevector(q, q, 1, 0, 3, 2);
+    byJ[i] = Double4{-1, -1, 1, 1} * __builtin_shufflevector(q, q, 2, 3, 0, 1);
+    byK[i] = Double4{-1, 1, -1, 1} * __builtin_shufflevector(q, q, 3, 2, 1, 0);
     next[i] = __builtin_shufflevector(v, v, 1, 2, 0, 3), last[i] = __builtin_shufflevector(v, v, 2, 0, 1, 3);
-    Wide dw{}, dq{};
+    Double4 dw{}, dq{};
 #pragma GCC unroll 16
     for (int k = 1; k <= i + 1; ++k) {
       const int j = k % (i + 1);
-      const Wide& u = s.w[i - j];
+      const Double4& u = s.w[i - j];
       dw += next[j] * last[i - j];
       dq += u[0] * byI[j] + u[1] * byJ[j] + u[2] * byK[j];
     }
@@ -52,7 +52,7 @@ struct SpinSeries {
     s.q[i + 1] = 0.5 * share * dq;
   }
 }
-[[gnu::target("avx2")]] void expandWide(SpinSeries& s) {
+[[gnu::target("avx2")]] void expandAvx2(SpinSeries& s) {
   expandSeries(s);
 }
 void expandPlain(SpinSeries& s) {
@@ -62,11 +62,11 @@ void expandPlain(SpinSeries& s) {
 void expand(Spin& s, const Vec3& inertia) {
   constexpr std::size_t n = Spin::kOrder;
   SpinSeries terms;
-  terms.q[0] = Wide{s.q0.w(), s.q0.x(), s.q0.y(), s.q0.z()};
+  terms.q[0] = Double4{s.q0.w(), s.q0.x(), s.q0.y(), s.q0.z()};
   set(terms.w[0], s.inverse.cwiseProduct(s.q0.conjugate() * s.L));
-  terms.k = Wide{(inertia.y() - inertia.z()) * s.inverse.x(), (inertia.z() - inertia.x()) * s.inverse.y(),
-                 (inertia.x() - inertia.y()) * s.inverse.z(), 0};
-  hasWide() ? expandWide(terms) : expandPlain(terms);
+  terms.k = Double4{(inertia.y() - inertia.z()) * s.inverse.x(), (inertia.z() - inertia.x()) * s.inverse.y(),
+                    (inertia.x() - inertia.y()) * s.inverse.z(), 0};
+  hasAvx2() ? expandAvx2(terms) : expandPlain(terms);
   for (std::size_t i = 0; i <= n; ++i)
     s.series[i] = {terms.q[i][0], terms.q[i][1], terms.q[i][2], terms.q[i][3]};
   // As far as the last two terms stay below the tolerance, of which what follows them is a tenth; they may
@@ -80,17 +80,17 @@ void expand(Spin& s, const Vec3& inertia) {
 /// A series of degree 16, or its rate of change, in four chains of every fourth power: a single one would
 /// wait for its own results.
 template <bool kRate, int kStride>
-[[gnu::always_inline]] inline void sumSeries(const double* c, double t, Wide& sum) {
+[[gnu::always_inline]] inline void sumSeries(const double* c, double t, Double4& sum) {
   static_assert(Path::kMostDegree == 16 && Spin::kOrder == 16);
   constexpr int kLowest = kRate ? 1 : 0;
   const double t2 = t * t, t4 = t2 * t2;
-  Wide chain[4];  // of powers lowest + k, + 4, + 8 ...
+  Double4 chain[4];  // of powers lowest + k, + 4, + 8 ...
 #pragma GCC unroll 4
   for (int k = 0; k < 4; ++k) {
     const int top = (16 - kLowest - k) / 4 * 4 + kLowest + k;
 #pragma GCC unroll 5
     for (int i = top; i >= kLowest; i -= 4) {
-      Wide term = *reinterpret_cast<const WideAnywhere*>(c + kStride * i);
+      Double4 term = *reinterpret_cast<const UnalignedDouble4*>(c + kStride * i);
       if (kRate) term *= static_cast<double>(i);
       chain[k] = i == top ? term : chain[k] * t4 + term;
     }
@@ -98,17 +98,17 @@ template <bool kRate, int kStride>
   sum = (chain[0] + t * chain[1]) + t2 * (chain[2] + t * chain[3]);
 }
 template <bool kRate, int kStride>
-[[gnu::target("avx2")]] void sumWide(const double* c, double t, Wide& sum) {
+[[gnu::target("avx2")]] void sumAvx2(const double* c, double t, Double4& sum) {
   sumSeries<kRate, kStride>(c, t, sum);
 }
 /// Of terms of three numbers (and one more behind the last) or of four.
 template <bool kRate, int kStride>
-void sum(const double* c, double t, Wide& sum) {
-  hasWide() ? sumWide<kRate, kStride>(c, t, sum) : sumSeries<kRate, kStride>(c, t, sum);
+void sum(const double* c, double t, Double4& sum) {
+  hasAvx2() ? sumAvx2<kRate, kStride>(c, t, sum) : sumSeries<kRate, kStride>(c, t, sum);
 }
 template <bool kRate>
 Vec3 sumOf(const Path& path, double t) {
-  Wide s;
+  Double4 s;
   sum<kRate, 3>(path.c[0].data(), t, s);
   return firstThree(s);
 }
@@ -330,7 +330,7 @@ Quat Spin::precession(double t) const {
 }
 
 Quat Spin::seriesOrientation(double t) const {
-  Wide q;
+  Double4 q;
   sum<false, 4>(series[0].data(), t, q);
   return renormalised(Quat(q[0], q[1], q[2], q[3]));
 }

@@ -1,6 +1,6 @@
 #include "dynamics/motion/drag_flight.h"
 
-#include "dynamics/maths/wide.h"
+#include "dynamics/maths/double4.h"
 
 #include <algorithm>
 #include <array>
@@ -20,10 +20,10 @@ constexpr auto kInverse = [] {
 
 /// u of v - wind (and 0), |u|, and the rate of loss c + k |u|; the first of each are given.
 struct DragSeries {
-  Wide u[kOrder];
+  Double4 u[kOrder];
   double speed[kOrder], rate[kOrder];
   double quadratic;
-  Wide pull;
+  Double4 pull;
 };
 
 /// In sums, what has just been found comes last: the rest does not wait for it.
@@ -34,7 +34,7 @@ struct DragSeries {
     if (n > 0) {
       // |u|_0 |u|_n = half the sum of u_i u_(n-i), less that of |u|_i |u|_(n-i) but for its ends.
       const int middle = n / 2;
-      Wide products{};
+      Double4 products{};
       double others = 0;
       if (n % 2 == 0)
         products = 0.5 * s.u[middle] * s.u[middle], others = 0.5 * s.speed[middle] * s.speed[middle];
@@ -46,14 +46,14 @@ struct DragSeries {
       const double sum = (products[0] + products[1]) + (products[2] - others);
       s.speed[n] = sum * inverse, s.rate[n] = sum * share;
     }
-    Wide lost{};
+    Double4 lost{};
 #pragma GCC unroll 16
     for (int i = 1; i <= n; ++i) lost += s.rate[n - i] * s.u[i];
     lost += s.rate[n] * s.u[0];
     s.u[n + 1] = n == 0 ? s.pull - lost : -kInverse[n + 1] * lost;
   }
 }
-[[gnu::target("avx2")]] void expandWide(DragSeries& s) {
+[[gnu::target("avx2")]] void expandAvx2(DragSeries& s) {
   expandSeries(s);
 }
 void expandPlain(DragSeries& s) {
@@ -76,7 +76,7 @@ double dragFlight(const Vec3& p, const Vec3& v, const Vec3& pull, const Drag& dr
   if (drag.quadratic > 0 && !(speed > 1e-6)) return 0;
   set(s.u[0], u0), set(s.pull, pull);
   s.speed[0] = speed, s.rate[0] = drag.linear + drag.quadratic * speed, s.quadratic = drag.quadratic;
-  hasWide() ? expandWide(s) : expandPlain(s);
+  hasAvx2() ? expandAvx2(s) : expandPlain(s);
   path.kind = Path::Kind::Polynomial, path.degree = kOrder;
   path.c[0] = p, path.c[1] = v;
   for (int n = 1; n < kOrder; ++n)

@@ -97,7 +97,7 @@ BodyAttributes bodyAttributesOf(const Declaration& d) {
   body.spin = d.number("spin") * kDegree;
   if (d.has("nose")) body.nose = d.vec3("nose").normalized();
   if (const auto angle = d.optionalNumber("sticks")) body.sticks = *angle * kDegree;
-  body.stickDepth = d.number("depth");
+  body.tipDepth = d.number("depth");
   for (const NodeReference& hook : d.references("hook")) body.hooks.push_back(std::string(hook.name));
   return body;
 }

@@ -143,7 +143,7 @@ std::vector<CollisionNode::Overlap> CollisionNode::overlaps(double deeperThan) c
   // In the order of the script, colliders first.
   struct Present {
     const Part* part;
-    Party party;
+    ContactSide key;
     Aabb box{};
     std::uint32_t place = kUnfiled;
   };
@@ -156,7 +156,7 @@ std::vector<CollisionNode::Overlap> CollisionNode::overlaps(double deeperThan) c
   std::vector<BroadPhase<Present>::Entry> entries;
   for (Present& p : all) {
     if (const Shape* shape = world_.shape(p.part->shape))
-      p.box = boxAround(*shape, p.party.isBody ? world_.pose(p.party.id) : p.part->pose);
+      p.box = boxAround(*shape, p.key.isBody ? world_.pose(p.key.id) : p.part->pose);
     entries.push_back({p.box, &p});
   }
   BroadPhase<Present> near;
@@ -167,11 +167,11 @@ std::vector<CollisionNode::Overlap> CollisionNode::overlaps(double deeperThan) c
   for (std::size_t i = bodies; i < all.size(); ++i) {
     partners.clear();
     near.eachNear(all[i].box, [&](const Present& other) {
-      if (!other.party.isBody || &other > &all[i]) partners.push_back(&other);
+      if (!other.key.isBody || &other > &all[i]) partners.push_back(&other);
     });
     std::ranges::sort(partners);
     for (const Present* other : partners) {
-      const double separation = world_.separation(other->party, all[i].party);
+      const double separation = world_.separation(other->key, all[i].key);
       if (separation < -deeperThan) found.push_back({other->part->name, all[i].part->name, -separation});
     }
   }
@@ -252,7 +252,7 @@ bool CollisionNode::followBody(Part& part, const Pose& before, const FrameContex
   const Placements& placements = scene.placements();
   const DynObjectNode* body = nullptr;
   for (NodeRef at = part.ref; at.valid() && !body; at = scene.tree().parentOf(at)) {
-    const Load* load = scene.tree().load(at.load);
+    const LoadedScene* load = scene.tree().load(at.load);
     body = load ? dynamic_cast<const DynObjectNode*>(load->nodes[at.position].get()) : nullptr;
   }
   const BodyWay* way = body && body->movedBy() != self() ? body->wayIn(frame.now.frame) : nullptr;
@@ -357,10 +357,9 @@ void CollisionNode::afterSimulation(FrameContext& frame) {
   awake_ = afterStep(frame) || span_.outside;
 }
 
-NodeRef CollisionNode::nodeOf(Party party) const {
-  const std::vector<Part>& parts = party.isBody ? collidees_ : colliders_;
-  const auto at =
-      std::ranges::find_if(parts, [&](const Part& p) { return p.ref.valid() && p.id == party.id; });
+NodeRef CollisionNode::nodeOf(ContactSide key) const {
+  const std::vector<Part>& parts = key.isBody ? collidees_ : colliders_;
+  const auto at = std::ranges::find_if(parts, [&](const Part& p) { return p.ref.valid() && p.id == key.id; });
   return at == parts.end() ? NodeRef{} : at->ref;
 }
 
@@ -392,7 +391,7 @@ void CollisionNode::addMovers(const Scene& scene, std::vector<NodeRef>& movers) 
 
 void CollisionNode::addMover(NodeRef node, const Scene& scene, std::vector<NodeRef>& movers) const {
   for (NodeRef at = node; at.valid(); at = scene.tree().parentOf(at)) {
-    const Load* load = scene.tree().load(at.load);
+    const LoadedScene* load = scene.tree().load(at.load);
     const auto* body = load ? dynamic_cast<const DynObjectNode*>(load->nodes[at.position].get()) : nullptr;
     if (!body || !body->movedBy().valid() || body->movedBy() == self()) continue;
     if (std::ranges::find(movers, body->movedBy()) == movers.end()) movers.push_back(body->movedBy());
@@ -401,7 +400,7 @@ void CollisionNode::addMover(NodeRef node, const Scene& scene, std::vector<NodeR
 
 bool CollisionNode::isMovedBy(const Node& mover, NodeRef node, const Scene& scene) {
   for (NodeRef at = node; at.valid(); at = scene.tree().parentOf(at)) {
-    const Load* load = scene.tree().load(at.load);
+    const LoadedScene* load = scene.tree().load(at.load);
     const auto* body = load ? dynamic_cast<const DynObjectNode*>(load->nodes[at.position].get()) : nullptr;
     if (body && body->movedBy() == mover.self()) return true;
   }

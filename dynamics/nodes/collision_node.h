@@ -149,7 +149,7 @@ protected:
 
 private:
   void noteImpacts(Scene& scene) const;
-  NodeRef nodeOf(Party party) const;
+  NodeRef nodeOf(ContactSide key) const;
   void findParts(Scene& scene);
   void findPart(Part& part, Scene& scene);
   ColliderDef colliderOf(Part& part, const ObjectNode& object, const Scene& scene);

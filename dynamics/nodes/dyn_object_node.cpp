@@ -55,21 +55,21 @@ void DynObjectNode::ask(Request request) {
 void DynObjectNode::receive(const Message& m, FrameContext& frame) {
   const Nanoseconds when = frame.effective(m);
   const auto argument = [&](std::size_t i) { return m.arguments.size() > i ? m.arguments[i] : "wand"; };
-  switch (m.verb) {
-  case Verb::Hook:
-  case Verb::Unhook: {
+  switch (m.command) {
+  case CommandId::Hook:
+  case CommandId::Unhook: {
     if (!m.node.valid()) return;
-    const bool hook = m.verb == Verb::Hook;
+    const bool hook = m.command == CommandId::Hook;
     std::erase(hooked_, m.node);
     if (hook) hooked_.push_back(m.node);
     ask({when, hook ? Request::Kind::Hook : Request::Kind::Unhook, m.node, {}});
     break;
   }
-  case Verb::Grab: ask({when, Request::Kind::Grab, {}, argument(0)}); break;
-  case Verb::Attach: ask({when, Request::Kind::Grab, {}, argument(1)}); break;  // to the hand, as a body
-  case Verb::Release:
-  case Verb::Detach: ask({when, Request::Kind::Release, {}, {}}); break;
-  case Verb::Reset:
+  case CommandId::Grab: ask({when, Request::Kind::Grab, {}, argument(0)}); break;
+  case CommandId::Attach: ask({when, Request::Kind::Grab, {}, argument(1)}); break;  // to the hand, as a body
+  case CommandId::Release:
+  case CommandId::Detach: ask({when, Request::Kind::Release, {}, {}}); break;
+  case CommandId::Reset:
     restoreHooks(when, frame.scene);
     ask({when, Request::Kind::Reset, {}, {}});
     ObjectNode::receive(m, frame);

@@ -36,7 +36,7 @@ struct BodyAttributes {
   double spin = 0;               ///< about its axis of symmetry, added when a hand lets go [rad/s]
   std::optional<Vec3> nose;      ///< the way its tip points, in the model, unit
   std::optional<double> sticks;  ///< up to this angle from straight on [rad]
-  double stickDepth = 0;         ///< how far the tip goes in [m]
+  double tipDepth = 0;           ///< how far the tip goes in [m]
   bool simulated = true;         ///< false: no dynamics node takes it in, to see what a show costs without
 
   /// Of a closed shape. The centre that is stated grows with the model's scale; mass and moments do not.

@@ -60,7 +60,7 @@ void DynamicsNode::addCollidee(Part& part, ObjectNode& object, Scene& scene) {
   if (const Mesh* model = body.sticks ? scene.instances().mesh(object.appearance().mesh) : nullptr) {
     const Mesh mesh = scaled(*model, part.fit->scale.cast<float>());
     const Vec3 nose = body.nose ? *body.nose : measureShape(mesh, def.mass.centre).q_NA * Vec3::UnitX();
-    def.stick = stickAlong(nose, *body.sticks, body.stickDepth, mesh);
+    def.embedding = tipEmbeddingAlong(nose, *body.sticks, body.tipDepth, mesh);
   }
   part.id = world_.addBody(def);
   world_.traceBody(part.id, true);  // nodes that look at it may be visited only after this one
@@ -213,7 +213,7 @@ void DynamicsNode::carryFields(const Grip& grip, const Scene& scene) {
   std::vector<FieldId> carried;
   const auto moves = [&](NodeRef ref) {
     if (ref == grip.node) return true;
-    const Load* load = scene.tree().load(ref.load);
+    const LoadedScene* load = scene.tree().load(ref.load);
     const auto* placed = load ? dynamic_cast<const PlacedNode*>(load->nodes[ref.position].get()) : nullptr;
     return placed && placed->follows(grip.tracker);
   };
@@ -334,7 +334,7 @@ bool DynamicsNode::resume(Scene& scene) {
   if (!resumeParts(scene)) return false;
   // A field's file may have gone; where it is there, so is the field.
   const auto isThere = [&](NodeRef ref) {
-    const Load* load = scene.tree().load(ref.load);
+    const LoadedScene* load = scene.tree().load(ref.load);
     return !load || ref.position < load->nodes.size();
   };
   if (!std::ranges::all_of(fields_, isThere, &Field::ref)) return false;

@@ -204,7 +204,7 @@ std::optional<ConvexShape> convexHull(const std::vector<Vec3>& cloud) {
   points.erase(std::unique(points.begin(), points.end()), points.end());
   Builder builder(points);
   if (!builder.run()) return {};
-  // Only the corners stay, numbered anew.
+  // Only the corners stay, with new numbers.
   std::map<Index, Index> number;
   for (const Facet& f : builder.facets())
     for (const Index v : f.v) number.emplace(v, 0);

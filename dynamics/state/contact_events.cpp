@@ -14,7 +14,7 @@ std::uint64_t ContactMemory::share(const Key& pair, const Memory& m) {
   return h.value();
 }
 
-ContactMemory::Key ContactMemory::keyOf(Party a, Party b) {
+ContactMemory::Key ContactMemory::keyOf(ContactSide a, ContactSide b) {
   if (a.isBody && (!b.isBody || b.id < a.id)) std::swap(a, b);
   return {a, b.id};
 }
@@ -103,7 +103,7 @@ void ContactMemory::leave(Memory& m) {
   m.waiting = kNowhere;
 }
 
-void ContactMemory::forget(Party gone) {
+void ContactMemory::forget(ContactSide gone) {
   std::vector<Key> pairs;
   eachWith(gone, [&](const Key& pair) { pairs.push_back(pair); });
   for (const Key& pair : pairs) erase(pair);
@@ -126,13 +126,13 @@ void ContactMemory::forgetIdle() {
   idle_ = 0;
 }
 
-void rememberTouching(ContactMemory& memory, RigidBody& b, const std::vector<Party>& near) {
-  const auto in = [](const std::vector<Party>& list, Party p) {
+void rememberTouching(ContactMemory& memory, RigidBody& b, const std::vector<ContactSide>& near) {
+  const auto in = [](const std::vector<ContactSide>& list, ContactSide p) {
     return std::find(list.begin(), list.end(), p) != list.end();
   };
-  for (const Party p : near)
+  for (const ContactSide p : near)
     if (!in(b.contact.leaning, p)) memory.setTouching(ContactMemory::keyOf(p, {true, b.id}), true);
-  for (const Party p : b.contact.leaning)
+  for (const ContactSide p : b.contact.leaning)
     if (!in(near, p)) memory.setTouching(ContactMemory::keyOf(p, {true, b.id}), false);
   b.contact.leaning = near;
 }

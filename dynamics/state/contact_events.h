@@ -17,9 +17,9 @@ constexpr double kImpactSpeed = 0.05;
 
 class ContactMemory {
 public:
-  using Key = std::pair<Party, BodyId>;
-  static Key keyOf(Party a,
-                   Party b);  ///< at least one side is a body; the body with the greater id comes last
+  using Key = std::pair<ContactSide, BodyId>;
+  static Key keyOf(ContactSide a,
+                   ContactSide b);  ///< at least one side is a body; the body with the greater id comes last
 
   /// Forgets the last frame's events and tells what has been owed since.
   void beginFrame();
@@ -35,7 +35,7 @@ public:
   void releaseLater(const Key& pair, Nanoseconds time);
   /// That pair if its release has yet to be told, else null.
   Waiting* waitingOf(const Key& pair);
-  void forget(Party gone);
+  void forget(ContactSide gone);
 
   /// A pair whose impact has been told and whose release has not.
   struct Waiting {
@@ -60,9 +60,9 @@ public:
   std::uint64_t digest() const { return digest_; }
   /// In no order. What decides when to look may be changed.
   std::vector<Waiting>& waiting() { return waiting_; }
-  /// f(key) for all pairs with this party. f must not change them.
+  /// f(key) for all pairs with this key. f must not change them.
   template <class F>
-  void eachWith(Party p, F f) const {
+  void eachWith(ContactSide p, F f) const {
     for (auto m = memory_.lower_bound({p, 0}); m != memory_.end() && m->first.first == p; ++m)
       if (!m->second.idle()) f(m->first);
     if (!p.isBody) return;
@@ -73,7 +73,7 @@ public:
   const std::vector<ContactEvent>& events() const { return events_; }
 
   /// All but the events, to be written down or put back. Of those that wait, what is told of versions is
-  /// asked for again: `versionOf(party)` points at it.
+  /// asked for again: `versionOf(key)` points at it.
   template <class Fields, class VersionOf>
   void state(Fields& f, const VersionOf& versionOf) {
     f("pairs", memory_), f("idle", idle_), f("digest", digest_);
@@ -122,7 +122,7 @@ private:
   std::size_t idle_ = 0;      ///< so many of them remember nothing
   std::uint64_t digest_ = 0;  ///< a sum over the others
   std::vector<Waiting> waiting_;
-  std::set<std::pair<BodyId, Party>> others_;  ///< the same pairs by their body
+  std::set<std::pair<BodyId, ContactSide>> others_;  ///< the same pairs by their body
   std::vector<ContactEvent> events_;
   struct Owed {
     Key pair;
@@ -138,6 +138,6 @@ private:
 };
 
 /// The memory notes what the body touches from now on, `near`, and what it no longer does.
-void rememberTouching(ContactMemory& memory, RigidBody& b, const std::vector<Party>& near);
+void rememberTouching(ContactMemory& memory, RigidBody& b, const std::vector<ContactSide>& near);
 
 }  // namespace stadion

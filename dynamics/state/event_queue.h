@@ -22,7 +22,7 @@ public:
     double tau = 0;           ///< [s]
     std::uint64_t order = 0;  ///< number in the order of posting
     Kind kind = Kind::Touch;
-    Party a, b;
+    ContactSide a, b;
     std::uint32_t versionA = 0, versionB = 0;
     std::uint32_t detail = 0;  ///< index of the touch, or number of the tick
     /// Reversed, so that the first event is at the top of the heap.
@@ -47,14 +47,14 @@ public:
     post(e);
   }
   /// The motion of `p` ends at tau, or turns.
-  void postHorizon(double tau, Party p, std::uint32_t version) {
+  void postHorizon(double tau, ContactSide p, std::uint32_t version) {
     Event e;
     e.tau = tau, e.kind = Event::Kind::Horizon, e.a = p, e.versionA = version;
     post(e);
   }
   void postTouch(double tau, const Side& a, const Side& b, const Touch& touch) {
     Event e;
-    e.tau = tau, e.kind = Event::Kind::Touch, e.a = a.party, e.b = b.party;
+    e.tau = tau, e.kind = Event::Kind::Touch, e.a = a.key, e.b = b.key;
     e.versionA = a.version(), e.versionB = b.version();
     e.detail = static_cast<std::uint32_t>(touches_.size());
     touches_.push_back(touch);

@@ -109,7 +109,7 @@ void FieldCommands::followFields() {
     if (!concerned || !b.enabled) continue;
     // A pile's step goes on. So does a step that ends at once, since a part of a frame may be as short.
     if (b.mode == BodyMode::Contact &&
-        (b.contact.crowd || b.contact.dueAge - b.age(time_.from()) <= kShortestStep))
+        (b.contact.inPile || b.contact.dueAge - b.age(time_.from()) <= kShortestStep))
       continue;
     stir(b);
   }

@@ -10,7 +10,7 @@
 namespace stadion {
 
 /// Whether the body slides, rolls or rests on `p`, or touches it in lasting contact.
-bool leansOn(const RigidBody& b, Party p);
+bool leansOn(const RigidBody& b, ContactSide p);
 
 class SupportGraph {
 public:
@@ -18,10 +18,10 @@ public:
 
   /// Notes what the body leans on. Entries may be out of date, but none is missing.
   void note(const RigidBody& b);
-  bool bears(Party p) const;
+  bool bears(ContactSide p) const;
   /// Appends the bodies that may lean on p, by id.
-  void leanersOf(Party p, std::vector<BodyId>& out) const;
-  void drop(Party p, BodyId leaner) { leaners_.erase({p, leaner}); }
+  void leanersOf(ContactSide p, std::vector<BodyId>& out) const;
+  void drop(ContactSide p, BodyId leaner) { leaners_.erase({p, leaner}); }
   void forgetBody(BodyId id);
 
   template <class Fields>
@@ -31,7 +31,7 @@ public:
 
 private:
   const WorldObjects& objects_;
-  std::set<std::pair<Party, BodyId>> leaners_;
+  std::set<std::pair<ContactSide, BodyId>> leaners_;
   std::size_t pruneAt_ = 64;  ///< number of entries at which those out of date are removed
 };
 

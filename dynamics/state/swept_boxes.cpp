@@ -47,7 +47,7 @@ void SweptBoxes::sweep(RigidBody& b, double tau) {
   } else {
     const double end = b.pathAge - b.age0;
     Aabb box = sweptBody(b, tau, std::max(tau, std::min(time_.windowEnd(), end)));
-    if (b.contact.crowd) {  // steps are short and many: a roomy box serves several
+    if (b.contact.inPile) {  // steps are short and many: a roomy box serves several
       if (b.place != kUnfiled && holds(b.swept, box)) return;
       const double room = 0.004 + 0.05 * b.velocity(tau).norm();
       b.swept.lo = box.lo.array() - room, b.swept.hi = box.hi.array() + room;

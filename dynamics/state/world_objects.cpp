@@ -5,7 +5,7 @@
 namespace stadion {
 namespace {
 
-std::pair<Party, Party> ordered(Party a, Party b) {
+std::pair<ContactSide, ContactSide> ordered(ContactSide a, ContactSide b) {
   return a < b ? std::pair(a, b) : std::pair(b, a);
 }
 
@@ -50,7 +50,7 @@ Collider& WorldObjects::addCollider(ShapeId shape) {
   return c;
 }
 
-void WorldObjects::forgetPairsOf(Party p) {
+void WorldObjects::forgetPairsOf(ContactSide p) {
   std::erase_if(ignored_, [&](const auto& pair) { return pair.first == p || pair.second == p; });
 }
 
@@ -66,18 +66,18 @@ void WorldObjects::remove(const Collider& c) {
   colliders_.erase(c.id);
 }
 
-const std::uint32_t* WorldObjects::versionPointer(Party p) const {
+const std::uint32_t* WorldObjects::versionPointer(ContactSide p) const {
   if (const RigidBody* b = p.isBody ? body(p.id) : nullptr) return &b->version;
   if (const Collider* c = p.isBody ? nullptr : collider(p.id)) return &c->version;
   return nullptr;
 }
 
-std::uint32_t WorldObjects::versionOf(Party p) const {
+std::uint32_t WorldObjects::versionOf(ContactSide p) const {
   const std::uint32_t* version = versionPointer(p);
   return version ? *version : 0;
 }
 
-void WorldObjects::ignore(Party a, Party b, bool on) {
+void WorldObjects::ignore(ContactSide a, ContactSide b, bool on) {
   if (on)
     ignored_.insert(ordered(a, b));
   else
@@ -86,7 +86,7 @@ void WorldObjects::ignore(Party a, Party b, bool on) {
 
 bool WorldObjects::mayTouch(const Side& a, const Side& b) const {
   if (a.body && b.body && !bodiesCollide_) return false;
-  return ignored_.empty() || !ignored_.count(ordered(a.party, b.party));
+  return ignored_.empty() || !ignored_.count(ordered(a.key, b.key));
 }
 
 bool WorldObjects::giveBack(ShapeId id, std::shared_ptr<const Shape> shape) {

@@ -38,7 +38,7 @@ public:
   const IdTable<Collider>& colliders() const { return colliders_; }
 
   /// Nothing of a body or collider that is off or does not exist.
-  std::optional<Side> side(Party p) const {
+  std::optional<Side> side(ContactSide p) const {
     if (p.isBody) {
       const RigidBody* b = body(p.id);
       return b && b->enabled ? std::optional(Side::of(*b)) : std::nullopt;
@@ -46,12 +46,14 @@ public:
     const Collider* c = collider(p.id);
     return c && c->enabled ? std::optional(Side::of(*c)) : std::nullopt;
   }
-  const Surface& surfaceOf(Party p) const { return p.isBody ? body(p.id)->surface : collider(p.id)->surface; }
+  const Surface& surfaceOf(ContactSide p) const {
+    return p.isBody ? body(p.id)->surface : collider(p.id)->surface;
+  }
   /// Version of the motion; 0 of what does not exist.
-  std::uint32_t versionOf(Party p) const;
-  const std::uint32_t* versionPointer(Party p) const;
+  std::uint32_t versionOf(ContactSide p) const;
+  const std::uint32_t* versionPointer(ContactSide p) const;
 
-  void ignore(Party a, Party b, bool on);
+  void ignore(ContactSide a, ContactSide b, bool on);
   void setBodiesCollide(bool on) { bodiesCollide_ = on; }
   /// Whether the two sides collide with each other.
   bool mayTouch(const Side& a, const Side& b) const;
@@ -89,13 +91,13 @@ private:
     Sphere bound;
     std::uint32_t uses = 0;
   };
-  void forgetPairsOf(Party p);
+  void forgetPairsOf(ContactSide p);
 
   IdTable<ShapeEntry> shapes_;
   IdTable<RigidBody> bodies_;
   IdTable<Collider> colliders_;
   std::uint32_t nextShape_ = 1, nextBody_ = 1, nextCollider_ = 1;
-  std::set<std::pair<Party, Party>> ignored_;
+  std::set<std::pair<ContactSide, ContactSide>> ignored_;
   bool bodiesCollide_ = true;
   std::vector<BodyId> flightless_;  ///< restored bodies that wait for their flights
 };

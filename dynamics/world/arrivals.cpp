@@ -12,15 +12,15 @@ constexpr double kTouchesAtLoad = 1e-5;  ///< nearer than this when they appear,
 }  // namespace
 
 void Arrivals::settle() {
-  const std::vector<Party> arrived = arrivals();
+  const std::vector<ContactSide> arrived = arrivals();
   settleFresh(arrived);
   if (active_.size() < objects_.bodies().size())  // some body sleeps
-    for (const Party p : arrived) wakeWithin(p);
+    for (const ContactSide p : arrived) wakeWithin(p);
 }
 
 /// What has appeared or jumped since the last frame: colliders, then bodies.
-std::vector<Party> Arrivals::arrivals() const {
-  std::vector<Party> arrived;
+std::vector<ContactSide> Arrivals::arrivals() const {
+  std::vector<ContactSide> arrived;
   for (const ColliderId id : changes_.colliders())
     if (const Collider* c = objects_.collider(id); c && c->enabled && (c->fresh || c->disturbed))
       arrived.push_back({false, id});
@@ -30,7 +30,7 @@ std::vector<Party> Arrivals::arrivals() const {
 }
 
 /// Sleepers that something has been put into wake.
-void Arrivals::wakeWithin(Party arrived) {
+void Arrivals::wakeWithin(ContactSide arrived) {
   const Side self = *objects_.side(arrived);
   std::vector<RigidBody*> woken;
   boxes_.eachBody(self.body ? self.body->swept : self.collider->swept, [&](RigidBody& o) {
@@ -45,7 +45,7 @@ void Arrivals::wakeWithin(Party arrived) {
 }
 
 /// Pairs that touch when one of them appears are in contact and fire nothing.
-void Arrivals::settleFresh(const std::vector<Party>& arrived) {
+void Arrivals::settleFresh(const std::vector<ContactSide>& arrived) {
   struct Settler {
     RigidBody* body;
     std::vector<std::pair<Side, Gap>> touching;
@@ -55,10 +55,10 @@ void Arrivals::settleFresh(const std::vector<Party>& arrived) {
     if (!objects_.mayTouch(self, other)) return;
     const Gap g = gapBetween(self, other, time_.from(), {0.01});
     if (!(g.distance < kTouchesAtLoad)) return;
-    memory_.setTouching(ContactMemory::keyOf(self.party, other.party), true);
+    memory_.setTouching(ContactMemory::keyOf(self.key, other.key), true);
     if (touching) touching->emplace_back(other, g);
   };
-  for (const Party p : arrived) {
+  for (const ContactSide p : arrived) {
     if (Collider* c = p.isBody ? nullptr : objects_.collider(p.id)) {
       if (c->fresh)
         boxes_.eachBody(c->swept, [&](RigidBody& o) {
@@ -77,10 +77,10 @@ void Arrivals::settleFresh(const std::vector<Party>& arrived) {
   }
   for (const Settler& s : settlers) s.body->fresh = false;
   for (const Settler& s : settlers) {
-    waysOut_.find(*s.body);
-    for (const WayOut& w : s.body->grip.waysOut)
+    recoveries_.find(*s.body);
+    for (const PenetrationRecovery& w : s.body->grip.recoveries)
       memory_.setTouching(ContactMemory::keyOf({false, w.of}, {true, s.body->id}), true);
-    if (!s.body->grip.waysOut.empty())
+    if (!s.body->grip.recoveries.empty())
       waking_.enterContact(*s.body, time_.from());
     else if (!s.touching.empty())
       settle(*s.body, s.touching);
@@ -98,7 +98,7 @@ void Arrivals::settle(RigidBody& b, const std::vector<std::pair<Side, Gap>>& tou
   Support face;
   if (touching.size() == 1 && other.collider && gap.distance > -1e-4 &&
       supportFor(b, *other.collider, gap, face)) {
-    if (away > 1e-9) memory_.setTouching(ContactMemory::keyOf(other.party, {true, b.id}), false);
+    if (away > 1e-9) memory_.setTouching(ContactMemory::keyOf(other.key, {true, b.id}), false);
     if (away > 1e-9 || !pressed) return;  // it leaves by itself
     b.support = face;
     arcs_.startOnFace(b, tau, {k.p, k.v - gap.normal * away, k.omega, b.orientation(tau)}, false, false);
@@ -112,7 +112,7 @@ void Arrivals::settle(RigidBody& b, const std::vector<std::pair<Side, Gap>>& tou
         (carried || g.distance < -1e-4 || fields_.accelerationAt(b, k.p, k.v, tau).dot(g.normal) < 0))
       lasting = true;
     else if (u.dot(g.normal) > kImpactSpeed)  // they part, and will meet as if they had never touched
-      memory_.setTouching(ContactMemory::keyOf(o.party, {true, b.id}), false);
+      memory_.setTouching(ContactMemory::keyOf(o.key, {true, b.id}), false);
   }
   if (lasting && fields_.accelerationAt(b, k.p, k.v, tau).squaredNorm() > 0) waking_.enterContact(b, tau);
 }

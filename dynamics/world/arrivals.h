@@ -1,8 +1,8 @@
 #pragma once
 /// Bodies and colliders that have appeared or jumped: pairs that touch then are in contact and fire nothing.
 
+#include "dynamics/world/penetration_recoveries.h"
 #include "dynamics/world/waking.h"
-#include "dynamics/world/ways_out.h"
 
 #include <utility>
 #include <vector>
@@ -13,18 +13,18 @@ class Arrivals {
 public:
   Arrivals(const WorldTime& time, WorldObjects& objects, const FieldSet& fields, ContactMemory& memory,
            const ActiveBodies& active, const ChangedMotions& changes, const SweptBoxes& boxes, BodyArcs& arcs,
-           Waking& waking, WaysOut& waysOut)
+           Waking& waking, PenetrationRecoveries& waysOut)
       : time_(time), objects_(objects), fields_(fields), memory_(memory), active_(active), changes_(changes),
-        boxes_(boxes), arcs_(arcs), waking_(waking), waysOut_(waysOut) {}
+        boxes_(boxes), arcs_(arcs), waking_(waking), recoveries_(waysOut) {}
 
   /// Settles all that has arrived since the last frame, and wakes the bodies that it was put into.
   void settle();
 
 private:
-  std::vector<Party> arrivals() const;
-  void settleFresh(const std::vector<Party>& arrived);
+  std::vector<ContactSide> arrivals() const;
+  void settleFresh(const std::vector<ContactSide>& arrived);
   void settle(RigidBody& b, const std::vector<std::pair<Side, Gap>>& touching);
-  void wakeWithin(Party arrived);
+  void wakeWithin(ContactSide arrived);
 
   const WorldTime& time_;
   WorldObjects& objects_;
@@ -35,7 +35,7 @@ private:
   const SweptBoxes& boxes_;
   BodyArcs& arcs_;
   Waking& waking_;
-  WaysOut& waysOut_;
+  PenetrationRecoveries& recoveries_;
 };
 
 }  // namespace stadion

@@ -63,12 +63,12 @@ void BodyArcs::setPath(RigidBody& b, double tau, const Path& path, double horizo
   b.pathAge = horizon;
   b.validAge = std::min(horizon, b.spinStart + b.spin.horizon);
   b.contact.dueAge = 0;
-  b.contact.drowsy = b.lazy = false;
-  b.contact.heaped = b.contact.crowd && mode == BodyMode::Rest;
-  b.contact.crowd = b.contact.crowd && mode == BodyMode::Contact;
+  b.contact.sleepsNext = b.lazy = false;
+  b.contact.restsInPile = b.contact.inPile && mode == BodyMode::Rest;
+  b.contact.inPile = b.contact.inPile && mode == BodyMode::Contact;
   b.until = tau + b.validAge;
   ++b.version;
-  if (mode != BodyMode::Flight && !b.contact.crowd) supports_.note(b);
+  if (mode != BodyMode::Flight && !b.contact.inPile) supports_.note(b);
   active_.add(b);
   traces_.note(b, tau);
   if (!changes_.immediate())
@@ -222,7 +222,7 @@ BallArc BodyArcs::arcOnFace(const RigidBody& b, double tau, const BallStart& s, 
 }
 
 void BodyArcs::startOnFace(RigidBody& b, double tau, const BallStart& s, bool gripped, bool stopped) {
-  const Party self{true, b.id};
+  const ContactSide self{true, b.id};
   const BallArc arc = arcOnFace(b, tau, s, gripped, stopped);
   if (arc.leaves) {
     startFlight(b, tau, s.p, s.v, s.q, b.inertia.x() * s.omega);

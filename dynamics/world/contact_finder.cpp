@@ -1,8 +1,8 @@
 #include "dynamics/world/contact_finder.h"
 
 #include "dynamics/collision/touch_seams.h"
-#include "dynamics/contact/way_out.h"
-#include "dynamics/world/ways_out.h"
+#include "dynamics/contact/penetration_recovery.h"
+#include "dynamics/world/penetration_recoveries.h"
 
 #include <algorithm>
 #include <cmath>
@@ -58,7 +58,7 @@ void eraseMarked(std::vector<T>& list, std::size_t first, const std::vector<char
 
 }  // namespace
 
-std::uint64_t pairKey(Party a, Party b, std::uint32_t feature) {
+std::uint64_t pairKey(ContactSide a, ContactSide b, std::uint32_t feature) {
   std::uint64_t h = 1469598103934665603ULL;
   for (const std::uint64_t x : {std::uint64_t{a.isBody}, std::uint64_t{a.id}, std::uint64_t{b.isBody},
                                 std::uint64_t{b.id}, std::uint64_t{feature}})
@@ -77,8 +77,8 @@ std::span<const ContactFinder::Beside> ContactFinder::besideOf(BodyId id) const 
 
 /// A ball that has been put deep into a mesh leaves by one way: the shortest that nothing else that it
 /// touches bars. `first`: where its points begin.
-void ContactFinder::chooseWayOut(const RigidBody& b, std::size_t first,
-                                 std::vector<FoundContact>& found) const {
+void ContactFinder::chooseRecovery(const RigidBody& b, std::size_t first,
+                                   std::vector<FoundContact>& found) const {
   if (!b.isBall()) return;
   const auto inside = [&](const FoundContact& f) {
     return f.gap.distance <= -kDeepBall * b.radius() && !f.b.isBody &&
@@ -86,7 +86,7 @@ void ContactFinder::chooseWayOut(const RigidBody& b, std::size_t first,
   };
   for (std::size_t i = first; i < found.size(); ++i) {
     if (!inside(found[i])) continue;
-    const Party on = found[i].b;
+    const ContactSide on = found[i].b;
     const auto barred = [&](const FoundContact& way) {
       return std::any_of(
           found.begin() + static_cast<std::ptrdiff_t>(first), found.end(), [&](const FoundContact& f) {
@@ -122,16 +122,16 @@ void ContactFinder::find(RigidBody& b, double tau, std::vector<FoundContact>& fo
     manifold(self, form, tau, margin, points);
     for (const ManifoldPoint& p : points) {
       FoundContact f;
-      f.a = self.party, f.b = other.party;
-      f.surface = combine(b.surface, objects_.surfaceOf(other.party));
+      f.a = self.key, f.b = other.key;
+      f.surface = combine(b.surface, objects_.surfaceOf(other.key));
       f.gap = p.gap, f.carrier = p.carrier, f.rounding = p.rounding;
       f.key = pairKey(f.a, f.b, p.key);
       f.contact.friction = f.surface.friction;
       found.push_back(f);
     }
   };
-  forgetWaysOut(b, objects_, tau);
-  for (const WayOut& w : b.grip.waysOut) {
+  forgetRecoveries(b, objects_, tau);
+  for (const PenetrationRecovery& w : b.grip.recoveries) {
     const Shape plane = *barrier(self, Side::of(*objects_.collider(w.of)), tau, w);
     Collider form;
     form.shape = &plane;
@@ -147,16 +147,16 @@ void ContactFinder::find(RigidBody& b, double tau, std::vector<FoundContact>& fo
     if (!objects_.mayTouch(self, other)) return;
     const double reach = b.bound.radius + o.bound.radius + margin;
     if ((o.at(tau).pose * o.bound.centre - k.pose * b.bound.centre).squaredNorm() > reach * reach) return;
-    if (o.mode == BodyMode::Contact && !o.contact.crowd) {
+    if (o.mode == BodyMode::Contact && !o.contact.inPile) {
       if (o.contact.slot == kNowhere)
         o.contact.slot = 0, set.push_back(&o);  // it is not due, but it comes along
       if (o.id < b.id) return;                  // the pair is found from there
-    } else if (!o.contact.crowd && !standsStill(o.mode) && o.mode != BodyMode::Held) {
+    } else if (!o.contact.inPile && !standsStill(o.mode) && o.mode != BodyMode::Held) {
       return;  // a flier: its touch is an event
     }
     against(other, other);
   });
-  chooseWayOut(b, first, found);
+  chooseRecovery(b, first, found);
   dropHidden(b, tau, first, found);
   joinFlush(b, first, found);
 }
@@ -220,7 +220,7 @@ void ContactFinder::joinFlush(const RigidBody& b, std::size_t first, std::vector
       seen[k] = 1,
       places.push_back((basis.transpose() * (found[k].gap.point - found[i].gap.point)).tail<2>());
     const std::vector<char> corner = hullCorners(places);
-    Party name;
+    ContactSide name;
     std::size_t kept = 0;
     for (std::size_t g = 0; g < group.size(); ++g)
       if (corner[g]) name = kept++ == 0 ? found[group[g]].b : std::min(name, found[group[g]].b);

@@ -13,12 +13,12 @@
 namespace stadion {
 
 /// Names a contact point of a pair.
-std::uint64_t pairKey(Party a, Party b, std::uint32_t feature);
+std::uint64_t pairKey(ContactSide a, ContactSide b, std::uint32_t feature);
 
 /// A contact point of a body.
 struct FoundContact {
   SolverContact contact;
-  Party a, b;  ///< a is the body
+  ContactSide a, b;  ///< a is the body
   PairSurface surface;
   Gap gap;
   std::uint64_t key = 0;
@@ -31,7 +31,7 @@ public:
   /// A collider that a body touches, or comes to, without a contact of its own.
   struct Beside {
     BodyId body = 0;
-    Party piece;
+    ContactSide piece;
     bool touches = false;
     auto operator<=>(const Beside&) const = default;
   };
@@ -49,7 +49,7 @@ public:
   std::span<const Beside> besideOf(BodyId id) const;
 
 private:
-  void chooseWayOut(const RigidBody& b, std::size_t first, std::vector<FoundContact>& found) const;
+  void chooseRecovery(const RigidBody& b, std::size_t first, std::vector<FoundContact>& found) const;
   void dropHidden(const RigidBody& b, double tau, std::size_t first, std::vector<FoundContact>& found);
   void joinFlush(const RigidBody& b, std::size_t first, std::vector<FoundContact>& found);
 

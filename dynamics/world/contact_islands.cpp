@@ -33,7 +33,7 @@ bool isSlender(const std::vector<RigidBody*>& island, const std::vector<FoundCon
   constexpr double kSlender = 4e5;  // multiplications
   if (island.size() > kMostInLine || std::ranges::any_of(island, &RigidBody::isBall)) return false;
   std::vector<LeaningPair> pairs;
-  const auto placeOf = [&](Party p) {
+  const auto placeOf = [&](ContactSide p) {
     const auto at = p.isBody ? std::ranges::lower_bound(island, p.id, {}, &RigidBody::id) : island.end();
     return static_cast<std::uint32_t>(at != island.end() && (*at)->id != p.id
                                           ? island.size()
@@ -71,7 +71,7 @@ void ContactIslands::findAll(double tau, std::vector<RigidBody*>& set, std::vect
     set.clear(), found.clear(), finder_.clear();
     for (RigidBody* b : active_) {
       b->contact.slot = kInNoSet;
-      if (b->mode == BodyMode::Contact && b->enabled && !b->contact.crowd &&
+      if (b->mode == BodyMode::Contact && b->enabled && !b->contact.inPile &&
           b->contact.dueAge <= b->age(tau) + kDue)
         b->contact.slot = 0, set.push_back(b);
     }
@@ -89,9 +89,9 @@ void ContactIslands::findAll(double tau, std::vector<RigidBody*>& set, std::vect
 std::vector<ContactIsland> ContactIslands::group(const std::vector<RigidBody*>& set,
                                                  std::vector<FoundContact>& found) const {
   Groups groups(set.size());
-  const auto comesAlong = [&](Party p) {
+  const auto comesAlong = [&](ContactSide p) {
     const RigidBody* b = p.isBody ? objects_.body(p.id) : nullptr;
-    return b && b->mode == BodyMode::Contact && !b->contact.crowd;
+    return b && b->mode == BodyMode::Contact && !b->contact.inPile;
   };
   for (const FoundContact& f : found)
     if (comesAlong(f.b))
@@ -122,7 +122,7 @@ void ContactIslands::tick(double tau) {
   for (ContactIsland& island : islands) {
     if (piles_.isPile(island.set, tau) && !isSlender(island.set, island.found)) {
       for (RigidBody* b : island.set) {
-        b->contact.crowd = true, b->contact.dueAge = 0;
+        b->contact.inPile = true, b->contact.dueAge = 0;
         b->contact.drift.setZero(), b->contact.twist.setZero();
       }
       piled = true;
@@ -131,7 +131,7 @@ void ContactIslands::tick(double tau) {
     }
   }
   for (RigidBody* b : set)
-    if (!b->contact.crowd) foresight_.predict(*b, tau);
+    if (!b->contact.inPile) foresight_.predict(*b, tau);
   if (piled) piles_.advance(tau);
   waking_.scheduleDue(tau);
 }

@@ -2,7 +2,7 @@
 
 #include "dynamics/collision/manifold.h"
 #include "dynamics/world/ball_support.h"
-#include "dynamics/world/ways_out.h"
+#include "dynamics/world/penetration_recoveries.h"
 
 #include <algorithm>
 #include <cmath>
@@ -98,25 +98,25 @@ void FlushSurfaces::eachColliderAt(const RigidBody& b, double tau, F f) const {
 /// The surfaces of colliders that the body touches at tau, but for `but` unless that is a mesh.
 std::vector<Bearing> FlushSurfaces::bearingsOf(const RigidBody& b, double tau, const Collider& but) const {
   std::vector<Bearing> bearings;
-  Party face;
+  ContactSide face;
   if (b.mode == BodyMode::Slide || b.mode == BodyMode::Roll) face = b.support.on;
   const Side self = Side::of(b);
   std::vector<ManifoldPoint> points;
   eachColliderAt(b, tau, [&](const Collider& c) {
     const Side other = Side::of(c);
     const Pose X = c.motion.at(tau).pose;
-    if (face.id && other.party == face) {
+    if (face.id && other.key == face) {
       Gap gap;
       gap.distance = 0, gap.face = true, gap.triangle = b.support.triangle;
       gap.point = b.support.point, gap.normal = b.support.normal;
-      bearings.push_back({other.party, c.shape, X, gap});
+      bearings.push_back({other.key, c.shape, X, gap});
       return;
     }
     if (&c == &but && !(std::holds_alternative<MeshShape>(*c.shape) &&
-                        memory_.touching(ContactMemory::keyOf(other.party, self.party))))
+                        memory_.touching(ContactMemory::keyOf(other.key, self.key))))
       return;
     manifold(self, other, tau, kTouching, points);
-    for (const ManifoldPoint& p : points) bearings.push_back({other.party, c.shape, X, p.gap});
+    for (const ManifoldPoint& p : points) bearings.push_back({other.key, c.shape, X, p.gap});
   });
   return bearings;
 }
@@ -156,7 +156,7 @@ std::vector<PatchSide> FlushSurfaces::struckBeside(const RigidBody& b, const Col
     const PairSurface pair = combine(b.surface, c.surface);
     struck.push_back({Side::of(c), ends ? 0 : pair.restitution, pair.friction});
   });
-  std::ranges::sort(struck, {}, [](const PatchSide& p) { return p.side.party; });
+  std::ranges::sort(struck, {}, [](const PatchSide& p) { return p.side.key; });
   return struck;
 }
 
@@ -169,7 +169,7 @@ bool FlushSurfaces::crossSeam(RigidBody& b, double tau, double& lift) {
   Aabb box;
   box.include(p - r * n);
   box.lo.array() -= 2 * kFlush, box.hi.array() += 2 * kFlush;
-  const Party self{true, b.id}, before = b.support.on;
+  const ContactSide self{true, b.id}, before = b.support.on;
   for (const double ahead : {kSkip, kFlush}) {
     const Vec3 x = p + ahead / speed * v;
     ColliderId next = 0;
@@ -193,7 +193,8 @@ bool FlushSurfaces::crossSeam(RigidBody& b, double tau, double& lift) {
 /// How long flat faces of one plane and one friction carry a point that glides at u under a along them, at
 /// most about `most`; negative if nothing carries it now. `way` learns the colliders that it comes to.
 double FlushSurfaces::timeCarried(const RigidBody& b, ColliderId start, const Gap& gap, double friction,
-                                  const Vec3& u, const Vec3& a, double most, std::vector<Party>& way) const {
+                                  const Vec3& u, const Vec3& a, double most,
+                                  std::vector<ContactSide>& way) const {
   const Vec3& n = gap.normal;
   const double speed = u.norm(), gain = a.norm();
   const Vec3 e = speed > 0 && !(speed < 1e-9 && gain > 0) ? Vec3(u / speed) : Vec3(a / gain);
@@ -224,7 +225,8 @@ double FlushSurfaces::timeCarried(const RigidBody& b, ColliderId start, const Ga
         if (beyond) break;
       }
       if (!beyond) return gone > 0 ? timeTo(gone, u0, a0) : -1;
-      if (std::ranges::find(way, Party{false, beyond->id}) == way.end()) way.push_back({false, beyond->id});
+      if (std::ranges::find(way, ContactSide{false, beyond->id}) == way.end())
+        way.push_back({false, beyond->id});
     }
     gone = std::max(next, face->room(gap.point, e));
     if (!(timeTo(gone, u0, a0) < most)) return most;

@@ -31,7 +31,7 @@ public:
   /// acceleration a along them, at most about `most` [s]; negative if nothing carries it now. Appends the
   /// colliders that it comes to.
   double timeCarried(const RigidBody& b, ColliderId start, const Gap& gap, double friction, const Vec3& u,
-                     const Vec3& a, double most, std::vector<Party>& way) const;
+                     const Vec3& a, double most, std::vector<ContactSide>& way) const;
 
 private:
   template <class F>

@@ -24,7 +24,7 @@ double Foresight::knownUntil(const Side& s) const {
 }
 
 /// Its way goes on otherwise before the frame is over: what it meets then must be looked at again.
-void Foresight::pushTurn(Party p, const GuidedMotion& motion, double tau) {
+void Foresight::pushTurn(ContactSide p, const GuidedMotion& motion, double tau) {
   const double turns = std::max(tau, motion.nextTurn() + kTurnsLate);
   if (!motion.guided() || !(turns <= std::min(time_.now(), time_.windowEnd()))) return;
   queue_.postHorizon(turns, p, objects_.versionOf(p));
@@ -43,17 +43,17 @@ void Foresight::predictPair(const Side& a, const Side& b, double tau) {
     if (!s->body) continue;
     // What lasting contact is with is the solver's or the closed form's business.
     if (s->body->mode == BodyMode::Contact &&
-        std::find(s->body->contact.touching.begin(), s->body->contact.touching.end(), o->party) !=
+        std::find(s->body->contact.touching.begin(), s->body->contact.touching.end(), o->key) !=
             s->body->contact.touching.end())
       return;
-    if (s->body->mode != BodyMode::Flight && s->body->support.on.id && s->body->support.on == o->party &&
+    if (s->body->mode != BodyMode::Flight && s->body->support.on.id && s->body->support.on == o->key &&
         !std::holds_alternative<MeshShape>(*o->shape))
       return;
   }
   if (bothCarried(a, b)) {
     // Nothing comes of it but the news that they touch, once.
     if (!isHeld(a) && !isHeld(b)) return;
-    const ContactMemory::Key key = ContactMemory::keyOf(a.party, b.party);
+    const ContactMemory::Key key = ContactMemory::keyOf(a.key, b.key);
     if (memory_.touching(key)) {
       const double known = std::min({time_.now(), time_.windowEnd(), knownUntil(a), knownUntil(b)});
       const auto parted =
@@ -89,7 +89,7 @@ void Foresight::predict(RigidBody& b, double tau) {
 }
 
 void Foresight::lookAhead(RigidBody& b, double tau, bool onlyGreater) {
-  if (b.contact.crowd) return;  // all that could touch it has joined its step
+  if (b.contact.inPile) return;  // all that could touch it has joined its step
   const Side self = Side::of(b);
   b.alone = true, b.only = 0;
   ++looks_.looks;

@@ -65,7 +65,7 @@ private:
   void comeNear(RigidBody& b, double tau);
   void predictPair(const Side& a, const Side& b, double tau);
   void pushHorizon(const RigidBody& b);
-  void pushTurn(Party p, const GuidedMotion& motion, double tau);
+  void pushTurn(ContactSide p, const GuidedMotion& motion, double tau);
   bool solidsMayMeet() const;
   double knownUntil(const Side& s) const;
 

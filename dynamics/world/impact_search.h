@@ -1,7 +1,8 @@
 #pragma once
 /// Finds the first contact of a pair by the scheme that the world is set to (collision/impact_scheme.h).
 ///
-/// Lasting contact is no part of any scheme: a ball that slides or rolls on a mesh meets its next face exactly.
+/// Lasting contact is no part of any scheme. A ball that slides or rolls on a mesh meets its next face
+/// exactly.
 
 #include "dynamics/collision/impact_scheme.h"
 #include "dynamics/collision/stepped_search.h"
@@ -29,7 +30,7 @@ public:
 
 private:
   static bool leans(const Side& s, const Side& on) {
-    return s.body && s.body->support.on.id && s.body->support.on == on.party &&
+    return s.body && s.body->support.on.id && s.body->support.on == on.key &&
            s.body->mode != BodyMode::Flight;
   }
   /// The last time of the grid of steps before the window.

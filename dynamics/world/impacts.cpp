@@ -22,16 +22,16 @@ constexpr std::uint32_t kMostRattles = 4;     ///< the same where bounces die aw
 constexpr std::uint32_t kMostInThick = 1;     ///< and among many balls, which will lean on each other anyway
 constexpr std::uint32_t kMostFolds = 200;     ///< and of faces that a ball rolls over
 constexpr std::uint32_t kMostBounces = 2000;  ///< of a ball on a face
-constexpr double kLeastStick = 1;             ///< what comes slower does not stick [m/s]
+constexpr double kLeastEmbeddingSpeed = 1;    ///< what comes slower does not stick [m/s]
 constexpr std::uint32_t kMostElastic =
     600;  ///< where nothing is lost: no bounces that die away, but squeezes
 
 /// Whether a body that may stick meets x with its tip, straight enough against the normal n.
-bool sticksIn(const RigidBody& b, const Vec3& x, const Vec3& n, double closing, double tau) {
-  if (!(closing > kLeastStick)) return false;
+bool embedsTip(const RigidBody& b, const Vec3& x, const Vec3& n, double closing, double tau) {
+  if (!(closing > kLeastEmbeddingSpeed)) return false;
   const Pose X_WN = b.poseAt(tau);
-  return -(X_WN.q * b.stick->nose).dot(n) >= b.stick->cosine &&
-         b.stick->nose.dot(X_WN.inverse() * x) >= b.stick->tip - b.stick->reach;
+  return -(X_WN.q * b.embedding->nose).dot(n) >= b.embedding->cosine &&
+         b.embedding->nose.dot(X_WN.inverse() * x) >= b.embedding->tip - b.embedding->reach;
 }
 
 }  // namespace
@@ -43,8 +43,8 @@ void Impacts::countImpact(RigidBody& b, double tau) const {
   ++b.impacts;
 }
 
-/// The rest of a crowd's step with other velocities, under the same forces.
-void Impacts::strikeInCrowd(RigidBody& b, const Mobile& m, double tau) {
+/// The rest of a pile's step with other velocities, under the same forces.
+void Impacts::strikeInPile(RigidBody& b, const SolverBody& m, double tau) {
   const Quat q = b.orientation(tau);
   const double left = b.contact.dueAge - b.age(tau), quiet = b.contact.quiet;
   const Vec3 a = left > 0 && b.path.isParabola() ? Vec3(2 * b.path.c[2]) : Vec3(Vec3::Zero());
@@ -62,16 +62,16 @@ void Impacts::strikeInCrowd(RigidBody& b, const Mobile& m, double tau) {
 }
 
 /// The body goes on with the velocities of m.
-void Impacts::afterImpulse(RigidBody& b, const Mobile& m, double tau, bool lasting) {
+void Impacts::afterImpulse(RigidBody& b, const SolverBody& m, double tau, bool lasting) {
   if (!b.movable()) return;
   const Vec3& p = m.p;
   const Quat& q = m.q;
-  if (b.contact.crowd) return strikeInCrowd(b, m, tau);
+  if (b.contact.inPile) return strikeInPile(b, m, tau);
   const Vec3 L = q * b.inertia.cwiseProduct(q.conjugate() * m.omega);
   const bool leaning = b.mode == BodyMode::Contact || (b.mode == BodyMode::Rest && !b.support.on.id);
   if (lasting || leaning) {
     if (b.mode == BodyMode::Rest) waking_.wake(b, tau);
-    if (b.contact.crowd) return strikeInCrowd(b, m, tau);
+    if (b.contact.inPile) return strikeInPile(b, m, tau);
     b.contact.endL = L;
     arcs_.setArc(b, tau, Path::parabola(p, m.v, Vec3::Zero()), Spin::free(q, L, b.inertia),
                  grid_.islandStep(), BodyMode::Contact);
@@ -104,16 +104,16 @@ void Impacts::afterImpulse(RigidBody& b, const Mobile& m, double tau, bool lasti
 
 /// It stays as it is when its tip, which comes at `v`, has gone in, until what it sticks in goes or moves. It
 /// stops within milliseconds: that time is left out.
-void Impacts::stick(RigidBody& b, Party in, const Vec3& v, double tau) {
+void Impacts::embedTip(RigidBody& b, ContactSide in, const Vec3& v, double tau) {
   waking_.wakeOnto({true, b.id}, tau);
   b.support.on = {};
   b.contact.touching = {in};
   memory_.setTouching(ContactMemory::keyOf(in, {true, b.id}), true);
-  arcs_.setArc(b, tau, Path::still(b.position(tau) + b.stick->depth * v.normalized()),
+  arcs_.setArc(b, tau, Path::still(b.position(tau) + b.embedding->depth * v.normalized()),
                Spin::still(b.orientation(tau)), std::numeric_limits<double>::infinity(), BodyMode::Stuck);
 }
 
-void Impacts::onTouch(const Touch& touch, Party pa, Party pb, double tau) {
+void Impacts::onTouch(const Touch& touch, ContactSide pa, ContactSide pb, double tau) {
   if (!pa.isBody) {
     std::swap(pa, pb);
     Touch t = touch;
@@ -127,7 +127,7 @@ void Impacts::onTouch(const Touch& touch, Party pa, Party pb, double tau) {
   ++counters_.impacts;
   countImpact(a, tau);
   if (b) countImpact(*b, tau);
-  Mobile ma = mobileOf(a, tau), mb = b ? mobileOf(*b, tau) : mobileOf(*c, tau);
+  SolverBody ma = solverBodyOf(a, tau), mb = b ? solverBodyOf(*b, tau) : solverBodyOf(*c, tau);
   const Vec3 n = touch.gap.normal;
   // What presses a ball at its middle does not turn it, not even by rounding.
   const Vec3 x = a.centred ? Vec3(ma.p - (a.radius() + touch.gap.distance) * n) : touch.gap.point;
@@ -143,12 +143,12 @@ void Impacts::onTouch(const Touch& touch, Party pa, Party pb, double tau) {
     if (waiting) releases_.foreseeRelease(*waiting, tau, touch.gap.triangle);
     return;
   }
-  if (a.stick && c && !c->motion.moving && sticksIn(a, x, n, closing, tau)) {
+  if (a.embedding && c && !c->motion.moving && embedsTip(a, x, n, closing, tau)) {
     const Vec3 way = ma.velocityAt(x);
     const double impulse = collide(ma, mb, x, n, 0, 0).dot(n);
     ContactMemory::Waiting* waiting =
         memory_.impact(key, time_.timeAt(tau), x, outwards, closing, impulse, time_.frame(), awaited);
-    stick(a, pb, way, tau);
+    embedTip(a, pb, way, tau);
     if (waiting) releases_.foreseeRelease(*waiting, tau, touch.gap.triangle);
     return;
   }
@@ -200,7 +200,7 @@ void Impacts::onTouch(const Touch& touch, Party pa, Party pb, double tau) {
   if (waiting) releases_.foreseeRelease(*waiting, tau, touch.gap.triangle);
   for (const PatchSide& part : others) {
     if (!patch || !(part.closing > 0)) continue;
-    const ContactMemory::Key other = ContactMemory::keyOf(part.side.party, pa);
+    const ContactMemory::Key other = ContactMemory::keyOf(part.side.key, pa);
     if (awaited) releases_.releaseBefore(other, tau);
     waiting = memory_.impact(other, time_.timeAt(tau), part.middle, n, part.closing, part.impulse.dot(n),
                              time_.frame(), awaited);

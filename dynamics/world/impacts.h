@@ -18,14 +18,14 @@ public:
         releases_(releases), search_(search), counters_(counters) {}
 
   /// Two sides touch at tau.
-  void onTouch(const Touch& touch, Party a, Party b, double tau);
+  void onTouch(const Touch& touch, ContactSide a, ContactSide b, double tau);
   /// The body goes on with the velocities of m; `lasting`: in the contact solver.
-  void afterImpulse(RigidBody& b, const Mobile& m, double tau, bool lasting);
+  void afterImpulse(RigidBody& b, const SolverBody& m, double tau, bool lasting);
 
 private:
   void countImpact(RigidBody& b, double tau) const;
-  void stick(RigidBody& b, Party in, const Vec3& v, double tau);
-  void strikeInCrowd(RigidBody& b, const Mobile& m, double tau);
+  void embedTip(RigidBody& b, ContactSide in, const Vec3& v, double tau);
+  void strikeInPile(RigidBody& b, const SolverBody& m, double tau);
 
   const WorldTime& time_;
   const StepGrid& grid_;

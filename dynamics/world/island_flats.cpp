@@ -9,8 +9,8 @@ constexpr std::uint32_t kAreaKey = 0x7fffff00;  ///< of the first flat contact o
 
 }  // namespace
 
-void FlatPatch::place(const Mobile& a, const Mobile& b, const Mat3& turnA, const Mat3& turnB, const Vec3& pA,
-                      const Vec3& pB, Mat3& basis, Vec3& armA, Vec3& armB) const {
+void FlatPatch::place(const SolverBody& a, const SolverBody& b, const Mat3& turnA, const Mat3& turnB,
+                      const Vec3& pA, const Vec3& pB, Mat3& basis, Vec3& armA, Vec3& armB) const {
   const bool withA = flat.carrier == Carrier::A;
   const Mat3 &own = withA ? turnA : turnB, &other = withA ? turnB : turnA;
   basis.col(0) = other * flat.plane.n;
@@ -39,7 +39,7 @@ std::vector<Side> IslandStep::surfaceUnder(const FoundContact& f) const {
   sides.push_back(*own);
   if (f.b.isBody) return sides;
   for (const ContactFinder::Beside& o : finder_.besideOf(f.a.id)) {
-    if (std::ranges::find(sides, o.piece, &Side::party) != sides.end()) continue;
+    if (std::ranges::find(sides, o.piece, &Side::key) != sides.end()) continue;
     const Collider* c = objects_.collider(o.piece.id);
     if (c && combine(objects_.body(f.a.id)->surface, c->surface).friction == f.surface.friction)
       sides.push_back(Side::of(*c));

@@ -33,10 +33,10 @@ void stretch(ContactIsland& s, double probe, double seconds) {
 
 }  // namespace
 
-/// How long the slip at a contact stays as it is, at most `most`; 0 if not at all. `way` gains the pieces that
-/// its point comes to.
+/// Returns how long the slip at a contact stays as it is, at most `most`; 0 if not at all. Adds to `way` the
+/// pieces that the contact point reaches.
 double IslandStep::glideAt(const ContactIsland& s, const FoundContact& f, double probe, double most,
-                           std::vector<Party>& way) {
+                           std::vector<ContactSide>& way) {
   const SolverContact& c = f.contact;
   const Vec3 n = f.gap.normal, u = s.start[c.a].v - s.start[c.b].v,
              a = (s.end[c.a].v - s.end[c.b].v - u) / probe;
@@ -55,7 +55,7 @@ double IslandStep::glideAt(const ContactIsland& s, const FoundContact& f, double
 }
 
 /// The same for the whole island; infinite if all are at rest for good.
-double IslandStep::glideOf(const ContactIsland& s, double probe, std::vector<Party>& way) {
+double IslandStep::glideOf(const ContactIsland& s, double probe, std::vector<ContactSide>& way) {
   double fastest = 0, strongest = 0;
   for (std::size_t i = 0; i < s.set.size(); ++i) {
     const RigidBody& b = *s.set[i];
@@ -82,7 +82,7 @@ double IslandStep::glide(ContactIsland& s, double tau, double h) {
   if (s.carried || !mayGlide(s)) return 0;
   const double probe = std::min(h, kProbe);
   if (!solveStep(s, tau, probe, Effort::AtRest)) return 0;
-  std::vector<Party> way;  // of faces that the points come to
+  std::vector<ContactSide> way;  // of faces that the points come to
   const double most = glideOf(s, probe, way);
   if (!(most > 0) || most == kForGood) return most;
   stretch(s, probe, most);

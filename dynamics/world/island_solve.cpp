@@ -16,7 +16,7 @@ struct Turned {
   Mat3 R;  ///< turn since the start
 };
 
-Turned turned(const Mobile& start, const Mobile& end, double share, double h) {
+Turned turned(const SolverBody& start, const SolverBody& end, double share, double h) {
   const double s = share * h;
   const Vec3 w = s * (start.omega + 0.5 * share * (end.omega - start.omega));
   return {start.p + s * (start.v + 0.5 * share * (end.v - start.v)),
@@ -31,8 +31,8 @@ Vec3 carried(const Vec3& arm, const Rounding& r, const Mat3& R, const Vec3& down
 }
 
 /// Arms and basis of a contact when its sides lie like this.
-void place(const Mobile& a0, const Mobile& b0, const Gap& gap, Carrier carrier, const Rounding& rounding,
-           const Turned& a, const Turned& b, Mat3& basis, Vec3& armA, Vec3& armB) {
+void place(const SolverBody& a0, const SolverBody& b0, const Gap& gap, Carrier carrier,
+           const Rounding& rounding, const Turned& a, const Turned& b, Mat3& basis, Vec3& armA, Vec3& armB) {
   basis = basisAround(gap.normal);
   armA = gap.point - a0.p, armB = gap.point - b0.p;
   if (carrier == Carrier::B) {
@@ -49,9 +49,9 @@ void place(const Mobile& a0, const Mobile& b0, const Gap& gap, Carrier carrier, 
 }
 
 /// The same for a flat contact, at the end and in the middle of the step, and its slip before it.
-void placeFlat(const FlatPatch& f, const std::vector<Mobile>& start, const std::vector<Mobile>& guess,
+void placeFlat(const FlatPatch& f, const std::vector<SolverBody>& start, const std::vector<SolverBody>& guess,
                double h, bool first, SolverContact& c) {
-  const Mobile &a = start[c.a], &b = start[c.b];
+  const SolverBody &a = start[c.a], &b = start[c.b];
   SolverContact before = c;
   f.place(a, b, Mat3::Identity(), Mat3::Identity(), a.p, b.p, before.rows, before.armA, before.armB);
   const Vec3 u0 = before.velocity(start);
@@ -80,10 +80,10 @@ double pushOutOf(const std::vector<FoundContact>& found, std::size_t i) {
 }
 
 /// A point at the end and in the middle of the step, its slip before it and the speed that it asks for.
-void placePoint(const ContactIsland& s, std::size_t i, const std::vector<Mobile>& guess, double h, bool first,
-                SolverContact& c) {
+void placePoint(const ContactIsland& s, std::size_t i, const std::vector<SolverBody>& guess, double h,
+                bool first, SolverContact& c) {
   const FoundContact& f = s.found[i];
-  const Mobile &a = s.start[c.a], &b = s.start[c.b], &a1 = guess[c.a], &b1 = guess[c.b];
+  const SolverBody &a = s.start[c.a], &b = s.start[c.b], &a1 = guess[c.a], &b1 = guess[c.b];
   place(a, b, f.gap, f.carrier, f.rounding, turned(a, a1, 0.5, h), turned(b, b1, 0.5, h), c.push, c.pushA,
         c.pushB);
   place(a, b, f.gap, f.carrier, f.rounding, turned(a, a1, 1, h), turned(b, b1, 1, h), c.rows, c.armA, c.armB);
@@ -122,12 +122,12 @@ bool anySlipTurns(const ContactIsland& s, const std::vector<SolverContact>& step
 }  // namespace
 
 /// What `end` would be without contacts, and the pull on the bodies.
-void IslandStep::moveFreely(ContactIsland& s, const std::vector<Mobile>& guess, double tau, double h,
+void IslandStep::moveFreely(ContactIsland& s, const std::vector<SolverBody>& guess, double tau, double h,
                             bool first) const {
   s.end = s.start;
   for (std::size_t i = 0; i < s.set.size(); ++i) {
     const RigidBody& b = *s.set[i];
-    Mobile& m = s.end[i];
+    SolverBody& m = s.end[i];
     const Turned at = turned(s.start[i], guess[i], 1, h);
     if (!first && !fields_.uniformFor(b)) {
       const Turned mid = turned(s.start[i], guess[i], 0.5, h);
@@ -147,7 +147,7 @@ void IslandStep::moveFreely(ContactIsland& s, const std::vector<Mobile>& guess, 
 /// Velocities after h seconds: forces act in the middle of the step, contact points obey at its end. A first
 /// pass foresees how the bodies turn, a second one counts.
 bool IslandStep::solveStep(ContactIsland& s, double tau, double h, Effort effort) const {
-  std::vector<Mobile> guess = s.start;
+  std::vector<SolverBody> guess = s.start;
   std::vector<Vec3>& pull = s.pull;
   pull.resize(s.set.size());
   for (std::size_t i = 0; i < s.set.size(); ++i) {

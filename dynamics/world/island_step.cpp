@@ -15,7 +15,7 @@ constexpr double kQuietSpeed = 2e-3;       ///< of surface points [m/s]
 constexpr double kSleepsAfter = 0.2;       ///< before a set of bodies sleeps [s]
 constexpr double kGliding = 1e-9;          ///< quiet time of one whose slow motion is known [s]
 constexpr double kCreep = 1e-4;            ///< mean speeds below this are none [m/s]
-constexpr double kCalm = 1e-5;             ///< mean accelerations below this are balance, per pull [m/s2]
+constexpr double kBalance = 1e-5;          ///< mean accelerations below this are balance, per pull [m/s2]
 constexpr double kRolls = 0.01;            ///< slip of what rolls, relative to how it turns
 constexpr double kHeld = 0.05;             ///< of its spin, what rolls no more may have left
 constexpr double kNearlyStill = 5e-3;      ///< faster than this nothing is held by rolling resistance [m/s]
@@ -49,7 +49,7 @@ void resistRolling(ContactIsland& s) {
     if (i >= s.set.size()) return;
     const bool ball = s.set[i]->isBall(), round = f.carrier == side;
     const double radius = ball ? s.set[i]->radius() : round ? f.rounding.radius : 0;
-    Mobile& m = s.end[i];
+    SolverBody& m = s.end[i];
     Vec3 about = ball ? m.omega : Vec3(m.omega - f.gap.normal * f.gap.normal.dot(m.omega));
     if (!f.rounding.axis.isZero(0) && round) {  // a rim rolls along itself; it tips over freely
       const Vec3 along = f.rounding.axis - f.gap.normal * f.gap.normal.dot(f.rounding.axis);
@@ -104,14 +104,14 @@ void IslandStep::begin(ContactIsland& s, double tau) const {
   for (std::size_t i = 0; i < s.set.size(); ++i) {
     RigidBody& b = *s.set[i];
     b.contact.slot = static_cast<std::uint32_t>(i);
-    s.start.push_back(mobileOf(b, tau));
+    s.start.push_back(solverBodyOf(b, tau));
     s.wedged = s.wedged || b.contact.wedged;
   }
   for (FoundContact& f : s.found) {
     SolverContact& c = f.contact;
     c.a = objects_.body(f.a.id)->contact.slot;
     if (f.b.isBody && objects_.body(f.b.id)->mode == BodyMode::Contact &&
-        !objects_.body(f.b.id)->contact.crowd) {
+        !objects_.body(f.b.id)->contact.inPile) {
       c.b = objects_.body(f.b.id)->contact.slot;
       continue;
     }
@@ -119,7 +119,8 @@ void IslandStep::begin(ContactIsland& s, double tau) const {
     c.b = static_cast<std::uint32_t>(s.set.size() + static_cast<std::size_t>(known - s.fixed.begin()));
     if (known != s.fixed.end()) continue;
     s.fixed.push_back(f.b);
-    Mobile m = f.b.isBody ? mobileOf(*objects_.body(f.b.id), tau) : mobileOf(*objects_.collider(f.b.id), tau);
+    SolverBody m = f.b.isBody ? solverBodyOf(*objects_.body(f.b.id), tau)
+                              : solverBodyOf(*objects_.collider(f.b.id), tau);
     m.inverseMass = 0, m.inverseInertia.setZero();
     s.carried = s.carried || !m.v.isZero(0) || !m.omega.isZero(0);
     s.start.push_back(m);
@@ -128,14 +129,14 @@ void IslandStep::begin(ContactIsland& s, double tau) const {
 }
 
 /// Whether it moves from outside, or may.
-bool IslandStep::isDriven(Party p) const {
+bool IslandStep::isDriven(ContactSide p) const {
   if (p.isBody) return !objects_.body(p.id)->movable();
   return objects_.collider(p.id)->motion.moving;
 }
 
 /// Between a hand, or a lift, and what does not move no velocities may be left: then the hand's contacts give
 /// way, here and in the next steps, until all floors can be reached again.
-bool IslandStep::solveIsland(ContactIsland& s, std::vector<Mobile>& mobiles,
+bool IslandStep::solveIsland(ContactIsland& s, std::vector<SolverBody>& solverBodies,
                              std::vector<SolverContact>& contacts, Effort effort) const {
   std::vector<SolverContact> yielding = contacts;
   bool driven = false;
@@ -143,14 +144,14 @@ bool IslandStep::solveIsland(ContactIsland& s, std::vector<Mobile>& mobiles,
     if (c.b < s.set.size() || !isDriven(s.fixed[c.b - s.set.size()])) continue;
     c.give = kGive, driven = true;
   }
-  if (!driven) return solveContacts(mobiles, contacts, effort);
+  if (!driven) return solveContacts(solverBodies, contacts, effort);
   if (!s.wedged) {
-    const std::vector<Mobile> before = mobiles;
-    if (solveContacts(mobiles, contacts, effort)) return true;
-    mobiles = before, s.wedged = true;
+    const std::vector<SolverBody> before = solverBodies;
+    if (solveContacts(solverBodies, contacts, effort)) return true;
+    solverBodies = before, s.wedged = true;
   }
   contacts = yielding;
-  return solveContacts(mobiles, contacts, effort);
+  return solveContacts(solverBodies, contacts, effort);
 }
 
 /// What is an impact: approaches that end now, with restitution if they are fast.
@@ -162,7 +163,7 @@ void IslandStep::stopApproaches(ContactIsland& s) const {
     if (f.gap.distance > kIslandSlop) continue;
     hitOf[static_cast<std::size_t>(&f - s.found.data())] = static_cast<std::int32_t>(hits.size());
     SolverContact c = f.contact;
-    const Mobile &a = s.start[c.a], &b = s.start[c.b];
+    const SolverBody &a = s.start[c.a], &b = s.start[c.b];
     c.placeAt(f.gap.point, f.gap.normal, a.p, b.p);
     c.impulse.setZero(), c.slides = false;
     const double closing = -c.velocity(s.start)[0];
@@ -174,7 +175,7 @@ void IslandStep::stopApproaches(ContactIsland& s) const {
   for (SolverContact& c : hits) c.patch = -1;
   for (const FlatPatch& f : s.flats) {
     SolverContact c = f.contact;
-    const Mobile &a = s.start[c.a], &b = s.start[c.b];
+    const SolverBody &a = s.start[c.a], &b = s.start[c.b];
     f.place(a, b, Mat3::Identity(), Mat3::Identity(), a.p, b.p, c.rows, c.armA, c.armB);
     c.push = c.rows, c.pushA = c.armA, c.pushB = c.armB;
     c.impulse.setZero(), c.slides = false;
@@ -183,18 +184,18 @@ void IslandStep::stopApproaches(ContactIsland& s) const {
         hits[static_cast<std::size_t>(hitOf[k])].patch = static_cast<std::int32_t>(hits.size());
     hits.push_back(c);
   }
-  const std::vector<Mobile> before = s.start;
+  const std::vector<SolverBody> before = s.start;
   solveIsland(s, s.start, hits, Effort::Moving);
   if (!s.carried) boundWork(s.set.size(), before, s.start, {}, 0);
 }
 
 /// What lies on its rims, and is kept from rocking on them by rolling resistance, is solved for once more
 /// without that freedom: what the contacts asked for belonged to the spin that has been taken from it.
-void IslandStep::holdRims(ContactIsland& s, const std::vector<Mobile>& solved) const {
-  std::vector<Mobile> mobiles = s.free;
+void IslandStep::holdRims(ContactIsland& s, const std::vector<SolverBody>& solved) const {
+  std::vector<SolverBody> solverBodies = s.free;
   bool any = false;
   for (std::size_t i = 0; i < s.set.size(); ++i) {
-    const Mobile& m = s.end[i];
+    const SolverBody& m = s.end[i];
     if (m.v.norm() + m.omega.norm() * s.set[i]->reach > kNearlyStill) continue;
     Mat3 free = Mat3::Identity();  // the axes that it may still turn about
     bool stopped = true;
@@ -210,22 +211,23 @@ void IslandStep::holdRims(ContactIsland& s, const std::vector<Mobile>& solved) c
     }
     if (!stopped || free.isIdentity()) continue;
     any = true;
-    mobiles[i].inverseInertia = free * mobiles[i].inverseInertia * free;
-    mobiles[i].omega = free * mobiles[i].omega;
+    solverBodies[i].inverseInertia = free * solverBodies[i].inverseInertia * free;
+    solverBodies[i].omega = free * solverBodies[i].omega;
   }
   if (!any) return;
   std::vector<SolverContact> contacts;
   const std::size_t points = s.found.size();
   for (const FoundContact& f : s.found) contacts.push_back(f.contact);
   for (const FlatPatch& f : s.flats) contacts.push_back(f.contact);
-  solveIsland(s, mobiles, contacts, Effort::Moving);
-  for (std::size_t i = 0; i < s.set.size(); ++i) s.end[i].v = mobiles[i].v, s.end[i].omega = mobiles[i].omega;
+  solveIsland(s, solverBodies, contacts, Effort::Moving);
+  for (std::size_t i = 0; i < s.set.size(); ++i)
+    s.end[i].v = solverBodies[i].v, s.end[i].omega = solverBodies[i].omega;
   for (std::size_t i = 0; i < points; ++i) s.found[i].contact = contacts[i];
   for (std::size_t i = points; i < contacts.size(); ++i) s.flats[i - points].contact = contacts[i];
 }
 
 /// Nothing is near any more: it flies.
-void IslandStep::concludeFreely(RigidBody& b, const Mobile& start, double tau) {
+void IslandStep::concludeFreely(RigidBody& b, const SolverBody& start, double tau) {
   const Quat q = b.orientation(tau);
   waking_.wakeOnto({true, b.id}, tau);
   arcs_.startFlight(b, tau, start.p, start.v, q, q * b.inertia.cwiseProduct(q.conjugate() * start.omega));
@@ -249,25 +251,26 @@ bool IslandStep::settleOnFace(RigidBody& b, const FoundContact& only, double tau
 /// How long it has hardly moved, and whether it has been getting nowhere meanwhile and not gaining or losing
 /// speed. Each look takes twice as long as the last one, so that what only trembles is found out to be in
 /// balance.
-void IslandStep::noteQuiet(RigidBody& b, const Mobile& start, const Mobile& end, double tau, double h) const {
+void IslandStep::noteQuiet(RigidBody& b, const SolverBody& start, const SolverBody& end, double tau,
+                           double h) const {
   const double before = b.contact.quiet;
   const double fastest =
       std::max(end.v.norm() + end.omega.norm() * b.reach, start.v.norm() + start.omega.norm() * b.reach);
   b.contact.quiet = fastest < kQuietSpeed ? before + h : 0;
-  const auto look = [&](const Mobile& from, double since, double span, bool balanced) {
-    b.contact.calm = {from.v, from.omega, since, span, balanced};
+  const auto look = [&](const SolverBody& from, double since, double span, bool balanced) {
+    b.contact.sleepCandidate = {from.v, from.omega, since, span, balanced};
     b.contact.drift.setZero(), b.contact.twist.setZero();
   };
   if (!(before > kGliding)) look(start, 0, kSleepsAfter, false);
   b.contact.drift += 0.5 * h * (start.v + end.v), b.contact.twist += 0.5 * h * (start.omega + end.omega);
-  const double seconds = b.contact.quiet - b.contact.calm.since;
-  if (seconds < b.contact.calm.span) return;
-  const double change =
-      (end.v - b.contact.calm.v).norm() + (end.omega - b.contact.calm.omega).norm() * b.reach;
+  const double seconds = b.contact.quiet - b.contact.sleepCandidate.since;
+  if (seconds < b.contact.sleepCandidate.span) return;
+  const double change = (end.v - b.contact.sleepCandidate.v).norm() +
+                        (end.omega - b.contact.sleepCandidate.omega).norm() * b.reach;
   const double pull = fields_.accelerationAt(b, start.p, start.v, tau).norm();
   const double way = b.contact.drift.norm() + b.contact.twist.norm() * b.reach;
-  look(end, b.contact.quiet, 2 * b.contact.calm.span,
-       change <= kCalm * (1 + pull) * seconds && way <= kCreep * seconds);
+  look(end, b.contact.quiet, 2 * b.contact.sleepCandidate.span,
+       change <= kBalance * (1 + pull) * seconds && way <= kCreep * seconds);
 }
 
 /// The bodies' arcs of h seconds, and the forces as a guess for the next step.
@@ -275,16 +278,16 @@ void IslandStep::conclude(ContactIsland& s, double tau, double h) {
   for (std::size_t i = 0; i < s.set.size(); ++i) {
     RigidBody& b = *s.set[i];
     b.contact.touching.clear(), b.contact.presses.clear();
-    std::vector<Party> near;
+    std::vector<ContactSide> near;
     const FoundContact* only = nullptr;
     int points = 0;
-    const auto note = [](std::vector<Party>& list, Party p) {
+    const auto note = [](std::vector<ContactSide>& list, ContactSide p) {
       if (std::find(list.begin(), list.end(), p) == list.end()) list.push_back(p);
     };
     for (const FoundContact& f : s.found) {
       if (f.contact.a != i && f.contact.b != i) continue;
       ++points, only = &f;
-      const Party other = f.contact.a == i ? f.b : f.a;
+      const ContactSide other = f.contact.a == i ? f.b : f.a;
       note(b.contact.touching, other);
       if (f.gap.distance < kTouching) note(near, other);
       if (f.contact.a == i && !f.contact.impulse.isZero(0))
@@ -294,7 +297,7 @@ void IslandStep::conclude(ContactIsland& s, double tau, double h) {
       note(b.contact.touching, o.piece);
       if (o.touches) note(near, o.piece);
     }
-    for (const Party p : s.way) note(b.contact.touching, p);
+    for (const ContactSide p : s.way) note(b.contact.touching, p);
     for (const FlatPatch& f : s.flats)
       if (f.contact.a == i && !f.contact.impulse.isZero(0))
         b.contact.presses.push_back({f.key, basisAround(f.flat.plane.n) * (f.contact.impulse / h), h});
@@ -304,7 +307,7 @@ void IslandStep::conclude(ContactIsland& s, double tau, double h) {
       continue;
     }
     const Quat q = b.orientation(tau);
-    const Mobile &start = s.start[i], &end = s.end[i];
+    const SolverBody &start = s.start[i], &end = s.end[i];
     const Vec3 L0 = start.inverseInertia.inverse() * start.omega,
                L1 = end.inverseInertia.inverse() * end.omega;
     noteQuiet(b, start, end, tau, h);
@@ -324,7 +327,7 @@ double IslandStep::stepOf(const ContactIsland& s, double tau, double h) const {
   const double shortest = s.set.size() > 1 ? h / 8 : kLanding;
   for (const FoundContact& f : s.found) {
     if (f.gap.distance <= kIslandSlop) continue;
-    const Mobile &a = s.start[f.contact.a], &b = s.start[f.contact.b];
+    const SolverBody &a = s.start[f.contact.a], &b = s.start[f.contact.b];
     const double closing =
         f.gap.normal.dot(b.v + b.omega.cross(f.gap.point - b.p) - a.v - a.omega.cross(f.gap.point - a.p));
     if (closing > kRestitutionSpeed && closing * h > f.gap.distance)
@@ -364,7 +367,7 @@ void IslandStep::advance(ContactIsland& s, double tau, double h) {
     const bool holds = solveStep(s, tau, h, Effort::Moving);
     for (RigidBody* b : s.set) b->contact.restless = !holds;
     boundStep(s, h);
-    const std::vector<Mobile> solved = s.end;
+    const std::vector<SolverBody> solved = s.end;
     resistRolling(s);
     if (!s.carried) holdRims(s, solved);
   }
@@ -373,8 +376,8 @@ void IslandStep::advance(ContactIsland& s, double tau, double h) {
   conclude(s, tau, s.glides ? last : h);
   // Sets that have been quiet together fall asleep together.
   const bool quiet = !s.carried && std::ranges::all_of(s.set, [&](const RigidBody* b) {
-    return b->mode == BodyMode::Contact && b->contact.quiet >= kSleepsAfter && b->contact.calm.balanced &&
-           !fields_.feelsChange(*b);
+    return b->mode == BodyMode::Contact && b->contact.quiet >= kSleepsAfter &&
+           b->contact.sleepCandidate.balanced && !fields_.feelsChange(*b);
   });
   if (quiet)
     for (RigidBody* b : s.set) arcs_.freeze(*b, tau);

@@ -21,7 +21,7 @@ struct FlatPatch {
   std::vector<Vec3> places;         ///< their places on the side that carries the area
 
   /// Arms and a basis in which the area does not turn, if its sides lie like this.
-  void place(const Mobile& a, const Mobile& b, const Mat3& turnA, const Mat3& turnB, const Vec3& pA,
+  void place(const SolverBody& a, const SolverBody& b, const Mat3& turnA, const Mat3& turnB, const Vec3& pA,
              const Vec3& pB, Mat3& basis, Vec3& armA, Vec3& armB) const;
 };
 
@@ -30,14 +30,14 @@ struct ContactIsland {
   std::vector<RigidBody*> set;
   std::vector<FoundContact> found;
   std::vector<FlatPatch> flats;
-  std::vector<Mobile> start, end;  ///< of the set, then of the parties that nothing moves
-  std::vector<Party> fixed;        ///< those parties
-  std::vector<Vec3> pull;          ///< on the set in this step [m/s2]
-  std::vector<Mobile> free;        ///< what `end` would be without contacts
-  bool carried = false;            ///< one of the fixed parties moves
-  bool wedged = false;             ///< no velocities suit all: contacts with external motion yield
-  std::vector<Party> way;          ///< pieces that a glide comes to
-  bool glides = false;             ///< in closed form
+  std::vector<SolverBody> start, end;  ///< of the set, then of the sides that nothing moves
+  std::vector<ContactSide> fixed;      ///< those sides
+  std::vector<Vec3> pull;              ///< on the set in this step [m/s2]
+  std::vector<SolverBody> free;        ///< what `end` would be without contacts
+  bool carried = false;                ///< one of the fixed sides moves
+  bool wedged = false;                 ///< no velocities suit all: contacts with external motion yield
+  std::vector<ContactSide> way;        ///< pieces that a glide comes to
+  bool glides = false;                 ///< in closed form
 };
 
 class IslandStep {
@@ -56,22 +56,22 @@ private:
   void begin(ContactIsland& island, double tau) const;
   void findFlats(ContactIsland& island, double tau) const;
   std::vector<Side> surfaceUnder(const FoundContact& f) const;
-  bool isDriven(Party p) const;
-  bool solveIsland(ContactIsland& island, std::vector<Mobile>& mobiles, std::vector<SolverContact>& contacts,
-                   Effort effort) const;
+  bool isDriven(ContactSide p) const;
+  bool solveIsland(ContactIsland& island, std::vector<SolverBody>& solverBodies,
+                   std::vector<SolverContact>& contacts, Effort effort) const;
   void stopApproaches(ContactIsland& island) const;
   bool solveStep(ContactIsland& island, double tau, double h, Effort effort) const;
-  void moveFreely(ContactIsland& island, const std::vector<Mobile>& guess, double tau, double h,
+  void moveFreely(ContactIsland& island, const std::vector<SolverBody>& guess, double tau, double h,
                   bool first) const;
   double glide(ContactIsland& island, double tau, double h);
-  double glideOf(const ContactIsland& island, double probe, std::vector<Party>& way);
+  double glideOf(const ContactIsland& island, double probe, std::vector<ContactSide>& way);
   double glideAt(const ContactIsland& island, const FoundContact& f, double probe, double most,
-                 std::vector<Party>& way);
+                 std::vector<ContactSide>& way);
   double stepOf(const ContactIsland& island, double tau, double h) const;
-  void holdRims(ContactIsland& island, const std::vector<Mobile>& solved) const;
+  void holdRims(ContactIsland& island, const std::vector<SolverBody>& solved) const;
   void conclude(ContactIsland& island, double tau, double h);
-  void concludeFreely(RigidBody& b, const Mobile& start, double tau);
-  void noteQuiet(RigidBody& b, const Mobile& start, const Mobile& end, double tau, double h) const;
+  void concludeFreely(RigidBody& b, const SolverBody& start, double tau);
+  void noteQuiet(RigidBody& b, const SolverBody& start, const SolverBody& end, double tau, double h) const;
   bool settleOnFace(RigidBody& b, const FoundContact& only, double tau);
 
   const WorldObjects& objects_;

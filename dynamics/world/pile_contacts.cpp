@@ -1,4 +1,4 @@
-#include "dynamics/world/crowd_step.h"
+#include "dynamics/world/pile_step.h"
 #include "dynamics/world/piles.h"
 
 #include <algorithm>
@@ -26,19 +26,19 @@ Gap planeGap(const Vec3& centre, double radius, const PlaneShape& plane, const P
 }  // namespace
 
 /// A point of contact of a member with a member or one that nothing moves.
-void Piles::addContact(const RigidBody& b, Party other, const Surface& surface, const Gap& gap,
-                       std::uint32_t feature, CrowdStep& step) {
-  CrowdContact c;
+void Piles::addContact(const RigidBody& b, ContactSide other, const Surface& surface, const Gap& gap,
+                       std::uint32_t feature, PileStep& step) {
+  PileContact c;
   const PairSurface pair = combine(b.surface, surface);
   c.a = b.contact.slot, c.n = gap.normal, c.gap = gap.distance;
   c.friction = pair.friction, c.restitution = pair.restitution;
   if (b.isBall()) c.rolling = pair.rolling * b.radius();
-  CrowdStep::Note note;
+  PileStep::Note note;
   note.other = other, note.key = pairKey({true, b.id}, other, feature);
   note.reverse = pairKey(other, {true, b.id}, feature);
   for (const Pressed& p : b.contact.presses)
     if (p.key == note.key) {
-      const Vec3 impulse = std::min(step.crowd.h, p.step) * p.force;
+      const Vec3 impulse = std::min(step.pile.h, p.step) * p.force;
       c.pressed = std::max(0.0, impulse.dot(c.n));
       c.held = impulse - impulse.dot(c.n) * c.n;
     }
@@ -48,18 +48,18 @@ void Piles::addContact(const RigidBody& b, Party other, const Surface& surface, 
   } else if (o && o->contact.slot < step.fixed.size() && step.fixed[o->contact.slot].body == o) {
     note.fixed = o->contact.slot;
   } else {
-    const auto known = o ? step.fixed.end() : std::ranges::find(step.fixed, other, &CrowdStep::Fixed::party);
+    const auto known = o ? step.fixed.end() : std::ranges::find(step.fixed, other, &PileStep::Fixed::key);
     note.fixed = static_cast<std::uint32_t>(known - step.fixed.begin());
     if (known == step.fixed.end()) step.fixed.push_back({other, o, Vec3::Zero()});
     if (o) o->contact.slot = note.fixed;
   }
-  step.crowd.contacts.push_back(c);
+  step.pile.contacts.push_back(c);
   step.notes.push_back(note);
   step.points.push_back(gap.point);
 }
 
-void Piles::findColliders(const RigidBody& b, const Aabb& box, double margin, CrowdStep& step) {
-  const CrowdStep::Member me = step.members[b.contact.slot];
+void Piles::findColliders(const RigidBody& b, const Aabb& box, double margin, PileStep& step) {
+  const PileStep::Member me = step.members[b.contact.slot];
   const Side self = Side::of(b);
   step.bearings.clear(), step.features.clear();
   const auto note = [&](const Collider& c, const Gap& gap, std::uint32_t feature) {
@@ -77,7 +77,7 @@ void Piles::findColliders(const RigidBody& b, const Aabb& box, double margin, Cr
       if (gap.distance < margin) note(c, gap, 1);
       return;
     }
-    const double theirs = moves ? step.crowd.h * c.motion.at(step.tau).velocityAt(me.middle).norm() : 0;
+    const double theirs = moves ? step.pile.h * c.motion.at(step.tau).velocityAt(me.middle).norm() : 0;
     manifold(self, Side::of(c), step.tau, margin + theirs, step.found);
     // A ball with its centre inside leaves by one way, the shortest.
     if (me.round && !step.found.empty() && step.found.front().gap.distance < -me.bound) step.found.resize(1);
@@ -92,9 +92,9 @@ void Piles::findColliders(const RigidBody& b, const Aabb& box, double margin, Cr
 }
 
 /// A body near a member: the points at which they may meet, and whether it joins the step.
-void Piles::meet(RigidBody& b, RigidBody& o, double margin, CrowdStep& step) {
+void Piles::meet(RigidBody& b, RigidBody& o, double margin, PileStep& step) {
   if (&o == &b || !o.enabled) return;
-  const CrowdStep::Member me = step.members[b.contact.slot];
+  const PileStep::Member me = step.members[b.contact.slot];
   bool member = step.has(o);
   if (member && o.id < b.id) return;  // the pair is found from there
   double reach = margin;
@@ -102,7 +102,7 @@ void Piles::meet(RigidBody& b, RigidBody& o, double margin, CrowdStep& step) {
   if (member) {
     reach += step.members[o.contact.slot].way, there = step.members[o.contact.slot].middle;
   } else {
-    reach += step.crowd.h * o.velocity(step.tau).norm();
+    reach += step.pile.h * o.velocity(step.tau).norm();
     there = o.centred ? o.position(step.tau) : Vec3(o.poseAt(step.tau) * o.bound.centre);
   }
   const Vec3 apart = me.middle - there;
@@ -123,7 +123,7 @@ void Piles::meet(RigidBody& b, RigidBody& o, double margin, CrowdStep& step) {
     // A sleeping body stays asleep unless it is pushed; a moving body joins the step.
     const bool touched =
         std::ranges::any_of(step.found, [](const auto& p) { return p.gap.distance < kTouching; });
-    const bool pushes = b.contact.quiet == 0 || step.crowd.bodies[b.contact.slot].v.norm() > kWakeSpeed;
+    const bool pushes = b.contact.quiet == 0 || step.pile.bodies[b.contact.slot].v.norm() > kWakeSpeed;
     if (!sleeps(o) || (touched && pushes)) join(o, step);
     member = step.has(o);
     if (member && o.id < b.id) return;
@@ -131,9 +131,9 @@ void Piles::meet(RigidBody& b, RigidBody& o, double margin, CrowdStep& step) {
   for (const ManifoldPoint& p : step.found) addContact(b, {true, o.id}, o.surface, p.gap, p.key, step);
 }
 
-void Piles::findContacts(RigidBody& b, CrowdStep& step) {
-  const CrowdStep::Member& me = step.members[b.contact.slot];
-  const double margin = kTouching + me.way + step.crowd.h * step.crowd.h * kStrongest;
+void Piles::findContacts(RigidBody& b, PileStep& step) {
+  const PileStep::Member& me = step.members[b.contact.slot];
+  const double margin = kTouching + me.way + step.pile.h * step.pile.h * kStrongest;
   Aabb box;
   box.include(me.middle);
   box.lo.array() -= me.bound + margin, box.hi.array() += me.bound + margin;
@@ -143,7 +143,7 @@ void Piles::findContacts(RigidBody& b, CrowdStep& step) {
   step.near.clear();
   foresight_.eachBodyNear(box, step.tau, [&](RigidBody& o) {
     if (step.has(o)) {  // most of them: the pair is found from the other, or too far apart
-      const CrowdStep::Member& other = step.members[o.contact.slot];
+      const PileStep::Member& other = step.members[o.contact.slot];
       const double far = me.bound + other.bound + margin + other.way;
       if (o.id <= b.id || (me.middle - other.middle).squaredNorm() > far * far) return;
     }
@@ -154,50 +154,50 @@ void Piles::findContacts(RigidBody& b, CrowdStep& step) {
 }
 
 /// All sides are known now: which of them move, and where the points are on both.
-void Piles::linkContacts(CrowdStep& step) {
-  Crowd& crowd = step.crowd;
+void Piles::linkContacts(PileStep& step) {
+  Pile& pile = step.pile;
   const auto n = static_cast<std::uint32_t>(step.members.size());
-  for (CrowdStep::Fixed& f : step.fixed) {
-    const Kinematics k = f.body ? f.body->at(step.tau) : objects_.collider(f.party.id)->motion.at(step.tau);
+  for (PileStep::Fixed& f : step.fixed) {
+    const Kinematics k = f.body ? f.body->at(step.tau) : objects_.collider(f.key.id)->motion.at(step.tau);
     f.p = k.p;
-    CrowdBody still;
+    PileBody still;
     still.v = k.v, still.omega = k.omega;
-    crowd.bodies.push_back(still);
+    pile.bodies.push_back(still);
   }
   std::size_t kept = 0;
   const std::vector<Vec3> holds = placesOfFriction(step);
-  for (std::size_t k = 0; k < crowd.contacts.size(); ++k) {
-    CrowdContact c = crowd.contacts[k];
-    const CrowdStep::Note& note = step.notes[k];
-    const CrowdStep::Fixed* fixed = note.fixed == CrowdStep::kNone ? nullptr : &step.fixed[note.fixed];
+  for (std::size_t k = 0; k < pile.contacts.size(); ++k) {
+    PileContact c = pile.contacts[k];
+    const PileStep::Note& note = step.notes[k];
+    const PileStep::Fixed* fixed = note.fixed == PileStep::kNone ? nullptr : &step.fixed[note.fixed];
     if (fixed && fixed->body && step.has(*fixed->body)) {  // it has come along after all
       c.b = fixed->body->contact.slot;
       if (fixed->body->id < step.members[c.a].body->id) continue;  // and has found the pair by itself
     } else if (fixed) {
       c.b = n + note.fixed;
     }
-    const CrowdStep::Member& a = step.members[c.a];
+    const PileStep::Member& a = step.members[c.a];
     const Vec3 other = c.b < n ? step.members[c.b].p : fixed->p;
     const Vec3 armA = step.points[k] - a.p, armB = step.points[k] - other;
-    const bool still = c.b >= n && crowd.bodies[c.b].omega.isZero(0);
+    const bool still = c.b >= n && pile.bodies[c.b].omega.isZero(0);
     if (a.round && (still || (c.b < n && step.members[c.b].round))) {
       c.leverA = -armA.dot(c.n), c.leverB = still ? 0 : armB.dot(c.n);
     } else {
-      c.arms = static_cast<std::int32_t>(crowd.arms.size());
+      c.arms = static_cast<std::int32_t>(pile.arms.size());
       const Vec3& hold = holds.empty() ? step.points[k] : holds[k];
-      crowd.arms.push_back({armA, armB, hold - a.p, hold - other});
+      pile.arms.push_back({armA, armB, hold - a.p, hold - other});
     }
-    crowd.contacts[kept] = c, step.notes[kept] = note, ++kept;
+    pile.contacts[kept] = c, step.notes[kept] = note, ++kept;
   }
-  crowd.contacts.resize(kept), step.notes.resize(kept);
+  pile.contacts.resize(kept), step.notes.resize(kept);
 }
 
-/// In a crowd the points of a flat contact keep friction of their own, but at the mean radius of its area: so
+/// In a pile the points of a flat contact keep friction of their own, but at the mean radius of its area: so
 /// they resist spin as even pressure does, whichever of them carry it. Empty if all have it where they are.
-std::vector<Vec3> Piles::placesOfFriction(const CrowdStep& step) const {
+std::vector<Vec3> Piles::placesOfFriction(const PileStep& step) const {
   std::vector<Vec3> places;
   std::vector<Gap> gaps;
-  const std::vector<CrowdContact>& all = step.crowd.contacts;
+  const std::vector<PileContact>& all = step.pile.contacts;
   for (std::size_t first = 0, end = 0; first < all.size(); first = end) {
     for (end = first + 1; end < all.size() && all[end].a == all[first].a; ++end)
       if (step.notes[end].other != step.notes[first].other) break;

@@ -1,6 +1,6 @@
 #include "dynamics/world/piles.h"
 
-#include "dynamics/world/crowd_step.h"
+#include "dynamics/world/pile_step.h"
 
 #include <algorithm>
 #include <cmath>
@@ -11,35 +11,35 @@ namespace {
 
 constexpr double kParted = 1e-3;          ///< and those farther than this no longer [m]
 constexpr std::size_t kContactsEach = 6;  ///< space for so many of each member is made at once
-constexpr std::size_t kLeast = 4;         ///< a smaller crowd is none any more
+constexpr std::size_t kLeast = 4;         ///< a smaller pile is none any more
 constexpr double kLeaving = 0.1;          ///< least speed of a body that may leave a pile for good [m/s]
 constexpr double kQuietWay = 1.2e-3;      ///< a surface point that stays within this is quiet [m]
 constexpr double kQuietTime = 0.3;        ///< before a body sleeps among quiet ones [s]
 constexpr double kWaking = 1e-9;          ///< quiet time of a body that has been woken softly [s]
 
-bool in(const std::vector<Party>& list, Party p) {
+bool in(const std::vector<ContactSide>& list, ContactSide p) {
   return std::find(list.begin(), list.end(), p) != list.end();
 }
 /// The points of a pair come one after the other.
-void note(std::vector<Party>& list, Party p) {
+void note(std::vector<ContactSide>& list, ContactSide p) {
   if (list.empty() || list.back() != p) list.push_back(p);
 }
 
 /// The contacts of each member, one after the other.
 struct ContactLists {
   std::vector<std::uint32_t> begin, of;
-  explicit ContactLists(const Crowd& crowd) : begin(crowd.members + 1, 0) {
-    for (const CrowdContact& c : crowd.contacts) {
+  explicit ContactLists(const Pile& pile) : begin(pile.members + 1, 0) {
+    for (const PileContact& c : pile.contacts) {
       ++begin[c.a + 1];
-      if (c.b < crowd.members) ++begin[c.b + 1];
+      if (c.b < pile.members) ++begin[c.b + 1];
     }
-    for (std::size_t i = 0; i < crowd.members; ++i) begin[i + 1] += begin[i];
+    for (std::size_t i = 0; i < pile.members; ++i) begin[i + 1] += begin[i];
     of.resize(begin.back());
     std::vector<std::uint32_t> next = begin;
-    for (std::uint32_t k = 0; k < crowd.contacts.size(); ++k) {
-      const CrowdContact& c = crowd.contacts[k];
+    for (std::uint32_t k = 0; k < pile.contacts.size(); ++k) {
+      const PileContact& c = pile.contacts[k];
       of[next[c.a]++] = k;
-      if (c.b < crowd.members) of[next[c.b]++] = k;
+      if (c.b < pile.members) of[next[c.b]++] = k;
     }
   }
 };
@@ -48,26 +48,26 @@ constexpr std::size_t kPile = 16;         ///< islands of so many bodies become 
 constexpr std::size_t kRestlessPile = 5;  ///< the same if they are not solved exactly
 
 /// How long each member has hardly moved; whether it is time to sleep for those among their like.
-std::vector<char> calmInCrowd(const CrowdStep& step) {
-  const Crowd& crowd = step.crowd;
-  const std::size_t n = crowd.members;
+std::vector<char> sleepCandidates(const PileStep& step) {
+  const Pile& pile = step.pile;
+  const std::size_t n = pile.members;
   std::vector<char> calm(n, 1);
   for (std::size_t i = 0; i < n; ++i) {
     RigidBody& b = *step.members[i].body;
-    const CrowdBody &start = crowd.start[i], &end = crowd.bodies[i];
-    b.contact.drift += crowd.shift[i] + 0.5 * crowd.h * (start.v + end.v);
-    b.contact.twist += 0.5 * crowd.h * (start.omega + end.omega);
-    b.contact.quiet += crowd.h;
+    const PileBody &start = pile.start[i], &end = pile.bodies[i];
+    b.contact.drift += pile.shift[i] + 0.5 * pile.h * (start.v + end.v);
+    b.contact.twist += 0.5 * pile.h * (start.omega + end.omega);
+    b.contact.quiet += pile.h;
     if (b.contact.drift.norm() + b.contact.twist.norm() * b.reach > kQuietWay)
       b.contact.quiet = 0, b.contact.drift.setZero(), b.contact.twist.setZero();
     calm[i] = b.contact.quiet >= kQuietTime;
   }
   std::vector<char> may = calm;
-  for (const CrowdContact& c : crowd.contacts) {
+  for (const PileContact& c : pile.contacts) {
     if (c.b < n) {
       may[c.a] = may[c.a] && calm[c.b], may[c.b] = may[c.b] && calm[c.a];
     } else {
-      const CrowdBody& fixed = crowd.bodies[c.b];
+      const PileBody& fixed = pile.bodies[c.b];
       may[c.a] = may[c.a] && fixed.v.isZero(0) && fixed.omega.isZero(0);
     }
   }
@@ -76,17 +76,17 @@ std::vector<char> calmInCrowd(const CrowdStep& step) {
 
 }  // namespace
 
-void Piles::join(RigidBody& b, CrowdStep& step) {
+void Piles::join(RigidBody& b, PileStep& step) {
   const double tau = step.tau;
-  if (!b.contact.crowd) {
+  if (!b.contact.inPile) {
     const double quiet = b.mode == BodyMode::Rest ? kWaking : b.contact.quiet;
     waking_.enterContact(b, tau);
     if (b.mode != BodyMode::Contact) return;
-    b.contact.crowd = true, b.contact.restless = false, b.contact.quiet = quiet, b.contact.dueAge = 0;
+    b.contact.inPile = true, b.contact.restless = false, b.contact.quiet = quiet, b.contact.dueAge = 0;
     b.contact.drift.setZero(), b.contact.twist.setZero();
   }
-  CrowdStep::Member m;
-  CrowdBody c;
+  PileStep::Member m;
+  PileBody c;
   m.body = &b;
   m.p = b.position(tau), m.round = b.centred, m.bound = b.bound.radius;
   m.middle = m.round ? m.p : Vec3(b.poseAt(tau) * b.bound.centre);
@@ -102,36 +102,36 @@ void Piles::join(RigidBody& b, CrowdStep& step) {
     inverse = R * b.inertia.cwiseInverse().asDiagonal() * R.transpose();
     c.omega = inverse * L;
   }
-  m.way = step.crowd.h * (c.v.norm() + (m.round ? 0 : c.omega.norm() * b.reach));
+  m.way = step.pile.h * (c.v.norm() + (m.round ? 0 : c.omega.norm() * b.reach));
   b.contact.slot = static_cast<std::uint32_t>(step.members.size());
   step.members.push_back(m);
-  step.crowd.bodies.push_back(c);
-  step.crowd.inverseInertia.push_back(inverse);
+  step.pile.bodies.push_back(c);
+  step.pile.inverseInertia.push_back(inverse);
 }
 
 /// What the member leans on, and the forces as a guess for the next step. False if nothing is near.
-bool Piles::noteNeighbours(const CrowdStep& step, std::size_t i, std::span<const std::uint32_t> list,
-                           std::vector<Party>& near) {
-  const Crowd& crowd = step.crowd;
+bool Piles::noteNeighbours(const PileStep& step, std::size_t i, std::span<const std::uint32_t> list,
+                           std::vector<ContactSide>& near) {
+  const Pile& pile = step.pile;
   RigidBody& b = *step.members[i].body;
   b.contact.touching.clear(), b.contact.presses.clear();
   near.clear();
   for (const std::uint32_t k : list) {
-    const CrowdContact& c = crowd.contacts[k];
+    const PileContact& c = pile.contacts[k];
     const bool first = c.a == i;
-    const Party other = first ? step.notes[k].other : Party{true, step.members[c.a].body->id};
+    const ContactSide other = first ? step.notes[k].other : ContactSide{true, step.members[c.a].body->id};
     note(b.contact.touching, other);
     if (c.gap < kTouching || (c.gap < kParted && in(b.contact.leaning, other))) note(near, other);
     if (!(c.pressed > 0)) continue;
-    const Vec3 force = (c.pressed * c.n + c.held) / crowd.h;
+    const Vec3 force = (c.pressed * c.n + c.held) / pile.h;
     const std::uint64_t key = first ? step.notes[k].key : step.notes[k].reverse;
-    b.contact.presses.push_back({key, first ? force : Vec3(-force), crowd.h});
+    b.contact.presses.push_back({key, first ? force : Vec3(-force), pile.h});
   }
   std::ranges::sort(near);
   if (near != b.contact.leaning) {
-    const std::vector<Party> left = b.contact.leaning;
+    const std::vector<ContactSide> left = b.contact.leaning;
     rememberTouching(memory_, b, near);
-    for (const Party p : left)  // a body that leaned on it may fall now
+    for (const ContactSide p : left)  // a body that leaned on it may fall now
       if (p.isBody && !in(near, p))
         if (RigidBody* o = objects_.body(p.id); o && o->mode == BodyMode::Rest)
           waking_.enterContact(*o, step.tau);
@@ -140,14 +140,14 @@ bool Piles::noteNeighbours(const CrowdStep& step, std::size_t i, std::span<const
 }
 
 /// The member's arc of the step.
-void Piles::follow(const CrowdStep& step, std::size_t i) {
-  const Crowd& crowd = step.crowd;
-  const double tau = step.tau, h = crowd.h;
+void Piles::follow(const PileStep& step, std::size_t i) {
+  const Pile& pile = step.pile;
+  const double tau = step.tau, h = pile.h;
   RigidBody& b = *step.members[i].body;
-  const CrowdBody &start = crowd.start[i], &end = crowd.bodies[i];
+  const PileBody &start = pile.start[i], &end = pile.bodies[i];
   const Quat q = b.orientation(tau);
   const double quiet = b.contact.quiet;
-  const Path path = Path::parabola(step.members[i].p + crowd.shift[i], start.v, (end.v - start.v) / h);
+  const Path path = Path::parabola(step.members[i].p + pile.shift[i], start.v, (end.v - start.v) / h);
   if (step.members[i].round) {
     const Vec3 alpha = (end.omega - start.omega) / h;
     arcs_.setArc(b, tau, path,
@@ -167,26 +167,26 @@ void Piles::follow(const CrowdStep& step, std::size_t i) {
 }
 
 /// Arcs of the step, and which members may sleep.
-void Piles::conclude(CrowdStep& step) {
-  const Crowd& crowd = step.crowd;
+void Piles::conclude(PileStep& step) {
+  const Pile& pile = step.pile;
   const double tau = step.tau;
-  const ContactLists lists(crowd);
-  const std::vector<char> may = calmInCrowd(step);
-  std::vector<Party> near;
-  for (std::size_t i = 0; i < crowd.members; ++i) {
+  const ContactLists lists(pile);
+  const std::vector<char> may = sleepCandidates(step);
+  std::vector<ContactSide> near;
+  for (std::size_t i = 0; i < pile.members; ++i) {
     RigidBody& b = *step.members[i].body;
     const std::span list(lists.of.data() + lists.begin[i], lists.begin[i + 1] - lists.begin[i]);
     if (!noteNeighbours(step, i, list, near)) {
       const Quat q = b.orientation(tau);
       const Vec3 L = b.momentum(tau);
       waking_.wakeOnto({true, b.id}, tau);
-      arcs_.startFlight(b, tau, step.members[i].p, crowd.start[i].v, q, L);
+      arcs_.startFlight(b, tau, step.members[i].p, pile.start[i].v, q, L);
       foresight_.predict(b, tau);
       continue;
     }
     follow(step, i);
     if (b.mode != BodyMode::Contact) continue;
-    b.contact.drowsy = may[i] != 0;  // not at once: the others' motion counts on its own
+    b.contact.sleepsNext = may[i] != 0;  // not at once: the others' motion counts on its own
     boxes_.sweep(b, tau);
   }
 }
@@ -199,49 +199,49 @@ void Piles::dissolve(const std::vector<RigidBody*>& due, double tau) {
     if (b->contact.dueAge > 0)
       arcs_.setArc(*b, tau, Path::parabola(b->position(tau), b->velocity(tau), Vec3::Zero()),
                    Spin::free(b->orientation(tau), L, b->inertia), grid_.islandStep(), BodyMode::Contact);
-    b->contact.crowd = false, b->contact.endL = L;
+    b->contact.inPile = false, b->contact.endL = L;
   }
 }
 
 /// One step of all members of piles, to the next time on the grid of piles.
 void Piles::advance(double tau) {
-  CrowdStep step;
+  PileStep step;
   step.tau = tau;
-  Crowd& crowd = step.crowd;
-  crowd.h = grid_.untilPileStep(time_.instantAt(tau));
+  Pile& pile = step.pile;
+  pile.h = grid_.untilPileStep(time_.instantAt(tau));
   std::vector<RigidBody*> due;
   for (RigidBody* b : active_) {
-    b->contact.slot = CrowdStep::kNone;
-    if (b->contact.crowd && b->enabled && b->contact.dueAge <= b->age(tau) + kDue) due.push_back(b);
+    b->contact.slot = PileStep::kNone;
+    if (b->contact.inPile && b->enabled && b->contact.dueAge <= b->age(tau) + kDue) due.push_back(b);
   }
   std::ranges::sort(due, {}, &RigidBody::id);
   for (RigidBody* b : due)
-    if (b->contact.drowsy) arcs_.freeze(*b, tau), foresight_.predict(*b, tau);
+    if (b->contact.sleepsNext) arcs_.freeze(*b, tau), foresight_.predict(*b, tau);
   std::erase_if(due, [](const RigidBody* b) { return b->mode != BodyMode::Contact; });
   if (due.empty()) return;
   const auto leaves = [&](const RigidBody* b) { return b->velocity(tau).norm() > kLeaving; };
   if (due.size() < kLeast && std::ranges::any_of(due, leaves) && !isPile(due, tau)) return dissolve(due, tau);
   for (RigidBody* b : due) join(*b, step);
   const std::size_t contacts = kContactsEach * due.size();
-  crowd.contacts.reserve(contacts), step.notes.reserve(contacts), step.points.reserve(contacts);
+  pile.contacts.reserve(contacts), step.notes.reserve(contacts), step.points.reserve(contacts);
   for (std::size_t i = 0; i < step.members.size(); ++i) findContacts(*step.members[i].body, step);
-  crowd.members = step.members.size();
+  pile.members = step.members.size();
   linkContacts(step);
-  crowd.pull.resize(crowd.members);
-  for (std::size_t i = 0; i < crowd.members; ++i) {
+  pile.pull.resize(pile.members);
+  for (std::size_t i = 0; i < pile.members; ++i) {
     const RigidBody& b = *step.members[i].body;
-    crowd.pull[i] = fields_.accelerationAt(b, step.members[i].p, crowd.bodies[i].v, tau);
-    if (b.damping > 0) crowd.bodies[i].v *= det::exp(-b.damping * crowd.h);
+    pile.pull[i] = fields_.accelerationAt(b, step.members[i].p, pile.bodies[i].v, tau);
+    if (b.damping > 0) pile.bodies[i].v *= det::exp(-b.damping * pile.h);
   }
-  solveCrowd(crowd);
+  solvePile(pile);
   conclude(step);
 }
 
-/// Whether an island is better off as a crowd: it is large, not solved exactly, or its balls are in the thick
+/// Whether an island is better off as a pile: it is large, not solved exactly, or its balls are in the thick
 /// of it.
 bool Piles::isPile(const std::vector<RigidBody*>& island, double tau) {
   const bool balls = std::ranges::all_of(island, [](const RigidBody* b) { return b->isBall(); });
-  // Thin meshes would sink through each other in a crowd's longer steps.
+  // Thin meshes would sink through each other in a pile's longer steps.
   const bool restless = std::ranges::any_of(island, [](const RigidBody* b) { return b->contact.restless; }) &&
                         std::ranges::none_of(island, [](const RigidBody* b) {
                           return std::holds_alternative<MeshShape>(*b->shape);

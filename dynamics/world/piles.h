@@ -1,5 +1,5 @@
 #pragma once
-/// Many bodies in contact, advanced together in steps of 1/120 s (contact/crowd_solver.h).
+/// Many bodies in contact, advanced together in steps of 1/120 s (contact/pile_solver.h).
 
 #include "dynamics/world/contact_finder.h"
 #include "dynamics/world/waking.h"
@@ -9,7 +9,7 @@
 
 namespace stadion {
 
-struct CrowdStep;
+struct PileStep;
 
 class Piles {
 public:
@@ -27,18 +27,18 @@ public:
 
 private:
   void dissolve(const std::vector<RigidBody*>& due, double tau);
-  void join(RigidBody& b, CrowdStep& step);
-  void findContacts(RigidBody& b, CrowdStep& step);
-  void findColliders(const RigidBody& b, const Aabb& box, double margin, CrowdStep& step);
-  void meet(RigidBody& b, RigidBody& o, double margin, CrowdStep& step);
-  void addContact(const RigidBody& b, Party other, const Surface& surface, const Gap& gap,
-                  std::uint32_t feature, CrowdStep& step);
-  std::vector<Vec3> placesOfFriction(const CrowdStep& step) const;
-  void linkContacts(CrowdStep& step);
-  bool noteNeighbours(const CrowdStep& step, std::size_t i, std::span<const std::uint32_t> list,
-                      std::vector<Party>& near);
-  void follow(const CrowdStep& step, std::size_t i);
-  void conclude(CrowdStep& step);
+  void join(RigidBody& b, PileStep& step);
+  void findContacts(RigidBody& b, PileStep& step);
+  void findColliders(const RigidBody& b, const Aabb& box, double margin, PileStep& step);
+  void meet(RigidBody& b, RigidBody& o, double margin, PileStep& step);
+  void addContact(const RigidBody& b, ContactSide other, const Surface& surface, const Gap& gap,
+                  std::uint32_t feature, PileStep& step);
+  std::vector<Vec3> placesOfFriction(const PileStep& step) const;
+  void linkContacts(PileStep& step);
+  bool noteNeighbours(const PileStep& step, std::size_t i, std::span<const std::uint32_t> list,
+                      std::vector<ContactSide>& near);
+  void follow(const PileStep& step, std::size_t i);
+  void conclude(PileStep& step);
 
   const WorldTime& time_;
   const StepGrid& grid_;

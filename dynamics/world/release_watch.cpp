@@ -176,7 +176,7 @@ double ReleaseWatch::wayLength(const Side& s, double from, double tau) const {
 }
 
 /// It has been put elsewhere: no way leads there that could be too short to part from anything.
-void ReleaseWatch::forgetSlack(Party p) {
+void ReleaseWatch::forgetSlack(ContactSide p) {
   memory_.eachWith(p, [&](const ContactMemory::Key& pair) {
     if (ContactMemory::Waiting* w = memory_.waitingOf(pair)) w->slack = 0;
   });
@@ -280,7 +280,7 @@ void ReleaseWatch::awaitRelease(ContactMemory::Waiting& w, const Side& a, const 
 
 /// An impact at tau has been dealt with: the pair need not be looked at before it can part.
 void ReleaseWatch::foreseeRelease(ContactMemory::Waiting& w, double tau, std::int32_t triangle) {
-  for (const Party p : {w.pair.first, Party{true, w.pair.second}})
+  for (const ContactSide p : {w.pair.first, ContactSide{true, w.pair.second}})
     if (RigidBody* b = p.isBody ? objects_.body(p.id) : nullptr)
       traces_.trace(*b, b->trace.traced, true, tau);
   const Side a = *objects_.side(w.pair.first), b = *objects_.side({true, w.pair.second});

@@ -26,7 +26,7 @@ public:
   /// Reports the releases of this part of the frame.
   void reportReleases();
   /// A jump of `p` makes all its pairs due.
-  void forgetSlack(Party p);
+  void forgetSlack(ContactSide p);
 
 private:
   void release(const ContactMemory::Key& pair, Nanoseconds time);

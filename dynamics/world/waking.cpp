@@ -9,9 +9,9 @@ void Waking::enterContact(RigidBody& b, double tau) {
   const Vec3 L = b.spin.angularMomentum(b.spinAge(tau));
   // In a pile it moves with the pile: between the steps of the pile no other body gives way.
   const bool rests = b.mode == BodyMode::Rest;
-  const bool crowded =
-      rests && (b.contact.heaped || std::ranges::any_of(b.contact.touching, [&](Party p) {
-                  return p.isBody && objects_.body(p.id) && objects_.body(p.id)->contact.crowd;
+  const bool pileMember =
+      rests && (b.contact.restsInPile || std::ranges::any_of(b.contact.touching, [&](ContactSide p) {
+                  return p.isBody && objects_.body(p.id) && objects_.body(p.id)->contact.inPile;
                 }));
   b.support.on = {};
   arcs_.setArc(b, tau, Path::parabola(b.position(tau), b.velocity(tau), Vec3::Zero()),
@@ -19,8 +19,8 @@ void Waking::enterContact(RigidBody& b, double tau) {
   b.contact.endL = L;
   b.contact.quiet = 0;
   if (!rests) b.contact.presses.clear();
-  if (crowded && b.mode == BodyMode::Contact)
-    b.contact.crowd = true, b.contact.dueAge = grid_.untilPileStep(time_.instantAt(tau));
+  if (pileMember && b.mode == BodyMode::Contact)
+    b.contact.inPile = true, b.contact.dueAge = grid_.untilPileStep(time_.instantAt(tau));
   queue_.scheduleTick(tau);
 }
 
@@ -35,9 +35,9 @@ void Waking::cutStep(RigidBody& b, double tau) {
   queue_.scheduleTick(tau);
 }
 
-/// What was foreseen for longer than a step is looked at anew.
+/// Predicts again what was predicted for longer than a step.
 void Waking::hurry(RigidBody& b, double tau) {
-  if (b.mode != BodyMode::Contact || b.contact.crowd || b.contact.dueAge <= grid_.islandStep() ||
+  if (b.mode != BodyMode::Contact || b.contact.inPile || b.contact.dueAge <= grid_.islandStep() ||
       b.age(tau) + grid_.islandStep() >= b.contact.dueAge)
     return;
   b.contact.dueAge = 0;
@@ -56,12 +56,12 @@ void Waking::wake(RigidBody& b, double tau) {
   wakeOnto({true, b.id}, tau);
 }
 
-void Waking::wakeOnto(Party moved, double tau) {
+void Waking::wakeOnto(ContactSide moved, double tau) {
   if (!supports_.bears(moved)) return;
-  std::vector<Party> waking{moved};
+  std::vector<ContactSide> waking{moved};
   std::vector<BodyId> onIt;
   for (std::size_t i = 0; i < waking.size(); ++i) {
-    const Party gone = waking[i];
+    const ContactSide gone = waking[i];
     onIt.clear();
     supports_.leanersOf(gone, onIt);
     for (const BodyId id : onIt) {
@@ -86,7 +86,7 @@ void Waking::wakeOnto(Party moved, double tau) {
         hurry(*other, tau);
       } else if (other->mode == BodyMode::Rest) {
         // In a pile, bodies that lean on it wake when it moves; elsewhere nothing would wake them.
-        if (!other->contact.heaped) waking.push_back({true, id});
+        if (!other->contact.restsInPile) waking.push_back({true, id});
         enterContact(*other, tau);
       }
     }

@@ -17,8 +17,8 @@ public:
   void enterContact(RigidBody& b, double tau);
   /// The sleeping body wakes, and the bodies that lean on it.
   void wake(RigidBody& b, double tau);
-  /// Bodies that lean on `moved` fall or lean anew, and those that lean on them in turn.
-  void wakeOnto(Party moved, double tau);
+  /// Bodies that lean on `moved` fall or find new support, and so do the bodies that lean on them.
+  void wakeOnto(ContactSide moved, double tau);
   /// A new arc from the present state, because what acts on the body has changed.
   void restart(RigidBody& b, double tau);
   /// The next tick is when the first body in contact is due.

@@ -15,7 +15,7 @@ bool usable(const std::optional<double>& x, double most) {
 bool usable(const Surface& s) {
   return usable(s.friction, 1e6) && usable(s.restitution, 1) && usable(s.rolling, 1e6);
 }
-bool usable(const std::optional<Stick>& s) {
+bool usable(const std::optional<TipEmbedding>& s) {
   return !s || (std::fabs(s->nose.norm() - 1) < 1e-6 && std::isfinite(s->tip) && std::isfinite(s->reach) &&
                 std::isfinite(s->cosine) && std::isfinite(s->depth));
 }
@@ -49,7 +49,7 @@ BodyId World::addBody(const BodyDef& d) {
   const Shape* shape = core_->objects_.shape(d.shape);
   if (!shape || std::holds_alternative<PlaneShape>(*shape) || !d.mass.valid() || !usable(d.pose) ||
       !usable(d.surface) || !d.v.allFinite() || !d.omega.allFinite() || !(d.damping >= 0) ||
-      !std::isfinite(d.damping) || !(d.releaseDistance >= 0) || !usable(d.stick))
+      !std::isfinite(d.damping) || !(d.releaseDistance >= 0) || !usable(d.embedding))
     return 0;
   RigidBody& b = core_->objects_.addBody(d.shape);
   b.surface = d.surface, b.mass = d.mass.mass, b.inverseMass = 1 / d.mass.mass, b.inertia = d.mass.inertia;
@@ -67,7 +67,7 @@ BodyId World::addBody(const BodyDef& d) {
   b.reach = (b.bound.centre - b.X_NC.p).norm() + b.bound.radius;
   b.centred = b.isBall() && b.eccentricity() <= 1e-9 * b.radius();
   b.damping = d.damping, b.dragArea = d.dragArea, b.releaseDistance = d.releaseDistance;
-  b.stick = d.stick;
+  b.embedding = d.embedding;
   core_->turnsByFrame_ = core_->turnsByFrame_ || (d.flight && d.flight->jerks());
   if (d.flight) b.flight = d.flight, b.q_CA = (b.X_NC.q.conjugate() * d.flight->q_NA).normalized();
   b.pose = unit(d.pose);
@@ -166,7 +166,7 @@ bool World::enableBody(BodyId id, bool on) {
   return true;
 }
 
-bool World::ignorePair(Party a, Party b, bool on) {
+bool World::ignorePair(ContactSide a, ContactSide b, bool on) {
   core_->objects_.ignore(a, b, on);
   if (on) core_->waking_.wakeOnto(a, core_->time_.now()), core_->waking_.wakeOnto(b, core_->time_.now());
   return true;
@@ -249,7 +249,7 @@ bool World::Core::putBody(RigidBody& b, const Pose& X_WN, const Vec3& v, const V
   b.pose = unit(X_WN);
   b.trouble.clear();
   b.fresh = true;
-  b.contact.touching.clear(), b.grip.waysOut.clear();
+  b.contact.touching.clear(), b.grip.recoveries.clear();
   const Pose X_WC = b.pose * b.X_NC;
   memory_.forget({true, b.id});
   arcs_.startFlight(b, time_.now(), X_WC.p, v, X_WC.q,
@@ -263,7 +263,7 @@ bool World::Core::putBody(RigidBody& b, const Pose& X_WN, const Vec3& v, const V
 bool World::push(BodyId id, const Vec3& impulse, const Vec3& at) {
   RigidBody* b = core_->objects_.body(id);
   if (!b || !impulse.allFinite() || !at.allFinite() || !b->movable()) return false;
-  Mobile m = mobileOf(*b, core_->time_.now());
+  SolverBody m = solverBodyOf(*b, core_->time_.now());
   m.apply(impulse, at);
   core_->impacts_.afterImpulse(*b, m, core_->time_.now(), false);
   return true;
@@ -274,7 +274,7 @@ bool World::holdBody(BodyId id) {
   if (!b || b->mode == BodyMode::Quarantined) return false;
   core_->arcs_.freeze(*b, core_->time_.now());
   b->support.on = {};
-  b->contact.touching.clear(), b->grip.waysOut.clear();
+  b->contact.touching.clear(), b->grip.recoveries.clear();
   core_->waking_.wakeOnto({true, id}, core_->time_.now());
   core_->held_.add(*b);
   return true;
@@ -439,10 +439,10 @@ std::uint64_t World::pairsDigest() const {
 }
 
 std::uint64_t World::waysDigest() const {
-  return core_->waysOut_.digest();
+  return core_->recoveries_.digest();
 }
 
-double World::separation(Party a, Party b) const {
+double World::separation(ContactSide a, ContactSide b) const {
   const auto sa = core_->objects_.side(a), sb = core_->objects_.side(b);
   if (!sa || !sb) return std::numeric_limits<double>::infinity();
   return gapBetween(*sa, *sb, core_->time_.now()).distance;

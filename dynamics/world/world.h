@@ -67,7 +67,7 @@ public:
   bool enableCollider(ColliderId id, bool on);
   bool enableBody(BodyId id, bool on);
   /// Sets whether a pair never collides (selfcollide off, or a body and the geometry that carries it).
-  bool ignorePair(Party a, Party b, bool ignored);
+  bool ignorePair(ContactSide a, ContactSide b, bool ignored);
   /// Sets whether bodies collide with each other; on by default.
   void setBodiesCollide(bool on);
   /// Divides the steps of lasting contact and of pulled balls on faces by 1, 2, 4, 8 or 16. This is more
@@ -152,8 +152,8 @@ public:
   /// Hash of the last free places of held bodies and of ways out: part of the simulated state.
   std::uint64_t waysDigest() const;
 
-  /// Distance between the surfaces of two parties now [m], negative or 0 when they touch.
-  double separation(Party a, Party b) const;
+  /// Distance between the surfaces of two sides now [m], negative or 0 when they touch.
+  double separation(ContactSide a, ContactSide b) const;
 
   /// Work done by the last advance, for cost reports.
   struct Counters {

@@ -46,7 +46,7 @@ public:
   BodyTraces traces_{time_, objects_, memory_};
   HeldBodies held_{time_, objects_, fields_, memory_};
   FieldCommands commands_{time_, queue_, objects_, fields_, held_};
-  WaysOut waysOut_{time_, objects_, fields_, boxes_, held_};
+  PenetrationRecoveries recoveries_{time_, objects_, fields_, boxes_, held_};
   std::vector<BodyId> changed_;  ///< bodies that have been active in this frame
   bool turnsByFrame_ = false;    ///< a body has been added whose bias turns it once a frame
 
@@ -61,7 +61,8 @@ public:
   Impacts impacts_{time_, grid_,     queue_,     objects_, fields_,   memory_, boxes_,
                    arcs_, surfaces_, foresight_, waking_,  releases_, search_, counters_};
   ArcEnds ends_{objects_, arcs_, surfaces_, foresight_, waking_};
-  Arrivals arrivals_{time_, objects_, fields_, memory_, active_, changes_, boxes_, arcs_, waking_, waysOut_};
+  Arrivals arrivals_{time_,    objects_, fields_, memory_, active_,
+                     changes_, boxes_,   arcs_,   waking_, recoveries_};
   ContactFinder finder_{grid_, objects_, fields_, boxes_, foresight_};
   IslandStep step_{objects_, fields_, memory_, arcs_, surfaces_, waking_, finder_};
   Piles piles_{time_, grid_, objects_, fields_, memory_, active_, boxes_, arcs_, foresight_, waking_};

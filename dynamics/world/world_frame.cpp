@@ -152,7 +152,7 @@ void World::Core::runEvents(double until) {
 /// The body of the event after this one.
 void World::Core::fetchNext() const {
   if (!active_.many() || queue_.empty()) return;
-  const Party next = queue_.first().a;
+  const ContactSide next = queue_.first().a;
   if (const RigidBody* b = next.isBody ? objects_.body(next.id) : nullptr) active_.fetchIfMany(*b);
 }
 
@@ -184,7 +184,7 @@ void World::Core::sample(RigidBody& b) {
 }
 
 void World::Core::endFrame() {
-  if (!held_.list().empty()) held_.windUp(time_.now()), waysOut_.noteFreePlaces();
+  if (!held_.list().empty()) held_.windUp(time_.now()), recoveries_.noteFreePlaces();
   if (!memory_.waiting().empty())
     for (RigidBody* b : active_) foresight_.catchUp(*b, time_.now());
   held_.endTouches();

@@ -39,7 +39,7 @@ static void fieldsOf(Instant& i, StateFields& f) {
 static void fieldsOf(Surface& s, StateFields& f) {
   f("friction", s.friction), f("restitution", s.restitution), f("rolling", s.rolling);
 }
-static void fieldsOf(Stick& s, StateFields& f) {
+static void fieldsOf(TipEmbedding& s, StateFields& f) {
   f("nose", s.nose), f("tip", s.tip), f("reach", s.reach), f("cosine", s.cosine), f("depth", s.depth);
 }
 static void fieldsOf(Drag& d, StateFields& f) {
@@ -78,10 +78,10 @@ static void fieldsOf(Pressed& p, StateFields& f) {
 static void fieldsOf(Hook& h, StateFields& f) {
   f("field", h.field);
 }
-static void fieldsOf(Calm& c, StateFields& f) {
+static void fieldsOf(SleepCandidate& c, StateFields& f) {
   f("v", c.v), f("omega", c.omega), f("since", c.since), f("span", c.span), f("balanced", c.balanced);
 }
-static void fieldsOf(WayOut& w, StateFields& f) {
+static void fieldsOf(PenetrationRecovery& w, StateFields& f) {
   f("of", w.of), f("normal", w.normal), f("side", w.side);
 }
 static void fieldsOf(Gap& g, StateFields& f) {
@@ -133,19 +133,19 @@ static void fieldsOf(RigidBody& b, StateFields& f) {
   f("shape", b.shapeId), f("surface", b.surface), f("mass", b.mass), f("inverse mass", b.inverseMass);
   f("inertia", b.inertia), f("even pull", b.even), f("X_NC", b.X_NC), f("X_CN", b.X_CN);
   f("centred", b.centred), f("bound", b.bound), f("reach", b.reach), f("damping", b.damping);
-  f("drag area", b.dragArea), f("release distance", b.releaseDistance), f("stick", b.stick);
+  f("drag area", b.dragArea), f("release distance", b.releaseDistance), f("stick", b.embedding);
   f("q_CA", b.q_CA), f("end momentum", b.contact.endL), f("step", b.step), f("support", b.support);
   f("hooks", b.hooks), f("touching", b.contact.touching), f("leaning", b.contact.leaning),
       f("presses", b.contact.presses);
-  f("due", b.contact.dueAge), f("crowd", b.contact.crowd), f("wedged", b.contact.wedged),
+  f("due", b.contact.dueAge), f("crowd", b.contact.inPile), f("wedged", b.contact.wedged),
       f("restless", b.contact.restless);
-  f("drowsy", b.contact.drowsy), f("heaped", b.contact.heaped), f("drift", b.contact.drift),
+  f("drowsy", b.contact.sleepsNext), f("heaped", b.contact.restsInPile), f("drift", b.contact.drift),
       f("twist", b.contact.twist);
   f("slot", b.contact.slot), f("held", b.grip.held), f("carried", b.grip.carried), f("wound", b.grip.wound);
   f("wound to", b.grip.woundTo), f("free place", b.grip.freePlace), f("let go", b.grip.letGo),
-      f("ways out", b.grip.waysOut);
+      f("ways out", b.grip.recoveries);
   f("impacts", b.impacts), f("impact span", b.impactSpan), f("quiet", b.contact.quiet),
-      f("calm", b.contact.calm);
+      f("calm", b.contact.sleepCandidate);
   f("trouble", b.trouble), f("swept", b.swept), f("place", b.place), f("only", b.only);
 }
 static void fieldsOf(Collider& c, StateFields& f) {
@@ -158,7 +158,7 @@ static void fieldsOf(Collider& c, StateFields& f) {
 void World::Core::visit(StateFields& f) {
   time_.state(f);
   objects_.state(f), fields_.state(f);
-  objects_.stateOfPairs(f), waysOut_.state(f);
+  objects_.stateOfPairs(f), recoveries_.state(f);
   f("jerking", turnsByFrame_), changes_.stateOfMode(f);
   queue_.stateOfOrder(f), objects_.stateOfIds(f), fields_.stateOfIds(f);
   foresight_.state(f);
@@ -168,7 +168,7 @@ void World::Core::visit(StateFields& f) {
   commands_.state(f);
   queue_.state(f);
   if (f.failed()) return;
-  memory_.state(f, [this](Party p) { return objects_.versionPointer(p); });
+  memory_.state(f, [this](ContactSide p) { return objects_.versionPointer(p); });
   const auto findBody = [this](BodyId id) { return objects_.body(id); };
   active_.state(f, findBody), commands_.stateOfStirred(f, findBody);
   held_.state(f, findBody), changes_.stateOfBodies(f, findBody);

@@ -20,9 +20,9 @@ PlaceAttributes placeOf(const Declaration& d) {
 }
 
 Notification notificationOf(const EventMessage& m, const NodeRegistry& types) {
-  const ArgumentKind argument = types.command(m.verb)->argument;
+  const ArgumentKind argument = types.command(m.commandId)->argument;
   Notification n;
-  n.event = m.event, n.verb = m.verb, n.delay = m.delay + m.latency;
+  n.event = m.event, n.command = m.commandId, n.delay = m.delay + m.latency;
   n.target = std::string(m.target.name);
   if (argument == ArgumentKind::PartAndTracker)
     n.arguments = {std::string(kAttachPartNames[static_cast<std::size_t>(m.part)])};
@@ -110,8 +110,8 @@ public:
         model_([this](const NodeReference& r) { return modelOf(r); }) {}
 
   Built build() {
-    built_.load = std::make_unique<Load>();
-    Load& load = *built_.load;
+    built_.load = std::make_unique<LoadedScene>();
+    LoadedScene& load = *built_.load;
     load.number = input_.number, load.file = input_.document.file(), load.owner = input_.owner;
     load.X_WO = input_.X_WO;
     load.nodes.resize(input_.document.size());
@@ -175,7 +175,7 @@ private:
     if (!d.has("budget") && !d.has("onoverrun")) return;
     NodeTerms terms;
     terms.budget = d.optionalNumber("budget").value_or(0);
-    terms.gives = d.choices<Concession>("onoverrun");
+    terms.gives = d.choices<DegradationStep>("onoverrun");
     terms.priority = d.number("priority");
     built_.load->terms[d.index()] = std::move(terms);
   }

@@ -7,7 +7,7 @@
 #include "engine/asset/mesh_store.h"
 #include "engine/base/diagnostic.h"
 #include "engine/build/node_request.h"
-#include "engine/scene/load.h"
+#include "engine/scene/loaded_scene.h"
 #include "engine/script/document.h"
 
 #include <functional>
@@ -34,7 +34,7 @@ struct BuildInput {
 };
 
 struct Built {
-  std::unique_ptr<Load> load;                 ///< without its chunk and its list of meshes
+  std::unique_ptr<LoadedScene> load;          ///< without its chunk and its list of meshes
   std::vector<InstanceRecord> staticRecords;  ///< parallel to load->statics
 };
 

@@ -42,9 +42,10 @@ void LintScope::note(const Declaration& node) {
       for (const NodeReference& other : node.references(attribute.attr))
         if (NodeUse* use = noted(other)) use->isFollowed = true;
   for (const EventMessage& message : node.eventMessages()) {
-    if (NodeUse* field = noted(message.field); field && message.verb == Verb::Hook) field->hooked = true;
+    if (NodeUse* field = noted(message.field); field && message.commandId == CommandId::Hook)
+      field->hooked = true;
     if (NodeUse* use = noted(message.target))
-      use->switchedOn |= message.verb == Verb::Enable || message.verb == Verb::Toggle;
+      use->switchedOn |= message.commandId == CommandId::Enable || message.commandId == CommandId::Toggle;
     warnOfMissing(message.words, message.command);
   }
 }

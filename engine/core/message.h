@@ -6,7 +6,7 @@
 /// file, sequence).
 
 #include "engine/base/time_signature.h"
-#include "engine/core/verb.h"
+#include "engine/core/command_id.h"
 
 #include <compare>
 #include <cstdint>
@@ -30,7 +30,7 @@ struct Message {
   NodeRef sender;       ///< invalid = from outside the show (operator)
   std::uint64_t sequence = 0;
   NodeRef target;
-  Verb verb{};
+  CommandId command{};
   std::vector<std::string> arguments;
   NodeRef node;  ///< what the first argument names, for verbs that take a node
   /// The rest of a path such as arena/ball. The scene looks up its first part when the message is posted, and
@@ -40,7 +40,7 @@ struct Message {
   template <class Self, class Fields>
   static void fields(Self& m, Fields& f) {
     f("due", m.due), f("sender", m.sender), f("sequence", m.sequence), f("target", m.target);
-    f("verb", m.verb), f("arguments", m.arguments), f("node", m.node);
+    f("verb", m.command), f("arguments", m.arguments), f("node", m.node);
     f("inside target", m.targetInside), f("inside node", m.nodeInside);
   }
 };

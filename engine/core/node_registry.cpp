@@ -76,8 +76,8 @@ const AttributeSpec* RegisteredType::find(Attr attr) const {
   return nullptr;
 }
 
-bool RegisteredType::takes(Verb verb) const {
-  return std::ranges::find(commands_, verb, &CommandSpec::verb) != commands_.end();
+bool RegisteredType::takes(CommandId command) const {
+  return std::ranges::find(commands_, command, &CommandSpec::id) != commands_.end();
 }
 
 std::optional<std::string> NodeRegistry::add(const NodeType& type, const std::string& source) {
@@ -109,7 +109,7 @@ std::optional<std::string> NodeRegistry::faultOf(const RegisteredType& added) co
         return fmt::format("the attributes \"{}\" and \"{}\" have the same number; choose another name",
                            row.name, same->name);
   for (const CommandSpec& row : added.commands())
-    if (const CommandSpec* same = command(row.verb);
+    if (const CommandSpec* same = command(row.id);
         same && (same->name != row.name || same->argument != row.argument))
       return fmt::format("the command \"{}\" of \"{}\" is already there with other arguments: {}", row.name,
                          type.name, same->form);
@@ -125,7 +125,7 @@ void NodeRegistry::listWords() {
   commands_.clear(), events_.clear();
   const auto list = [&](std::span<const CommandSpec> rows) {
     for (const CommandSpec& row : rows)
-      if (command(row.verb) == nullptr) commands_.push_back(&row);
+      if (command(row.id) == nullptr) commands_.push_back(&row);
   };
   list(kSwitchCommands), list(kPlacedCommands), list(kCommonCommands);
   for (const Index i : byName_) {
@@ -153,12 +153,12 @@ std::vector<std::string> NodeRegistry::names() const {
 }
 
 const CommandSpec* NodeRegistry::command(std::string_view name) const {
-  const CommandSpec* found = command(verbNamed(name));
+  const CommandSpec* found = command(commandNamed(name));
   return found && found->name == name ? found : nullptr;
 }
 
-const CommandSpec* NodeRegistry::command(Verb verb) const {
-  const auto at = std::ranges::find(commands_, verb, &CommandSpec::verb);
+const CommandSpec* NodeRegistry::command(CommandId command) const {
+  const auto at = std::ranges::find(commands_, command, &CommandSpec::id);
   return at == commands_.end() ? nullptr : *at;
 }
 

@@ -36,7 +36,7 @@ public:
   std::span<const AttributeSpec> attributes() const { return attributes_; }
   /// Switch, placed, common, own, in this order.
   std::span<const CommandSpec> commands() const { return commands_; }
-  bool takes(Verb verb) const;
+  bool takes(CommandId command) const;
   /// Attributes that name nodes which this one acts on: a plain object that is named so has a node of its
   /// own.
   std::span<const Attr> actsBy() const { return actsBy_; }
@@ -76,7 +76,7 @@ public:
   /// Every command that some type takes: those of traits first, then by type.
   const std::vector<const CommandSpec*>& commands() const { return commands_; }
   const CommandSpec* command(std::string_view name) const;
-  const CommandSpec* command(Verb verb) const;
+  const CommandSpec* command(CommandId command) const;
   /// Every event that some type posts, by type.
   const std::vector<const EventSpec*>& events() const { return events_; }
   bool isEvent(std::string_view name) const;

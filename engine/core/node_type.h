@@ -15,8 +15,8 @@
 /// Threads   constant data; may be read from anywhere.
 /// Ownership a descriptor and all that it points to live as long as the program.
 
+#include "engine/core/command_id.h"
 #include "engine/core/event.h"
-#include "engine/core/verb.h"
 #include "engine/core/word.h"
 
 #include <array>
@@ -141,9 +141,9 @@ enum class ArgumentKind : std::uint8_t {
 struct CommandSpec {
   std::string_view name;
   ArgumentKind argument;
-  std::string_view form;        ///< `attach all|position|orientation [TRACKER]`
-  std::string_view help;        ///< one line
-  Verb verb = verbNamed(name);  ///< follows from the name
+  std::string_view form;              ///< `attach all|position|orientation [TRACKER]`
+  std::string_view help;              ///< one line
+  CommandId id = commandNamed(name);  ///< follows from the name
 };
 
 struct NodeType {

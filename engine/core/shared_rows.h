@@ -24,7 +24,7 @@ inline constexpr NodeFilter kFieldTypes{{Trait::Field}};
 /// What may run less often, and what may have such below it.
 inline constexpr NodeFilter kPacedTypes{{Trait::Degradable, Trait::Encloses}};
 
-inline constexpr std::string_view kConcessionWords[] = {"lod", "half", "rest", "hide"};
+inline constexpr std::string_view kDegradationWords[] = {"lod", "half", "rest", "hide"};
 
 /// Of every node.
 inline constexpr AttributeSpec kCommonRows[] = {
@@ -44,7 +44,7 @@ inline constexpr AttributeSpec kCommonRows[] = {
      .help = "what a live show may take from it, in this order, while it costs more than its budget: lod "
              "(detail), half (runs in every second frame, then every fourth), rest (stands still), hide (is "
              "not drawn)",
-     .choices = kConcessionWords},
+     .choices = kDegradationWords},
     {.name = "priority",
      .kind = ValueKind::Number,
      .help = "when the whole frame takes too long, the node with the lowest is degraded first",
@@ -86,7 +86,7 @@ inline constexpr AttributeSpec kInitStateRow{.name = "initstate",
 /// Of Trait::Switched.
 inline constexpr CommandSpec kSwitchCommands[] = {
     {"enable", ArgumentKind::None, "enable",
-     "begins to act; a field's duration starts anew, a path that has ended too, and every sound"},
+     "begins to act; restarts a field's duration, an ended path, and every sound"},
     {"disable", ArgumentKind::None, "disable", "stops acting"},
     {"toggle", ArgumentKind::None, "toggle", "enables if disabled, disables if enabled"},
 };

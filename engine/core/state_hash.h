@@ -1,7 +1,8 @@
 #pragma once
 /// The state hash: equal on two runs if and only if (up to chance) every simulated field is equal.
 ///
-/// It runs over named fields in (load number, position in file) order, never over memory layout or addresses.
+/// It covers named fields, never memory layout or addresses. Scene::stateHash() lists what it covers. The
+/// fields of a node have a fixed order. The hashes of nodes are added up, so nodes need none (node_hashes.h).
 /// Doubles count by their bits; -0 and +0 differ, and no NaN is ever in a scene.
 
 #include "engine/core/message.h"

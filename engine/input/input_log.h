@@ -41,8 +41,8 @@
 ///     stress N LEVEL
 ///         from frame N on all distances count 2^(LEVEL/4) times, when levels of detail are chosen
 ///
-/// A tracker may leap between two records (tracker_leap.h): it was taken for another, or lost. Until the later
-/// record it stays where it was. (A fast swing starts and ends over several records, and is no leap.)
+/// A tracker may leap between two records (tracker_leap.h): it was taken for another, or lost. Until the
+/// later record it stays where it was. (A fast swing starts and ends over several records, and is no leap.)
 ///
 /// Between two records poses and axes are interpolated, buttons are those of the earlier record. An eased way
 /// is eased at whole multiples of 5 ms of show time and straight between them. Before the first record the
@@ -105,7 +105,7 @@ std::string inputLogHeading(double rate = 0);
 std::string formatFrameTime(std::uint64_t frame, Nanoseconds time);
 std::string formatLateLoad(std::uint32_t load, Nanoseconds time);
 std::string formatOrder(std::uint64_t frame, const OperatorCommand& order);
-std::string formatRelief(std::uint64_t frame, const LoadDecision& decision);
+std::string formatDegradation(std::uint64_t frame, const LoadDecision& decision);
 
 /// Plays a log.
 class InputReplay final : public InputDevice {

@@ -88,7 +88,7 @@ private:
     if (value && in_.finished()) log_.decisions.orders.insert({*frame, {*action, *value, false}});
   }
 
-  void relief() {
+  void degradation() {
     const auto frame = in_.count("the frame's number", 0, kMostFrames);
     const auto load = frame ? in_.count("the load's number", 1, 1'000'000'000) : std::nullopt;
     const auto position = load ? in_.count("the node's position", 0, 1'000'000'000) : std::nullopt;
@@ -105,7 +105,7 @@ private:
   }
 
   void decide(std::uint64_t frame, const LoadDecision& decision) {
-    LoadDecisions& known = log_.decisions.relief;
+    LoadDecisions& known = log_.decisions.degradation;
     if (known.count(frame) == FrameLoad::kMost)
       return in_.error(in_.keyword(),
                        fmt::format("at most {} of these take effect in one frame", FrameLoad::kMost));
@@ -270,11 +270,11 @@ private:
 };
 
 constexpr Statement<LogParser> LogParser::kRecords[10] = {
-    {"pose", &LogParser::pose, true},         {"key", &LogParser::key, true},
-    {"controls", &LogParser::controls, true}, {"lost", &LogParser::lost, true},
-    {"rate", &LogParser::rate, true},         {"frame", &LogParser::frame, true},
-    {"load", &LogParser::load, true},         {"order", &LogParser::order, true},
-    {"relief", &LogParser::relief, true},     {"stress", &LogParser::stress, true}};
+    {"pose", &LogParser::pose, true},          {"key", &LogParser::key, true},
+    {"controls", &LogParser::controls, true},  {"lost", &LogParser::lost, true},
+    {"rate", &LogParser::rate, true},          {"frame", &LogParser::frame, true},
+    {"load", &LogParser::load, true},          {"order", &LogParser::order, true},
+    {"relief", &LogParser::degradation, true}, {"stress", &LogParser::stress, true}};
 
 constexpr StatementField<LogParser> LogParser::kFields[4] = {{"smooth", &LogParser::smooth},
                                                              {"buttons", &LogParser::buttons},
@@ -311,7 +311,7 @@ std::string formatOrder(std::uint64_t frame, const OperatorCommand& order) {
   return fmt::format("order {} {} {}\n", frame, nameOf(order.action), order.value.value_or(0));
 }
 
-std::string formatRelief(std::uint64_t frame, const LoadDecision& d) {
+std::string formatDegradation(std::uint64_t frame, const LoadDecision& d) {
   if (d.load == 0) return fmt::format("stress {} {}\n", frame, d.level);
   return fmt::format("relief {} {} {} {}\n", frame, d.load, d.position, d.level);
 }
@@ -341,7 +341,7 @@ std::string formatInputLog(const InputLog& log) {
   for (const auto& [frame, time] : decided.frames) text += formatFrameTime(frame, time);
   for (const auto& [load, time] : decided.loads) text += formatLateLoad(load, time);
   for (const auto& [frame, order] : decided.orders) text += formatOrder(frame, order);
-  for (const auto& [frame, decision] : decided.relief) text += formatRelief(frame, decision);
+  for (const auto& [frame, decision] : decided.degradation) text += formatDegradation(frame, decision);
   for (const InputTrack& track : log.tracks)
     for (const InputStamp& stamp : track.stamps) text += formatRecord(track.name, stamp);
   return text;

@@ -29,9 +29,9 @@ struct RunDecisions {
   std::map<std::uint32_t, Nanoseconds> loads;   ///< load number to when it took effect, because it came late
 
   RunOrders orders;  ///< about pictures and sounds alone, with their figures
-  LoadDecisions relief;
+  LoadDecisions degradation;
 
-  bool empty() const { return frames.empty() && loads.empty() && orders.empty() && relief.empty(); }
+  bool empty() const { return frames.empty() && loads.empty() && orders.empty() && degradation.empty(); }
 
   Nanoseconds end() const { return frames.empty() ? 0 : frames.rbegin()->second; }
 };

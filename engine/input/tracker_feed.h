@@ -60,7 +60,7 @@ public:
   /// Freezes the tracker, or releases it, and it eases back.
   void freeze(std::string_view tracker, Nanoseconds clock, bool frozen);
 
-  /// The show begins, or begins again: its time counts from 0.
+  /// Starts or restarts the show's time at 0.
   void restart();
   /// A frame from `start` to `end`, which is `clock`.
   void sampleFrame(Nanoseconds clock, Nanoseconds start, Nanoseconds end, InputSample& sample);

@@ -74,7 +74,7 @@ void PathNode::trace(Nanoseconds to, FrameContext& frame) {
   PoseTrack& way =
       frame.scene.poseTracks().of(id, {frame.start(), goesOn ? begin : poseOf(placements.world(id)), false});
   const Nanoseconds pass = std::max<Nanoseconds>(length(), 1);
-  // What it has missed it makes up for, without the turns; where it began again it is put.
+  // Makes up for missed frames without the turns. After a restart of the path it jumps to the start.
   if (since_ < frame.start()) {
     const Nanoseconds end = elapsed_ + (to - since_);
     const bool again = loop_ && end >= pass;
@@ -172,10 +172,10 @@ void PathNode::receive(const Message& m, FrameContext& frame) {
   const bool before = switch_.on();
   if (switch_.obey(m)) {
     const bool again = !before && switch_.on() && elapsed_ >= length();
-    if (again || m.verb == Verb::Reset) elapsed_ = 0;
+    if (again || m.command == CommandId::Reset) elapsed_ = 0;
   }
   // Once it is off, no other call places the target where it is at this time.
-  if (m.verb == Verb::Reset)
+  if (m.command == CommandId::Reset)
     jump(frame.effective(m), frame);
   else if (moved && !switch_.on())
     putTarget(frame.scene);

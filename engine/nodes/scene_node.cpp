@@ -38,12 +38,12 @@ void SceneNode::unload(Scene& scene, Nanoseconds at) {
 }
 
 void SceneNode::receive(const Message& m, FrameContext& frame) {
-  if (m.verb != Verb::Reset) PlacedNode::receive(m, frame);
+  if (m.command != CommandId::Reset) PlacedNode::receive(m, frame);
   const Nanoseconds at = frame.effective(m) + ready_;
-  switch (m.verb) {
-  case Verb::Load: load(frame.scene, at); break;
-  case Verb::Unload: unload(frame.scene, at); break;
-  case Verb::Reset:
+  switch (m.command) {
+  case CommandId::Load: load(frame.scene, at); break;
+  case CommandId::Unload: unload(frame.scene, at); break;
+  case CommandId::Reset:
     resetPlace(frame.scene);
     unload(frame.scene, at);
     if (initially_) load(frame.scene, at);

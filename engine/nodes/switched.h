@@ -17,11 +17,11 @@ public:
 
   /// Obeys m if it is a command for a switch. True if the state may have changed.
   bool obey(const Message& m) {
-    switch (m.verb) {
-    case Verb::Enable: on_ = true; return true;
-    case Verb::Disable: on_ = false; return true;
-    case Verb::Toggle: on_ = !on_; return true;
-    case Verb::Reset: on_ = initially_; return true;
+    switch (m.command) {
+    case CommandId::Enable: on_ = true; return true;
+    case CommandId::Disable: on_ = false; return true;
+    case CommandId::Toggle: on_ = !on_; return true;
+    case CommandId::Reset: on_ = initially_; return true;
     default: return false;
     }
   }

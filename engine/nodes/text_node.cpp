@@ -24,8 +24,8 @@ void TextNode::onLeave(Scene& scene) {
 
 void TextNode::receive(const Message& m, FrameContext& frame) {
   PlacedNode::receive(m, frame);
-  if (m.verb == Verb::Say) say(m.arguments.empty() ? "" : m.arguments[0], frame.scene);
-  if (m.verb == Verb::Reset) say(declared_, frame.scene);
+  if (m.command == CommandId::Say) say(m.arguments.empty() ? "" : m.arguments[0], frame.scene);
+  if (m.command == CommandId::Reset) say(declared_, frame.scene);
 }
 
 void TextNode::say(std::string words, Scene& scene) {

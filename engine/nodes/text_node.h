@@ -2,7 +2,7 @@
 /// `text`: words in the scene, such as a score board's.
 ///
 /// Commands  say WORDS, reset, and those of a placed node. What it says is part of the show's state.
-/// Its mesh is made anew when the words change; two nodes that say the same in the same style share one.
+/// A change of the words makes a new mesh. Two nodes with the same words and style share one mesh.
 
 #include "engine/published/records.h"
 #include "engine/scene/placed_node.h"

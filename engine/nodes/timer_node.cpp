@@ -1,7 +1,7 @@
 /// `timer`: posts timesup when its period is over, once or again and again.
 ///
 /// Events    timesup, at the exact time.
-/// Commands  enable (starts it anew), disable, toggle, reset.
+/// Commands  enable (restarts it), disable, toggle, reset.
 /// It is not visited while it waits.
 
 #include "engine/build/lint.h"

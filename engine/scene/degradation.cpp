@@ -15,8 +15,8 @@ bool takesSteps(const Node& node) {
   return node.type().traits.has(Trait::Collides);
 }
 
-/// Whether a node can run less often. The cycles of the others cost little, or something looks at their results in
-/// every frame.
+/// Whether a node can run less often. The cycles of the others cost little, or something looks at their
+/// results in every frame.
 bool hasPace(const Node& node) {
   return node.type().traits.has(Trait::Degradable);
 }
@@ -30,14 +30,14 @@ std::uint64_t slotOf(std::uint32_t position) {
 }  // namespace
 
 const NodeTerms* Degradation::termsOf(NodeRef node) const {
-  const Load* l = std::as_const(tree_).load(node.load);
+  const LoadedScene* l = std::as_const(tree_).load(node.load);
   const auto at = l ? l->terms.find(node.position) : std::map<std::uint32_t, NodeTerms>::const_iterator{};
   return l && at != l->terms.end() ? &at->second : nullptr;
 }
 
 void Degradation::apply(const TimeSignature& now) {
   for (const LoadDecision& d : now.load) apply(d);
-  const bool nothing = levels_.empty() && reliefs_.empty();
+  const bool nothing = levels_.empty() && degraded_.empty();
   if (now.load.count > 0 || (!nothing && treeVersion_ != tree_.version())) spread();
 }
 
@@ -55,39 +55,39 @@ void Degradation::apply(const LoadDecision& d) {
     levels_.erase(node);
 }
 
-/// Finds the reliefs of all nodes below those that were decided about.
+/// Finds the degradations of all nodes below those that were decided about.
 void Degradation::spread() {
-  std::map<NodeRef, Relief> before;
-  before.swap(reliefs_);
+  std::map<NodeRef, NodeDegradation> before;
+  before.swap(degraded_);
   for (const auto& [ref, level] : levels_) {
-    const Relief own = reliefAt(termsOf(ref)->gives, level);
+    const NodeDegradation own = degradationAt(termsOf(ref)->gives, level);
     // A static object cannot be hidden or changed in its chunk.
     if (own.hidden || own.lod != 1) tree_.find(ref), tree_.promoteBelow(ref);
   }
   for (const auto& [number, l] : tree_.loads())
     for (std::uint32_t i = 0; !levels_.empty() && i < l->nodes.size(); ++i) {
-      Relief relief;
+      NodeDegradation degradation;
       for (NodeRef at{number, i}; at.valid(); at = tree_.parentOf(at))
         if (const auto known = levels_.find(at); known != levels_.end())
-          relief = relief.below(reliefAt(termsOf(at)->gives, known->second));
-      if (relief != Relief{}) reliefs_[{number, i}] = relief;
+          degradation = degradation.below(degradationAt(termsOf(at)->gives, known->second));
+      if (degradation != NodeDegradation{}) degraded_[{number, i}] = degradation;
     }
   treeVersion_ = tree_.version();
-  for (const auto& [ref, relief] : reliefs_)
-    if (const auto at = before.find(ref); at == before.end() || at->second != relief)
-      relieve(ref, at == before.end() ? Relief{} : at->second, relief);
-  for (const auto& [ref, relief] : before)
-    if (!reliefs_.contains(ref)) relieve(ref, relief, {});
+  for (const auto& [ref, degradation] : degraded_)
+    if (const auto at = before.find(ref); at == before.end() || at->second != degradation)
+      degrade(ref, at == before.end() ? NodeDegradation{} : at->second, degradation);
+  for (const auto& [ref, degradation] : before)
+    if (!degraded_.contains(ref)) degrade(ref, degradation, {});
 }
 
-void Degradation::relieve(NodeRef ref, const Relief& before, const Relief& now) {
-  const Load* l = std::as_const(tree_).load(ref.load);
+void Degradation::degrade(NodeRef ref, const NodeDegradation& before, const NodeDegradation& now) {
+  const LoadedScene* l = std::as_const(tree_).load(ref.load);
   Node* node = l ? l->nodes[ref.position].get() : nullptr;
   if (!node) return;
   if (hasPace(*node)) node->scheduleState().rests = now.rests, node->scheduleState().pace = now.pace;
   const PlacedNode* placed = node->placed();
   if (!placed || placed->placement() == kNoPlacement) return;
-  if (before.hidden != now.hidden) placements_.setShown(placed->placement(), !now.hidden, Hider::Relief);
+  if (before.hidden != now.hidden) placements_.setShown(placed->placement(), !now.hidden, Hider::Degradation);
   if (before.lod != now.lod) instances_.markAt(placed->placement());
 }
 
@@ -133,14 +133,14 @@ void Degradation::hash(StateHash& h) const {
 }
 
 void Degradation::state(StateFields& f) {
-  f("relief levels", levels_), f("reliefs", reliefs_), f("relief loads", treeVersion_);
+  f("relief levels", levels_), f("reliefs", degraded_), f("relief loads", treeVersion_);
   f("stress", stressLevel_), f("put off", waiting_), f("paced", paced_);
 }
 
 bool Degradation::consistent() const {
   if (stressLevel_ > kMostStress) return false;
-  for (const auto& [node, relief] : reliefs_)
-    if (relief.pace > levelsOf(Concession::Half) || !std::isfinite(relief.lod)) return false;
+  for (const auto& [node, degradation] : degraded_)
+    if (degradation.pace > levelsOf(DegradationStep::Half) || !std::isfinite(degradation.lod)) return false;
   for (const auto& [number, l] : tree_.loads())
     for (const std::uint32_t position : l->enterOrder) {
       const Node& node = *l->nodes[position];

@@ -35,10 +35,10 @@ public:
   // For nodes.
 
   /// What the node must do without, because it or something above it costs too much.
-  Relief of(NodeRef node) const {
-    if (reliefs_.empty()) return {};
-    const auto at = reliefs_.find(node);
-    return at == reliefs_.end() ? Relief{} : at->second;
+  NodeDegradation of(NodeRef node) const {
+    if (degraded_.empty()) return {};
+    const auto at = degraded_.find(node);
+    return at == degraded_.end() ? NodeDegradation{} : at->second;
   }
   /// Factor by which everything counts as farther away when levels of detail are chosen.
   double stress() const { return stressOf(stressLevel_); }
@@ -47,7 +47,7 @@ public:
 
   void apply(const TimeSignature& now);
   /// Whether any node must do without something.
-  bool any() const { return !reliefs_.empty(); }
+  bool any() const { return !degraded_.empty(); }
   /// Whether the node's cycle does not run in this frame. If so, notes once what the node misses.
   bool putOff(Node& node);
   /// Keeps a node waiting that was woken and is put off.
@@ -83,7 +83,7 @@ private:
 
   void apply(const LoadDecision& decision);
   void spread();
-  void relieve(NodeRef node, const Relief& before, const Relief& now);
+  void degrade(NodeRef node, const NodeDegradation& before, const NodeDegradation& now);
   const NodeTerms* termsOf(NodeRef node) const;
   bool isPutOff(Node& node) const;
 
@@ -91,9 +91,9 @@ private:
   Placements& placements_;
   Instances& instances_;
   const SceneTime& time_;
-  std::map<NodeRef, std::uint32_t> levels_;  ///< of the nodes that were decided about
-  std::map<NodeRef, Relief> reliefs_;        ///< of these and all below them
-  std::uint64_t treeVersion_ = 0;            ///< the tree's when reliefs_ were found
+  std::map<NodeRef, std::uint32_t> levels_;      ///< of the nodes that were decided about
+  std::map<NodeRef, NodeDegradation> degraded_;  ///< of these and all below them
+  std::uint64_t treeVersion_ = 0;                ///< the tree's when degraded_ were found
   std::uint32_t stressLevel_ = 0;
   std::set<NodeRef> waiting_;       ///< woken and put off
   std::map<NodeRef, Paced> paced_;  ///< nodes that missed something

@@ -118,7 +118,7 @@ void Lights::warnOfTooMany() {
   for (const std::size_t h : wanted_) {
     if (std::binary_search(chosen_.begin(), chosen_.end(), h)) continue;
     const NodeRef node = lights_[h].node;
-    const Load* from = tree_.load(node.load);
+    const LoadedScene* from = tree_.load(node.load);
     const std::uint32_t line =
         from && node.position < from->lines.size() ? from->lines[node.position] : std::uint32_t{0};
     if (dark == 0 && from) where = {from->file, line, line > 0 ? 1u : 0u};

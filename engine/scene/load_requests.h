@@ -9,7 +9,7 @@
 /// Threads    App only.
 /// Errors     restore() fails the StateFields if the requests contradict each other.
 
-#include "engine/scene/load.h"
+#include "engine/scene/loaded_scene.h"
 #include "engine/scene/scene_tree.h"
 
 #include <cstdint>

@@ -7,7 +7,8 @@
 /// itself is not drawn: it publishes an instance record through the scene.
 ///
 /// Ownership  the scene owns every installed node.
-/// Threads    App only. The loader thread constructs nodes and owns them until they are installed.
+/// Threads    App only, except compute(): a thread of the worker pool may run it. The loader thread constructs
+///            nodes and owns them until they are installed.
 /// Errors     resume() returns false if the restored state does not fit; no other function fails.
 
 #include "engine/core/event.h"
@@ -51,7 +52,7 @@ enum class Rank : std::uint8_t { Input, Attachment, Motion, Sensing, Dynamics, C
 struct Notification {
   Event event{};
   std::string target;  ///< name or path, resolved from the file the node stands in
-  Verb verb{};
+  CommandId command{};
   std::vector<std::string> arguments;
   Nanoseconds delay = 0;  ///< [ns]
 };
@@ -96,7 +97,7 @@ public:
   // The node cycle, in three parts. Between the first and the last part, other nodes may have theirs.
   /// Receives this frame's messages in delivery order, and simulates as far as that needs the scene.
   void begin(std::span<const Message> inbox, FrameContext& frame, FrameProbe* probe);
-  /// Simulates the rest, which touches only the node. Runs on any thread.
+  /// Simulates the rest, which touches only this node. App or a thread of the worker pool runs it.
   void compute(FrameProbe* probe);
   /// Reports the results to the scene and dispatches notifications.
   void conclude(FrameContext& frame, FrameProbe* probe);

@@ -143,16 +143,16 @@ bool PlacedNode::trace(Nanoseconds to, FrameContext& frame) {
 }
 
 void PlacedNode::receive(const Message& m, FrameContext& frame) {
-  switch (m.verb) {
-  case Verb::Attach: follow(m, frame); break;
-  case Verb::Detach: stopFollowing(frame.effective(m), frame); break;
-  case Verb::Show:
-  case Verb::Hide:
+  switch (m.command) {
+  case CommandId::Attach: follow(m, frame); break;
+  case CommandId::Detach: stopFollowing(frame.effective(m), frame); break;
+  case CommandId::Show:
+  case CommandId::Hide:
     aboutToChange(frame.scene);
-    shown_ = m.verb == Verb::Show;
+    shown_ = m.command == CommandId::Show;
     frame.scene.placements().setShown(placement_, shown_);
     break;
-  case Verb::Reset: resetAt(frame.effective(m), frame); break;
+  case CommandId::Reset: resetAt(frame.effective(m), frame); break;
   default: break;
   }
 }

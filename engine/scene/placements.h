@@ -36,9 +36,9 @@ constexpr PlacementId kNoPlacement = ~PlacementId{0};
 
 /// What hides a placement; it is shown while nothing hides it.
 enum class Hider : std::uint8_t {
-  Author = 1,  ///< the script, and its messages
-  Level = 2,   ///< an lod node above it draws another child
-  Relief = 4,  ///< it costs too much
+  Author = 1,       ///< the script, and its messages
+  Level = 2,        ///< an lod node above it draws another child
+  Degradation = 4,  ///< it costs too much
 };
 
 /// What of a placement is held in World.

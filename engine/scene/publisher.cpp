@@ -4,19 +4,19 @@
 
 namespace stadion {
 
-void Publisher::showChunk(Load& load) {
+void Publisher::showChunk(LoadedScene& load) {
   if (load.chunk == kNoChunk || chunksShown_ >= kMostChunks) return;
   chunks_.push_back({load.chunk, true});
   load.chunkShown = true;
   ++chunksShown_;
 }
 
-void Publisher::hideChunk(const Load& load) {
+void Publisher::hideChunk(const LoadedScene& load) {
   if (load.chunkShown) chunks_.push_back({load.chunk, false}), --chunksShown_;
   std::erase_if(statics_, [&](const ChangeSet::StaticItem& s) { return s.chunk == load.chunk; });
 }
 
-void Publisher::resumeChunk(const Load& load) {
+void Publisher::resumeChunk(const LoadedScene& load) {
   if (load.chunkShown && load.chunk != kNoChunk) chunks_.push_back({load.chunk, true});
 }
 

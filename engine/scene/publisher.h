@@ -12,7 +12,7 @@
 #include "engine/scene/input_feed.h"
 #include "engine/scene/instances.h"
 #include "engine/scene/lights.h"
-#include "engine/scene/load.h"
+#include "engine/scene/loaded_scene.h"
 
 #include <cstddef>
 #include <vector>
@@ -27,8 +27,8 @@ public:
         feed_(feed) {}
 
   /// Shows the load's chunk if there is room for it.
-  void showChunk(Load& load);
-  void hideChunk(const Load& load);
+  void showChunk(LoadedScene& load);
+  void hideChunk(const LoadedScene& load);
   /// The object of the chunk is no longer shown by it.
   void hideStatic(ChunkId chunk, std::uint32_t index) { statics_.push_back({chunk, index, true}); }
 
@@ -40,7 +40,7 @@ public:
   void follow(const Vec3& p_WH) { shadows_.follow(p_WH); }
 
   /// Shows a restored load's chunk again.
-  void resumeChunk(const Load& load);
+  void resumeChunk(const LoadedScene& load);
   void stateOfChunks(StateFields& f);
   void stateOfShadows(StateFields& f);
 

@@ -19,7 +19,7 @@ Scene::Scene(SceneLoader& loader, MeshStore& meshes, std::size_t threads)
 // its nodes have not entered.
 Scene::~Scene() {
   while (!tree_.loads().empty()) {
-    std::unique_ptr<Load> gone = tree_.remove(tree_.loads().rbegin()->first);
+    std::unique_ptr<LoadedScene> gone = tree_.remove(tree_.loads().rbegin()->first);
     try {
       loader_.dispose(std::move(gone), 0);
     } catch (const std::bad_alloc&) {
@@ -109,7 +109,8 @@ void Scene::visit(const TimeSignature& now, const InputSample& input, FrameProbe
     const SpanScope span(probe, Span::Mail);
     mail = callRound(now);
     detached = detachedBy(mail, frame);
-    impacts_.setMayBegin(std::ranges::any_of(mail, [](const Message& m) { return m.verb == Verb::Start; }));
+    impacts_.setMayBegin(
+        std::ranges::any_of(mail, [](const Message& m) { return m.command == CommandId::Start; }));
   }
   const auto next = [&] {
     const SpanScope span(probe, Span::Mail);
@@ -159,7 +160,8 @@ bool Scene::takeBatch(const std::vector<Message>& mail, FrameContext& frame, Fra
 std::vector<Scene::Detached> Scene::detachedBy(const std::vector<Message>& mail, const FrameContext& frame) {
   std::vector<Detached> detached;
   for (const Message& m : mail) {
-    const auto* node = m.verb == Verb::Detach ? dynamic_cast<const PlacedNode*>(find(m.target)) : nullptr;
+    const auto* node =
+        m.command == CommandId::Detach ? dynamic_cast<const PlacedNode*>(find(m.target)) : nullptr;
     if (!node) continue;
     const PlacementId parent = placements_.parent(node->placement());
     detached.push_back({m.target, frame.effective(m), parent, poseOf(placements_.world(parent))});
@@ -197,19 +199,19 @@ void Scene::post(const Node& sender, const Notification& n, Nanoseconds when) {
   Message m = addressed(n.target, sender.self(), n.arguments);
   m.due = when + n.delay;
   m.sender = sender.self();
-  m.verb = n.verb;
+  m.command = n.command;
   if (m.target.valid())
     messages_.post(std::move(m));
   else
     ++counters_.messagesLost;
 }
 
-bool Scene::command(const std::string& target, Verb verb, std::vector<std::string> arguments,
+bool Scene::command(const std::string& target, CommandId command, std::vector<std::string> arguments,
                     Nanoseconds when) {
   if (tree_.loads().empty()) return false;
   Message m = addressed(target, {tree_.loads().begin()->first, 0}, std::move(arguments));
   m.due = when;
-  m.verb = verb;
+  m.command = command;
   if (!m.target.valid()) return false;
   messages_.post(std::move(m));
   return true;
@@ -221,7 +223,7 @@ void Scene::note(NodeRef node, Event event, Nanoseconds when, std::optional<doub
 }
 
 void Scene::warn(const Node& about, const std::string& what) {
-  const Load* from = std::as_const(tree_).load(about.self().load);
+  const LoadedScene* from = std::as_const(tree_).load(about.self().load);
   SourcePosition where;
   if (from) where.file = from->file;
   if (from && about.self().position < from->lines.size())
@@ -274,13 +276,13 @@ void Scene::applyUnloads(const TimeSignature& now, FrameProbe* probe) {
   while (const auto change = requests_.takeUnload(now)) remove(change->number, now.frame);
 }
 
-void Scene::install(std::unique_ptr<Load> arrived, Nanoseconds at) {
+void Scene::install(std::unique_ptr<LoadedScene> arrived, Nanoseconds at) {
   if (arrived->owner.valid() && (!find(arrived->owner) || tree_.endOf(arrived->owner.load) <= at)) {
     requests_.forget(arrived->number);
     loader_.dispose(std::move(arrived), 0);  // its scene node is gone
     return;
   }
-  Load& load = tree_.install(std::move(arrived));
+  LoadedScene& load = tree_.install(std::move(arrived));
   load.since = at;
   const Nanoseconds frameEnd = std::exchange(time_.now, at);
   for (const std::uint32_t position : load.enterOrder) enterNode(*load.nodes[position]);
@@ -316,7 +318,7 @@ void Scene::leaveNode(Node& node) {
 }
 
 void Scene::remove(std::uint32_t number, std::uint64_t frame) {
-  Load* load = tree_.load(number);
+  LoadedScene* load = tree_.load(number);
   if (!load) return;
   // Loads that this load brought in go first.
   std::vector<std::uint32_t> inner;
@@ -328,7 +330,7 @@ void Scene::remove(std::uint32_t number, std::uint64_t frame) {
   schedule_.settle();
   hashes_.forget(number);
   publisher_.hideChunk(*load);
-  std::unique_ptr<Load> gone = tree_.remove(number);
+  std::unique_ptr<LoadedScene> gone = tree_.remove(number);
   schedule_.forget(number);
   degradation_.forget(number);
   requests_.forget(number);
@@ -345,7 +347,7 @@ std::uint64_t Scene::stateHash() const {
   std::uint64_t pending = 0;
   for (const Message& m : messages_.pending()) {
     StateHash one(m.sequence);
-    one.add(m.due), one.add(m.sender), one.add(m.target), one.add(static_cast<std::uint32_t>(m.verb));
+    one.add(m.due), one.add(m.sender), one.add(m.target), one.add(static_cast<std::uint32_t>(m.command));
     for (const std::string& a : m.arguments) one.add(std::string_view(a));
     one.add(std::string_view(m.targetInside)), one.add(std::string_view(m.nodeInside));
     pending += one.value();

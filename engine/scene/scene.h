@@ -80,7 +80,8 @@ public:
   void listen(const InputSample& input, SoundScape& out) const;
   /// Posts a command from outside the show; it is delivered in the next frame. False if the target is
   /// unknown.
-  bool command(const std::string& target, Verb verb, std::vector<std::string> arguments, Nanoseconds when);
+  bool command(const std::string& target, CommandId command, std::vector<std::string> arguments,
+               Nanoseconds when);
   std::uint64_t stateHash() const;
   const FrameCounters& counters() const { return counters_; }
   const std::vector<EventRecord>& events() const { return events_; }  ///< of the last frame, by time
@@ -148,7 +149,7 @@ private:
 
   void applyLoads(const TimeSignature& now, FrameProbe* probe);
   void applyUnloads(const TimeSignature& now, FrameProbe* probe);
-  void install(std::unique_ptr<Load> load, Nanoseconds at);
+  void install(std::unique_ptr<LoadedScene> load, Nanoseconds at);
   void remove(std::uint32_t number, std::uint64_t frame);
   void enterNode(Node& node);
   void leaveNode(Node& node);

@@ -1,5 +1,6 @@
 #include "engine/scene/scene_snapshot.h"
 
+#include "engine/core/named_state.h"
 #include "engine/core/state_fields.h"
 #include "engine/scene/placed_node.h"
 
@@ -110,7 +111,7 @@ void SceneSnapshot::visitLoads(StateFields& f) {
 }
 
 void SceneSnapshot::visitLoad(StateFields& f, std::uint32_t number) {
-  Load& l = *scene_.tree_.load(number);
+  LoadedScene& l = *scene_.tree_.load(number);
   f("since", l.since), f("until", l.until), f("chunk", l.chunkShown);
   // Static objects that were promoted, in the order in which they were.
   std::vector<std::uint32_t> order = l.enterOrder;
@@ -159,7 +160,7 @@ void SceneSnapshot::visitNodes(StateFields& f) {
 void SceneSnapshot::visitNode(StateFields& f, Node& node) {
   Node::ScheduleState& s = node.scheduleState();
   f("rests", s.rests), f("pace", s.pace), f("missed", s.missed), f("level", s.level);
-  if (f.restores() && s.pace > levelsOf(Concession::Half)) return f.fail();
+  if (f.restores() && s.pace > levelsOf(DegradationStep::Half)) return f.fail();
   node.state(f);
   f.about(0);
 }
@@ -187,6 +188,24 @@ std::optional<SceneSnapshot::Difference> SceneSnapshot::difference(std::span<con
   return elsewhere;
 }
 
+std::vector<SceneSnapshot::NamedField> SceneSnapshot::named() {
+  std::vector<NamedField> all;
+  for (const auto& [number, l] : scene_.tree_.loads())
+    for (const std::uint32_t position : l->enterOrder) {
+      NamedState state;
+      Node& node = *l->nodes[position];
+      visitNode(state, node);
+      for (auto& f : state.take())
+        all.push_back({f.part ? node.nodeOf(f.part) : node.self(), std::move(f.name), std::move(f.value)});
+    }
+  NamedState rest;
+  visitLoads(rest);
+  scene_.placements_.state(rest);
+  visitRest(rest);
+  for (auto& f : rest.take()) all.push_back({{}, std::move(f.name), std::move(f.value)});
+  return all;
+}
+
 /// Whether all that the restored parts refer to exists.
 bool SceneSnapshot::consistent() const {
   const Scene& s = scene_;
@@ -209,7 +228,7 @@ bool SceneSnapshot::placementsAreDistinct() const {
   return true;
 }
 
-/// Puts the restored state into effect: nodes know the scene again, everything is published anew. Returns why
+/// Puts the restored state into effect: reconnects nodes with the scene and publishes everything. Returns why
 /// that is not possible.
 std::optional<std::string> SceneSnapshot::resume() {
   scene_.instances_.resume();

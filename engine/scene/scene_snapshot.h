@@ -27,6 +27,11 @@ public:
     std::string here, there;
   };
 
+  struct NamedField {
+    NodeRef node;  ///< as in Difference
+    std::string name, value;
+  };
+
   explicit SceneSnapshot(Scene& scene) : scene_(scene) {}
 
   std::vector<std::uint8_t> save();
@@ -42,6 +47,10 @@ public:
   /// The first difference from a state that another process saved after the same frame. A difference in a
   /// node comes before one in the scene. Returns nothing if the states are equal.
   std::optional<Difference> difference(std::span<const std::uint8_t> there);
+
+  /// All fields that are not zero, as text: of the nodes in their order, then of the scene. Lists are
+  /// shortened to hashes. Unlike the bytes of save(), another build can compare it.
+  std::vector<NamedField> named();
 
 private:
   void visitAll(StateFields& f);

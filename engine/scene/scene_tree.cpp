@@ -10,7 +10,7 @@ namespace stadion {
 namespace {
 
 /// The index in `statics` of the object at this position; `statics.size()` if there is none.
-std::size_t staticAt(const Load& load, std::uint32_t position) {
+std::size_t staticAt(const LoadedScene& load, std::uint32_t position) {
   const auto s = std::ranges::lower_bound(load.statics, position, {}, &StaticObject::position);
   return s != load.statics.end() && s->position == position
              ? static_cast<std::size_t>(s - load.statics.begin())
@@ -19,19 +19,19 @@ std::size_t staticAt(const Load& load, std::uint32_t position) {
 
 }  // namespace
 
-const Load* SceneTree::load(std::uint32_t number) const {
+const LoadedScene* SceneTree::load(std::uint32_t number) const {
   const auto at = loads_.find(number);
   return at == loads_.end() ? nullptr : at->second.get();
 }
 
-Load* SceneTree::load(std::uint32_t number) {
-  return const_cast<Load*>(std::as_const(*this).load(number));
+LoadedScene* SceneTree::load(std::uint32_t number) {
+  return const_cast<LoadedScene*>(std::as_const(*this).load(number));
 }
 
 Node* SceneTree::find(NodeRef ref) {
   const auto at = loads_.find(ref.load);
   if (at == loads_.end() || ref.position >= at->second->nodes.size()) return nullptr;
-  Load& load = *at->second;
+  LoadedScene& load = *at->second;
   if (load.nodes[ref.position]) return load.nodes[ref.position].get();
   const std::size_t index = staticAt(load, ref.position);
   return index < load.statics.size() ? promote(load, index) : nullptr;
@@ -41,7 +41,8 @@ NodeRef SceneTree::resolve(const std::string& name, NodeRef from) const {
   const std::size_t slash = name.find('/');
   const std::string head = name.substr(0, slash);
   NodeRef found;
-  for (const Load* l = load(from.load); l && !found.valid(); l = load(l->owner.load)) found = l->find(head);
+  for (const LoadedScene* l = load(from.load); l && !found.valid(); l = load(l->owner.load))
+    found = l->find(head);
   return slash == std::string::npos ? found : resolveInside(found, std::string_view(name).substr(slash + 1));
 }
 
@@ -60,7 +61,7 @@ NodeRef SceneTree::resolveInside(NodeRef from, std::string_view path) const {
 }
 
 NodeRef SceneTree::parentOf(NodeRef ref) const {
-  const Load* l = load(ref.load);
+  const LoadedScene* l = load(ref.load);
   if (!l) return {};
   NodeRef parent;
   if (const auto* placed = dynamic_cast<const PlacedNode*>(l->nodes[ref.position].get()))
@@ -72,7 +73,7 @@ NodeRef SceneTree::parentOf(NodeRef ref) const {
 
 PlacementId SceneTree::placementFor(NodeRef parent, NodeRef child) {
   if (!parent.valid()) {
-    const Load* own = load(child.load);
+    const LoadedScene* own = load(child.load);
     if (!own || !own->owner.valid()) return kWorldPlacement;
     parent = own->owner;
   }
@@ -83,11 +84,11 @@ PlacementId SceneTree::placementFor(NodeRef parent, NodeRef child) {
 
 Nanoseconds SceneTree::endOf(std::uint32_t number) const {
   Nanoseconds end = kNever;
-  for (const Load* l = load(number); l; l = load(l->owner.load)) end = std::min(end, l->until);
+  for (const LoadedScene* l = load(number); l; l = load(l->owner.load)) end = std::min(end, l->until);
   return end;
 }
 
-void SceneTree::forEachLoad(const std::function<void(const Load&)>& f) const {
+void SceneTree::forEachLoad(const std::function<void(const LoadedScene&)>& f) const {
   for (const auto& [number, l] : loads_) f(*l);
 }
 
@@ -111,7 +112,7 @@ void SceneTree::promoteBelow(NodeRef ref) {
     }
 }
 
-Node& SceneTree::makeNode(Load& load, std::size_t index) {
+Node& SceneTree::makeNode(LoadedScene& load, std::size_t index) {
   const StaticObject& object = load.statics[index];
   const InstanceRecord& record = load.chunkRecords[index];
   const NodeRef self{load.number, object.position};
@@ -127,7 +128,7 @@ Node& SceneTree::makeNode(Load& load, std::size_t index) {
   return *load.nodes[object.position];
 }
 
-Node* SceneTree::promote(Load& load, std::size_t index, const Affine& moved) {
+Node* SceneTree::promote(LoadedScene& load, std::size_t index, const Affine& moved) {
   const InstanceRecord& record = load.chunkRecords[index];
   Node& added = makeNode(load, index);
   Affine X_WN;
@@ -137,16 +138,16 @@ Node* SceneTree::promote(Load& load, std::size_t index, const Affine& moved) {
   return &added;
 }
 
-Load& SceneTree::install(std::unique_ptr<Load> load) {
-  Load& installed = *load;
+LoadedScene& SceneTree::install(std::unique_ptr<LoadedScene> load) {
+  LoadedScene& installed = *load;
   loads_[installed.number] = std::move(load);
   ++version_;
   return installed;
 }
 
-std::unique_ptr<Load> SceneTree::remove(std::uint32_t number) {
+std::unique_ptr<LoadedScene> SceneTree::remove(std::uint32_t number) {
   const auto at = loads_.find(number);
-  std::unique_ptr<Load> gone = std::move(at->second);
+  std::unique_ptr<LoadedScene> gone = std::move(at->second);
   loads_.erase(at);
   ++version_;
   return gone;
@@ -159,7 +160,7 @@ void SceneTree::end(std::uint32_t number, Nanoseconds at) {
   ++version_;
 }
 
-void SceneTree::restore(std::unique_ptr<Load> load) {
+void SceneTree::restore(std::unique_ptr<LoadedScene> load) {
   const std::uint32_t number = load->number;
   loads_[number] = std::move(load);
 }

@@ -9,7 +9,7 @@
 /// Threads    App only.
 /// Errors     lookups of what is not loaded return null or an invalid reference.
 
-#include "engine/scene/load.h"
+#include "engine/scene/loaded_scene.h"
 #include "engine/scene/placements.h"
 
 #include <cstddef>
@@ -49,9 +49,9 @@ public:
   NodeRef resolve(const std::string& name, NodeRef from) const;
   /// Follows the rest of a path, such as "arena/ball", from a scene node to what is loaded now.
   NodeRef resolveInside(NodeRef from, std::string_view path) const;
-  const Load* load(std::uint32_t number) const;
-  Load* load(std::uint32_t number);
-  const std::map<std::uint32_t, std::unique_ptr<Load>>& loads() const { return loads_; }
+  const LoadedScene* load(std::uint32_t number) const;
+  LoadedScene* load(std::uint32_t number);
+  const std::map<std::uint32_t, std::unique_ptr<LoadedScene>>& loads() const { return loads_; }
   /// What the node is placed below: its parent, in a sub-scene at least the scene node; invalid = World.
   NodeRef parentOf(NodeRef ref) const;
   /// The placement of `parent` for a node in `child`'s file.
@@ -61,32 +61,32 @@ public:
   /// Changes whenever a load comes or goes: names may resolve differently.
   std::uint64_t version() const { return version_; }
   void forEachNode(const std::function<void(const Node&)>& f) const;
-  void forEachLoad(const std::function<void(const Load&)>& f) const;
+  void forEachLoad(const std::function<void(const LoadedScene&)>& f) const;
 
   // Changes.
 
   /// Promotes every static object below `ref`, so that it can move.
   void promoteBelow(NodeRef ref);
   /// Promotes a static object of the load; `moved` is what moved it since its chunk was made.
-  Node* promote(Load& load, std::size_t index, const Affine& moved = Affine::Identity());
+  Node* promote(LoadedScene& load, std::size_t index, const Affine& moved = Affine::Identity());
   /// Makes a node of a static object, which does not enter: it is restored.
-  Node& makeNode(Load& load, std::size_t index);
+  Node& makeNode(LoadedScene& load, std::size_t index);
 
   // For the scene alone.
 
-  Load& install(std::unique_ptr<Load> load);
-  std::unique_ptr<Load> remove(std::uint32_t number);
+  LoadedScene& install(std::unique_ptr<LoadedScene> load);
+  std::unique_ptr<LoadedScene> remove(std::uint32_t number);
   /// Announces that the load goes at `at`, in this frame.
   void end(std::uint32_t number, Nanoseconds at);
   /// Adds a load that is being restored; the version is restored apart.
-  void restore(std::unique_ptr<Load> load);
+  void restore(std::unique_ptr<LoadedScene> load);
   void stateOfVersion(StateFields& f);
 
 private:
   bool isBelow(NodeRef ref, NodeRef ancestor) const;
 
   Host& host_;
-  std::map<std::uint32_t, std::unique_ptr<Load>> loads_;  ///< by number
+  std::map<std::uint32_t, std::unique_ptr<LoadedScene>> loads_;  ///< by number
   std::uint64_t version_ = 0;
 };
 

@@ -80,7 +80,7 @@ std::string demand(const NumberRange& range, double x, std::string_view unit) {
 }
 
 /// Why a node of this type cannot give that up; empty if it can.
-std::string faultOfConcession(const RegisteredType& type, const NodeRegistry& types, std::string_view word) {
+std::string faultOfDegradation(const RegisteredType& type, const NodeRegistry& types, std::string_view word) {
   const bool drawn = word == "lod" || word == "hide";
   if (drawn ? type.has(Trait::Placed) : kPacedTypes.matches(type.type())) return {};
   if (drawn)
@@ -289,7 +289,7 @@ void Checker::takeChoices(const RegisteredType& type, const AttributeSpec& spec,
                                               shortened(word), didYouMean(word, known)));
     if (std::ranges::find(words, word) != words.end())
       return report_.error(where, fmt::format("{}: \"{}\" is given twice", spec.name, word));
-    if (const std::string why = faultOfConcession(type, types(), word); !why.empty())
+    if (const std::string why = faultOfDegradation(type, types(), word); !why.empty())
       return report_.error(where, fmt::format("{}: {}", spec.name, why));
     words.push_back(word);
     at += word.size();

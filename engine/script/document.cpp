@@ -208,7 +208,7 @@ EventMessage Document::messageAt(std::uint32_t index) const {
   EventMessage message;
   message.event = stored.event;
   message.target = referenceAt(stored.target);
-  message.verb = stored.verb;
+  message.commandId = stored.commandId;
   message.part = stored.part;
   if (stored.field != kNone) message.field = referenceAt(stored.field);
   message.tracker = source_.slice(stored.tracker, stored.trackerLength);

@@ -178,7 +178,7 @@ private:
     std::uint32_t words;
     std::uint32_t wordsLength;
     Event event;
-    Verb verb;
+    CommandId commandId;
     AttachPart part;
   };
 

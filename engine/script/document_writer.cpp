@@ -59,7 +59,7 @@ void DocumentWriter::addMessage(TextSpan value, const ReadMessage& read) {
   message.words = at(read.words).offset;
   message.wordsLength = at(read.words).length;
   message.event = read.event;
-  message.verb = read.verb->verb;
+  message.commandId = read.spec->id;
   message.part = read.part;
   add("eventmessage", ValueKind::EventMessage, value.offset, document_.messages_.size());
   document_.messages_.push_back(message);

@@ -8,8 +8,8 @@
 
 #include "engine/base/diagnostic.h"
 #include "engine/base/time_signature.h"
+#include "engine/core/command_id.h"
 #include "engine/core/event.h"
-#include "engine/core/verb.h"
 
 #include <string_view>
 
@@ -38,7 +38,7 @@ struct NodeReference {
 struct EventMessage {
   Event event{};
   NodeReference target;
-  Verb verb{};
+  CommandId commandId{};
   AttachPart part = AttachPart::All;  ///< attach
   NodeReference field;                ///< hook, unhook; else unresolved
   std::string_view tracker;           ///< attach, grab; empty: the default

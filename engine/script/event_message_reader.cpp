@@ -99,7 +99,7 @@ Failure readField(std::string_view& rest, std::size_t& offset, ReadMessage& mess
   if (name.empty())
     return ValueError{
         message.field.offset,
-        fmt::format("\"{}\" must be followed by the name of a force field", message.verb->name)};
+        fmt::format("\"{}\" must be followed by the name of a force field", message.spec->name)};
   return named(message.field, faultOfReference(name));
 }
 
@@ -107,12 +107,12 @@ Failure readWords(std::string_view& rest, std::size_t& offset, ReadMessage& mess
   message.words = takeUntil('\0', rest, offset);  // the whole rest
   if (message.words.text.size() <= kLongestWords) return std::nullopt;
   return ValueError{message.words.offset,
-                    fmt::format("\"{}\" takes {} bytes at most, not {}", message.verb->name, kLongestWords,
+                    fmt::format("\"{}\" takes {} bytes at most, not {}", message.spec->name, kLongestWords,
                                 message.words.text.size())};
 }
 
 Failure readArguments(std::string_view& rest, std::size_t& offset, ReadMessage& message) {
-  switch (message.verb->argument) {
+  switch (message.spec->argument) {
   case ArgumentKind::None: return std::nullopt;
   case ArgumentKind::Field: return readField(rest, offset, message);
   case ArgumentKind::Tracker: return readTracker(rest, offset, message);
@@ -129,8 +129,8 @@ Failure readCommand(const Piece& piece, const NodeRegistry& types, ReadMessage& 
   std::size_t offset = piece.offset;
   const Piece word = takeWord(rest, offset);
   if (auto hidden = hiddenIn(word)) return hidden;
-  message.verb = types.command(word.text);
-  if (message.verb == nullptr)
+  message.spec = types.command(word.text);
+  if (message.spec == nullptr)
     return ValueError{word.offset, fmt::format("\"{}\" is not a command{}", shortened(word.text),
                                                didYouMean(word.text, namesOfCommands(types)))};
   if (auto failure = readArguments(rest, offset, message)) return failure;
@@ -138,7 +138,7 @@ Failure readCommand(const Piece& piece, const NodeRegistry& types, ReadMessage& 
   if (auto hidden = hiddenIn(extra)) return hidden;
   if (!extra.text.empty())
     return ValueError{extra.offset, fmt::format("\"{}\" is too much: the command is \"{}\"",
-                                                shortened(extra.text), message.verb->form)};
+                                                shortened(extra.text), message.spec->form)};
   return std::nullopt;
 }
 
@@ -246,7 +246,7 @@ std::vector<ValueError> readEventMessage(std::string_view text, const Registered
     const Piece option = takeUntil(',', rest, offset);
     auto failure = readOption(option, seen, message);
     if (!failure) continue;
-    if (faults.empty() && message.verb != nullptr && message.verb->argument == ArgumentKind::Words)
+    if (faults.empty() && message.spec != nullptr && message.spec->argument == ArgumentKind::Words)
       failure->message += R"(; a comma in words is written "\,")";
     note(std::move(failure));
     break;  // an empty part is a failure, so this ends

@@ -12,7 +12,7 @@ struct ReadMessage {
   Event event{};
   Piece target;
   Piece command;                      ///< with its arguments
-  const CommandSpec* verb = nullptr;  ///< null: not understood
+  const CommandSpec* spec = nullptr;  ///< null: not understood
   AttachPart part = AttachPart::All;
   Piece field;
   Piece tracker;

@@ -99,9 +99,9 @@ private:
               const EventMessage* message) {
     const NodeRegistry& types = document_.types();
     const bool field = attr == "hook" && message != nullptr;  // the argument of a hook or unhook command
-    const auto commandName = [&] { return types.command(message->verb)->name; };
+    const auto commandName = [&] { return types.command(message->commandId)->name; };
     if (message != nullptr && !field) {
-      if (type.takes(message->verb)) return true;
+      if (type.takes(message->commandId)) return true;
       report_.error(message->command,
                     fmt::format("\"{}\" is {}, which does not take \"{}\"; it takes {}", reference.name,
                                 withArticle(type), commandName(), commandsOf(type)));

@@ -37,8 +37,8 @@ public:
 protected:
   void receive(const Message& m, FrameContext& frame) override {
     PlacedNode::receive(m, frame);
-    if (m.verb == verbNamed("kick")) velocity_.z() += 2;
-    if (switch_.obey(m) && m.verb == Verb::Reset) velocity_.setZero();
+    if (m.command == commandNamed("kick")) velocity_.z() += 2;
+    if (switch_.obey(m) && m.command == CommandId::Reset) velocity_.setZero();
   }
 
   void simulate(FrameContext& frame) override {

@@ -68,7 +68,7 @@ int main(int argc, char** argv) {
 
   const Scene& scene = player->scene();
   const NodeRef ref = scene.tree().resolve(argv[2], {1, 0});
-  const Load* load = scene.tree().load(ref.load);
+  const LoadedScene* load = scene.tree().load(ref.load);
   const auto* node = load ? dynamic_cast<const PlacedNode*>(load->nodes[ref.position].get()) : nullptr;
   if (!node) return fail(std::string("there is no node \"") + argv[2] + "\" with a place");
   const Pose X_WN = poseOf(scene.placements().world(node->placement()));

@@ -1,7 +1,7 @@
 #include "pipeline/cluster/cluster_leader.h"
 
 #include "engine/plain_text/text_line.h"
-#include "pipeline/cluster/terms.h"
+#include "pipeline/cluster/session_rules.h"
 #include "pipeline/platform/scoped_realtime_priority.h"
 
 #include <fmt/format.h>
@@ -53,7 +53,7 @@ private:
 
 ClusterLeader::ClusterLeader(LeaderOptions options, std::uint64_t session)
     : options_(std::move(options)), followers_(options_.cluster.nodes.size()), words_(followers_.size()) {
-  session_.number = std::max(session, options_.above + 1), session_.terms = written(options_.terms),
+  session_.number = std::max(session, options_.above + 1), session_.compatibility = written(options_.key),
   session_.giver = kNoNode;
 }
 
@@ -62,8 +62,8 @@ Result<std::unique_ptr<ClusterLeader>> ClusterLeader::open(LeaderOptions options
   auto bus = Bus::open(lead->options_.cluster, *lead);
   if (!bus) return bus.error();
   lead->bus_ = std::move(bus.value());
-  lead->tally_.barrier.makeRoom();
-  lead->sender_ = std::thread([self = lead.get()] { self->sendParcels(); });
+  lead->stats_.barrier.makeRoom();
+  lead->sender_ = std::thread([self = lead.get()] { self->sendTransfers(); });
   return lead;
 }
 
@@ -96,7 +96,7 @@ std::optional<std::size_t> ClusterLeader::newestOf(std::uint32_t nodes) const {
   };
   for (std::size_t node = 0; node < followers_.size(); ++node) {
     const Follower& f = followers_[node];
-    if ((nodes & bit(node)) == 0 || f.plays == 0 || f.show != options_.terms.show()) continue;
+    if ((nodes & bit(node)) == 0 || f.plays == 0 || f.show != options_.key.show()) continue;
     if (!best || at(node) > at(*best)) best = node;
   }
   return best;
@@ -107,7 +107,7 @@ std::optional<std::size_t> ClusterLeader::newestOf(std::uint32_t nodes) const {
 std::optional<ShowUnderWay> ClusterLeader::takeOver() {
   std::unique_lock lock(mutex_);
   const auto wait = [&](Clock::time_point until, const auto& ready) {
-    while (!ready() && Clock::now() < until && waits()) changed_.wait_for(lock, kLook);
+    while (!ready() && Clock::now() < until && waits()) changed_.wait_for(lock, kPollInterval);
   };
   const auto allAreNew = [&] {
     return std::ranges::count(followers_, 0U, &Follower::incarnation) == 1 &&  // it is this program
@@ -125,26 +125,26 @@ std::optional<ShowUnderWay> ClusterLeader::takeOver() {
     bus_->tell(session_);
     wait(Clock::now() + kGiving, [&] { return incoming_.complete() || f.plays == 0; });
     if (!incoming_.complete()) continue;
-    SceneTransfer parcel = incoming_.take();
-    if (!isTime(parcel.time)) continue;
+    SceneTransfer transfer = incoming_.take();
+    if (!isTime(transfer.time)) continue;
     session_.giver = kNoNode;
-    pending_.signature.frame = parcel.frame, pending_.signature.time = parcel.time;
-    pending_.standsAfter = parcel.still, pending_.shown = parcel.shown;
+    pending_.signature.frame = transfer.frame, pending_.signature.time = transfer.time;
+    pending_.standsAfter = transfer.still, pending_.shown = transfer.shown;
     options_.tell(
-        fmt::format("the show goes on after frame {}, with the scene of {}", parcel.frame, nameOf(*node)));
+        fmt::format("the show goes on after frame {}, with the scene of {}", transfer.frame, nameOf(*node)));
     return ShowUnderWay{pending_.signature,
-                        std::make_shared<const std::vector<std::uint8_t>>(std::move(parcel.scene.bytes)),
-                        parcel.scene.files, parcel.still, parcel.shown};
+                        std::make_shared<const std::vector<std::uint8_t>>(std::move(transfer.scene.bytes)),
+                        transfer.scene.files, transfer.still, transfer.shown};
   }
   if (session_.resumes != 0 && !double_)
-    options_.tell("the others play, but none sends its scene: the show begins anew");
+    options_.tell("the others play, but none sends its scene: the show restarts");
   session_.resumes = 0, session_.giver = kNoNode;
   return {};
 }
 
-ClusterStats ClusterLeader::tally() const {
+ClusterStats ClusterLeader::stats() const {
   const std::lock_guard lock(mutex_);
-  return tally_;
+  return stats_;
 }
 
 std::uint64_t ClusterLeader::session() const {
@@ -183,7 +183,7 @@ bool ClusterLeader::begin(double rate, const OperatorDecision& operators) {
     const WaitDecision his = operators(told);
     if (his == WaitDecision::GivesUp) return false;
     if (his == WaitDecision::Ends) break;
-    if (!told && Clock::now() > start + kLong) {
+    if (!told && Clock::now() > start + kLongWait) {
       told = true;
       options_.tell(fmt::format("waiting for {}, {} s at most; Start begins without",
                                 fmt::join(missing(), ", "), patience.count()));
@@ -191,7 +191,7 @@ bool ClusterLeader::begin(double rate, const OperatorDecision& operators) {
     lock.unlock();
     answerRequests();
     lock.lock();
-    changed_.wait_for(lock, kLook);
+    changed_.wait_for(lock, kPollInterval);
   }
   if (double_) return true;
   if (const auto names = missing(); !names.empty() && !options_.stop())
@@ -219,23 +219,23 @@ void ClusterLeader::send(const InputSample* input) {
   std::uint32_t members = 0;
   for (std::size_t i = 0; i < followers_.size(); ++i)
     if (followers_[i].member) members |= bit(i);
-  rounds_.push_back({++serial_, pending_.signature.frame, members, {}});
+  epochs_.push_back({++serial_, pending_.signature.frame, members, {}});
   bus_->tell(
       written_.write({session_.number, serial_, members, std::exchange(explain_, 0)}, pending_, input));
   const std::uint64_t bytes = written_.bytes();
-  ++tally_.orders, tally_.orderBytes += bytes;
-  tally_.mostOrderBytes = std::max(tally_.mostOrderBytes, bytes);
+  ++stats_.orders, stats_.orderBytes += bytes;
+  stats_.mostOrderBytes = std::max(stats_.mostOrderBytes, bytes);
 }
 
 // Runs between two frames: the scene is as it was after the previous order.
 void ClusterLeader::answerRequests() {
   std::vector<std::uint64_t> asking;
-  SceneTransfer parcel;
+  SceneTransfer transfer;
   {
     const std::lock_guard lock(mutex_);
-    parcel.session = session_.number, parcel.serial = serial_;
-    parcel.frame = pending_.signature.frame, parcel.time = pending_.signature.time;
-    parcel.still = pending_.standsAfter, parcel.shown = pending_.shown;
+    transfer.session = session_.number, transfer.serial = serial_;
+    transfer.frame = pending_.signature.frame, transfer.time = pending_.signature.time;
+    transfer.still = pending_.standsAfter, transfer.shown = pending_.shown;
     const bool underWay = serial_ > 0 || session_.resumes != 0;
     for (std::size_t i = 0; i < followers_.size() && underWay; ++i) {
       Follower& f = followers_[i];
@@ -245,25 +245,25 @@ void ClusterLeader::answerRequests() {
     }
   }
   if (asking.empty() || !save_) return;
-  parcel.scene = save_();
+  transfer.scene = save_();
   {
     const std::lock_guard lock(mutex_);
-    for (const std::uint64_t to : asking) parcel.to = to, parcels_.push_back(parcel);
+    for (const std::uint64_t to : asking) transfer.to = to, transfers_.push_back(transfer);
   }
   changed_.notify_all();
 }
 
 // Runs on a thread of its own, because a state may be large.
-void ClusterLeader::sendParcels() {
+void ClusterLeader::sendTransfers() {
   for (std::unique_lock lock(mutex_); !ending_;) {
-    if (parcels_.empty()) {
+    if (transfers_.empty()) {
       changed_.wait(lock);
       continue;
     }
-    const SceneTransfer parcel = std::move(parcels_.front());
-    parcels_.pop_front();
+    const SceneTransfer transfer = std::move(transfers_.front());
+    transfers_.pop_front();
     lock.unlock();
-    cluster::send(*bus_, parcel);
+    cluster::send(*bus_, transfer);
     lock.lock();
   }
 }
@@ -272,27 +272,27 @@ bool ClusterLeader::mayShow(const TimeSignature&) {
   const ScopedRealtimePriority prompt;
   std::unique_lock lock(mutex_);
   const std::uint64_t serial = ++shown_;
-  const auto at = std::ranges::find(rounds_, serial, &Round::serial);
-  if (at == rounds_.end()) return false;
+  const auto at = std::ranges::find(epochs_, serial, &OrderEpoch::serial);
+  if (at == epochs_.end()) return false;
   const auto drawn = Clock::now();
   at->drawnHere = drawn;
   const bool latest = at->awaited == 0;
   if (latest) latest_ = static_cast<std::uint8_t>(options_.cluster.lead);
   release();
   while (go_ < serial && waits()) {
-    changed_.wait_for(lock, kLook);
+    changed_.wait_for(lock, kPollInterval);
     leaveOutStuckFollowers();
   }
-  if (latest) tally_.barrier.add(std::chrono::duration<double, std::milli>(Clock::now() - drawn).count());
+  if (latest) stats_.barrier.add(std::chrono::duration<double, std::milli>(Clock::now() - drawn).count());
   return go_ >= serial && !double_;
 }
 
 // Expects the lock. A node that lives but does not draw what all others have drawn would hold them forever.
 void ClusterLeader::leaveOutStuckFollowers() {
-  if (rounds_.empty() || !rounds_.front().drawnHere) return;
-  const double seconds = std::chrono::duration<double>(Clock::now() - *rounds_.front().drawnHere).count();
+  if (epochs_.empty() || !epochs_.front().drawnHere) return;
+  const double seconds = std::chrono::duration<double>(Clock::now() - *epochs_.front().drawnHere).count();
   if (seconds < kStuck * options_.cluster.deadline) return;
-  const std::uint32_t awaited = rounds_.front().awaited;
+  const std::uint32_t awaited = epochs_.front().awaited;
   for (std::size_t i = 0; i < followers_.size(); ++i)
     if ((awaited & bit(i)) != 0)
       leaveOut(i, fmt::format("lives, but has drawn nothing for {:.1f} s", seconds));
@@ -301,9 +301,9 @@ void ClusterLeader::leaveOutStuckFollowers() {
 // Expects the lock. Lets all nodes show what all have drawn.
 void ClusterLeader::release() {
   bool released = false;
-  while (!rounds_.empty() && rounds_.front().awaited == 0 && rounds_.front().drawnHere) {
-    go_ = rounds_.front().serial, session_.shown = rounds_.front().frame + 1;
-    rounds_.pop_front();
+  while (!epochs_.empty() && epochs_.front().awaited == 0 && epochs_.front().drawnHere) {
+    go_ = epochs_.front().serial, session_.shown = epochs_.front().frame + 1;
+    epochs_.pop_front();
     released = true;
   }
   if (!released) return;
@@ -322,7 +322,7 @@ void ClusterLeader::hear(const Session& other) {
     }
     double_ = true;
     options_.tell(
-        other.terms.cluster == options_.terms.cluster
+        other.compatibility.cluster == options_.key.cluster
             ? fmt::format("another program leads as {} already; this one ends", nameOf(options_.cluster.lead))
             : inTheWay(options_.cluster));
   }
@@ -337,7 +337,7 @@ bool ClusterLeader::hasDouble() const {
 void ClusterLeader::hear(const Presence& p) {
   std::unique_lock lock(mutex_);
   if (p.node >= followers_.size() || p.node == options_.cluster.lead) return;
-  if (p.cluster != options_.terms.cluster) return;  // another check tells it that its cluster file differs
+  if (p.cluster != options_.key.cluster) return;  // another check tells it that its cluster file differs
   Follower& f = followers_[p.node];
   // Another leader that has just started may end at once, because we lead.
   if (f.member && f.incarnation != p.incarnation && static_cast<Phase>(p.phase) == Phase::Waiting) return;
@@ -346,7 +346,7 @@ void ClusterLeader::hear(const Presence& p) {
   if (word.incarnation == p.incarnation && p.count <= word.count) return;
   word.incarnation = p.incarnation, word.count = p.count;
   if (f.incarnation != p.incarnation) {
-    if (f.member) leaveOut(p.node, "began anew");
+    if (f.member) leaveOut(p.node, "restarted");
     f = {};
     f.incarnation = p.incarnation;
   }
@@ -359,7 +359,7 @@ void ClusterLeader::hear(const Presence& p) {
   }
   if (f.phase == Phase::Ready && !f.member) {
     f.member = true;
-    ++tally_.joined;
+    ++stats_.joined;
     if (session_.begun) options_.tell(fmt::format("{} plays with us", nameOf(p.node)));
   }
   lock.unlock();
@@ -369,8 +369,8 @@ void ClusterLeader::hear(const Presence& p) {
 void ClusterLeader::hear(const Drawn& d) {
   const std::lock_guard lock(mutex_);
   if (d.session != session_.number || d.node >= followers_.size()) return;
-  const auto at = std::ranges::find(rounds_, d.serial, &Round::serial);
-  if (at == rounds_.end()) {
+  const auto at = std::ranges::find(epochs_, d.serial, &OrderEpoch::serial);
+  if (at == epochs_.end()) {
     if (d.serial <= go_) bus_->tell(Go{session_.number, go_, latest_});  // it has not received permission yet
     return;
   }
@@ -400,7 +400,7 @@ void ClusterLeader::left(std::uint8_t node, std::uint64_t incarnation) {
 
 // Expects the lock.
 void ClusterLeader::leaveOut(std::size_t node, const std::string& why) {
-  ++tally_.leftOut;
+  ++stats_.leftOut;
   options_.tell(fmt::format("{} {}; the others go on", nameOf(node), why));
   letGo(node);
 }
@@ -408,7 +408,7 @@ void ClusterLeader::leaveOut(std::size_t node, const std::string& why) {
 // Expects the lock. Stops waiting for the node.
 void ClusterLeader::letGo(std::size_t node) {
   if (std::exchange(followers_[node].member, false)) words_[node].gone = Clock::now();
-  for (Round& round : rounds_) round.awaited &= ~bit(node);
+  for (OrderEpoch& epoch : epochs_) epoch.awaited &= ~bit(node);
   release();
 }
 
@@ -435,9 +435,9 @@ void ClusterLeader::hear(const SceneHash& h) {
 // Expects the lock.
 void ClusterLeader::compare(std::size_t node, std::uint64_t frame, std::uint64_t hash) {
   const auto ours = std::ranges::find(hashes_, frame, &std::pair<std::uint64_t, std::uint64_t>::first);
-  ++tally_.compared;
+  ++stats_.compared;
   if (ours == hashes_.end() || ours->second == hash) return;
-  ++tally_.differed;
+  ++stats_.differed;
   if (std::exchange(followers_[node].differs, true)) return;
   followers_[node].asks = true;
   options_.tell(
@@ -450,13 +450,13 @@ void ClusterLeader::hear(const Difference& d) {
   if (d.session != session_.number || d.node >= followers_.size()) return;
   if (d.found)
     options_.tell(fmt::format("the scene of {} differs from ours after frame {}: {} is {} there and {} here",
-                              nameOf(d.node), d.frame, printable(d.where, kMostTold),
-                              printable(d.here, kMostTold), printable(d.there, kMostTold)));
+                              nameOf(d.node), d.frame, printable(d.where, kMaxRemoteText),
+                              printable(d.here, kMaxRemoteText), printable(d.there, kMaxRemoteText)));
   else
     options_.tell(fmt::format("the scene of {} is like ours after frame {}", nameOf(d.node), d.frame));
   followers_[d.node].differs = d.found;  // a later difference is reported again
   stop_ = stop_ || (d.found && options_.cluster.stopOnDifference);
-  if (stop_) tally_.stopped = 1;
+  if (stop_) stats_.stopped = 1;
 }
 
 // The end must not be received before the last orders.

@@ -31,7 +31,7 @@ namespace stadion::cluster {
 
 struct LeaderOptions {
   ClusterFile cluster;
-  CompatibilityKey terms;
+  CompatibilityKey key;
   std::chrono::seconds patience{};  ///< limit for nodes that have not come; then the show begins without them
   std::function<void(const std::string&)> tell;
   std::function<bool()> stop;  ///< the wait is no longer wanted
@@ -88,7 +88,7 @@ public:
   /// Returns true if the scene is compared after that frame, by its digest().
   bool compares(std::uint64_t frame) const { return frame % options_.cluster.hashEvery == 0; }
   void simulated(std::uint64_t frame, std::uint64_t digest);
-  ClusterStats tally() const;
+  ClusterStats stats() const;
   /// Returns true if another program leads this cluster already: ours must end.
   bool hasDouble() const;
   /// Waits until all nodes have received everything. With `over`, also ends the show for all.
@@ -128,7 +128,7 @@ private:
     std::optional<Clock::time_point> gone{};  ///< when it stopped playing
   };
   /// An order that not all nodes have drawn.
-  struct Round {
+  struct OrderEpoch {
     std::uint64_t serial = 0, frame = 0;
     std::uint32_t awaited = 0;
     std::optional<Clock::time_point> drawnHere{};
@@ -138,7 +138,7 @@ private:
   std::optional<std::size_t> newestOf(std::uint32_t nodes) const;
   void send(const InputSample* input);
   void answerRequests();
-  void sendParcels();
+  void sendTransfers();
   void leaveOut(std::size_t node, const std::string& why);
   void letGo(std::size_t node);
   void leaveOutStuckFollowers();
@@ -160,17 +160,17 @@ private:
   std::uint32_t explain_ = 0;  ///< nodes that must say with it where their scene differs
   bool stop_ = false;          ///< scenes differ, and this ends the show
   std::uint64_t serial_ = 0, go_ = 0, shown_ = 0;
-  std::deque<Round> rounds_;                                    ///< by serial
+  std::deque<OrderEpoch> epochs_;                               ///< by serial
   std::uint8_t latest_ = 0;                                     ///< the node that has drawn last
   std::deque<std::pair<std::uint64_t, std::uint64_t>> hashes_;  ///< ours: frame, hash
   std::vector<SceneHash> early_;                                ///< of frames that we have not simulated yet
-  std::deque<SceneTransfer> parcels_;
+  std::deque<SceneTransfer> transfers_;
   IncomingScene incoming_;  ///< from the node that sends us the show
   bool ending_ = false, double_ = false;
   std::function<SavedScene()> save_;
   std::unique_ptr<SampledInput> input_;
   WrittenOrder written_;
-  ClusterStats tally_;
+  ClusterStats stats_;
   std::unique_ptr<Bus> bus_;
   std::thread sender_;
 };

@@ -2,7 +2,7 @@
 
 #include "engine/core/state_hash.h"
 #include "engine/plain_text/text_line.h"
-#include "pipeline/cluster/terms.h"
+#include "pipeline/cluster/session_rules.h"
 
 #include <fmt/format.h>
 
@@ -27,14 +27,14 @@ std::uint64_t hashOf(const ClusterFile& file) {
   return hash.value();
 }
 
-stadion_wire_Agreement written(const CompatibilityKey& a) {
-  stadion_wire_Agreement w{a.script, a.input, a.cluster, a.walls, {}, {}};
+stadion_wire_CompatibilityKey written(const CompatibilityKey& a) {
+  stadion_wire_CompatibilityKey w{a.script, a.input, a.cluster, a.walls, {}, {}};
   a.plugins.copy(w.plugins, sizeof(w.plugins) - 1);
   a.pictures.copy(w.pictures, sizeof(w.pictures) - 1);
   return w;
 }
 
-CompatibilityKey read(const stadion_wire_Agreement& w) {
+CompatibilityKey read(const stadion_wire_CompatibilityKey& w) {
   return {w.script,
           w.input,
           w.cluster,
@@ -53,7 +53,7 @@ std::string refusal(const CompatibilityKey& lead, const CompatibilityKey& ours,
   if (what) return fmt::format("{} {}; put the same file on all machines", nameOfLead, what);
   if (lead.plugins == ours.plugins) return {};
   const auto words = [](const std::string& plugins) {
-    return plugins.empty() ? "no plugins" : "the plugins " + printable(plugins, kMostTold);
+    return plugins.empty() ? "no plugins" : "the plugins " + printable(plugins, kMaxRemoteText);
   };
   return fmt::format("{} plays with {}, we with {}; load the same plugins on all machines", nameOfLead,
                      words(lead.plugins), words(ours.plugins));
@@ -63,7 +63,7 @@ std::string remark(const CompatibilityKey& lead, const CompatibilityKey& ours,
                    const std::string& nameOfLead) {
   if (lead.pictures == ours.pictures) return {};
   return fmt::format("{} plays with {}, we with {}: the walls will not look alike", nameOfLead,
-                     printable(lead.pictures, kMostTold), ours.pictures);
+                     printable(lead.pictures, kMaxRemoteText), ours.pictures);
 }
 
 std::string inTheWay(const ClusterFile& ours) {

@@ -27,8 +27,8 @@ struct CompatibilityKey {
 /// Hashes what the file says for all hosts. The interface is left out: each host has its own.
 std::uint64_t hashOf(const ClusterFile& file);
 
-stadion_wire_Agreement written(const CompatibilityKey& agreement);
-CompatibilityKey read(const stadion_wire_Agreement& agreement);
+stadion_wire_CompatibilityKey written(const CompatibilityKey& agreement);
+CompatibilityKey read(const stadion_wire_CompatibilityKey& agreement);
 
 /// Returns why `ours` cannot follow `lead`; empty if it can. Only the leader plays an input log.
 std::string refusal(const CompatibilityKey& lead, const CompatibilityKey& ours,

@@ -1,7 +1,7 @@
 #include "pipeline/cluster/follower.h"
 
 #include "engine/plain_text/text_line.h"
-#include "pipeline/cluster/terms.h"
+#include "pipeline/cluster/session_rules.h"
 #include "pipeline/platform/scoped_realtime_priority.h"
 
 #include <fmt/format.h>
@@ -54,7 +54,7 @@ Result<std::unique_ptr<Follower>> Follower::open(FollowerOptions options) {
   std::unique_ptr<Follower> follower(new Follower(std::move(options), anyNumber()));
   auto bus = Bus::open(follower->options_.cluster, *follower);
   if (!bus) return bus.error();
-  follower->tally_.barrier.makeRoom();
+  follower->stats_.barrier.makeRoom();
   const std::lock_guard lock(follower->mutex_);
   follower->bus_ = std::move(bus.value());
   follower->announce(Phase::Waiting);
@@ -73,9 +73,9 @@ void Follower::announce(Phase phase) {
   told_ = phase, toldSerial_ = obeyed_;
   Presence p{};
   p.node = static_cast<std::uint8_t>(options_.node), p.incarnation = incarnation_, p.count = ++announced_;
-  p.cluster = options_.terms.cluster, p.session = joined_, p.phase = static_cast<std::uint8_t>(phase);
+  p.cluster = options_.key.cluster, p.session = joined_, p.phase = static_cast<std::uint8_t>(phase);
   if (kept_)
-    p.plays = kept_->parcel.session, p.serial = kept_->parcel.serial, p.show = kept_->show;
+    p.plays = kept_->transfer.session, p.serial = kept_->transfer.serial, p.show = kept_->show;
   else if (plays_ && !differs_)
     p.plays = joined_, p.serial = obeyed_, p.show = show_;
   bus_->tell(p);
@@ -88,11 +88,12 @@ void Follower::announceProgress() {
 
 // Expects the lock. Sends on a thread of its own, because a state may be large.
 void Follower::giveIfAsked() {
-  if (!bus_ || !kept_ || session_.giver != options_.node || session_.resumes != kept_->parcel.session) return;
+  if (!bus_ || !kept_ || session_.giver != options_.node || session_.resumes != kept_->transfer.session)
+    return;
   if (std::exchange(given_, session_.number) == session_.number) return;
-  SceneTransfer parcel = kept_->parcel;
-  parcel.to = parcel.session = session_.number;
-  giving_.emplace_back([this, parcel = std::move(parcel)] { send(*bus_, parcel); });
+  SceneTransfer transfer = kept_->transfer;
+  transfer.to = transfer.session = session_.number;
+  giving_.emplace_back([this, transfer = std::move(transfer)] { send(*bus_, transfer); });
 }
 
 /// Returns false if the wait was stopped.
@@ -102,11 +103,11 @@ bool Follower::await(std::unique_lock<std::mutex>& lock, const char* what, const
   bool told = false;
   while (!ready()) {
     if (options_.stop() || double_) return false;
-    if (!told && Clock::now() - begin > kLong) {
+    if (!told && Clock::now() - begin > kLongWait) {
       told = true;
       options_.tell(fmt::format("waiting for {}", what));
     }
-    if (changed_.wait_for(lock, kLook) == std::cv_status::timeout) announceProgress();
+    if (changed_.wait_for(lock, kPollInterval) == std::cv_status::timeout) announceProgress();
   }
   return true;
 }
@@ -127,17 +128,17 @@ std::optional<Joining> Follower::joinSession(std::unique_lock<std::mutex>& lock)
     return over_ || (session_.number != 0 && session_.giver == kNoNode && !session_.over);
   };
   if (!await(lock, (lead + ", the leader").c_str(), known) || over_) return {};
-  const CompatibilityKey theirs = read(session_.terms);
-  if (const std::string why = refusal(theirs, options_.terms, lead); !why.empty()) {
+  const CompatibilityKey theirs = read(session_.compatibility);
+  if (const std::string why = refusal(theirs, options_.key, lead); !why.empty()) {
     options_.tell(why);
     refused_ = true;
     return {};
   }
-  if (const std::string what = remark(theirs, options_.terms, lead); !what.empty()) options_.tell(what);
+  if (const std::string what = remark(theirs, options_.key, lead); !what.empty()) options_.tell(what);
   joined_ = session_.number, show_ = theirs.show();
   std::erase_if(orders_, [&](const HeardOrder& o) { return o.numbers.session != joined_; });
   if (incoming_.session() != joined_) incoming_ = {};
-  const std::uint64_t ofKept = kept_ ? kept_->parcel.session : joined_;
+  const std::uint64_t ofKept = kept_ ? kept_->transfer.session : joined_;
   if (ofKept != joined_ && ofKept != session_.resumes) kept_.reset(), framesShown_ = 0;  // it is another show
   Joining joining{session_.rate, {}, {}, 0, theirs.input != 0};
   if (!session_.begun && session_.resumes == 0) return joining;
@@ -148,18 +149,18 @@ std::optional<Joining> Follower::joinSession(std::unique_lock<std::mutex>& lock)
   auto since = Clock::now();
   const auto has = [&] {
     if (std::exchange(received, incoming_.received()) != incoming_.received()) since = Clock::now();
-    if (Clock::now() - since > kLong) announce(Phase::Asking), since = Clock::now();
+    if (Clock::now() - since > kLongWait) announce(Phase::Asking), since = Clock::now();
     return incoming_.complete() || hasEnded();
   };
   if (!await(lock, ("the scene's state from " + lead).c_str(), has) || hasEnded()) return {};
-  const auto kept = std::make_shared<const KeptScene>(KeptScene{incoming_.take(), show_, framesShown_});
+  const auto kept = std::make_shared<const SavedScene>(SavedScene{incoming_.take(), show_, framesShown_});
   kept_ = kept;
-  const SceneTransfer& parcel = kept->parcel;
-  obeyed_ = parcel.serial, plays_ = true;
-  joining.after.frame = parcel.frame, joining.after.time = parcel.time;
+  const SceneTransfer& transfer = kept->transfer;
+  obeyed_ = transfer.serial, plays_ = true;
+  joining.after.frame = transfer.frame, joining.after.time = transfer.time;
   std::erase_if(orders_, [&](const HeardOrder& o) { return o.numbers.serial <= obeyed_; });
-  joining.state = {kept, &parcel.scene.bytes};
-  joining.files = parcel.scene.files;
+  joining.state = {kept, &transfer.scene.bytes};
+  joining.files = transfer.scene.files;
   return joining;
 }
 
@@ -168,7 +169,7 @@ std::optional<Joining> Follower::joinSession(std::unique_lock<std::mutex>& lock)
 void Follower::awaitDouble(std::unique_lock<std::mutex>& lock) {
   const auto until = Clock::now() + std::chrono::duration<double>(2 * options_.cluster.deadline);
   while (isMember_.value_or(true) && !hasEnded() && !options_.stop() && Clock::now() < until)
-    changed_.wait_for(lock, kLook);
+    changed_.wait_for(lock, kPollInterval);
 }
 
 std::optional<FrameOrder> Follower::next() {
@@ -200,7 +201,7 @@ std::optional<FrameOrder> Follower::next() {
   if (!heard.order.drawn && told_ == Phase::Ready && orders_.empty()) announce(Phase::Ready);
   shows_.emplace_back(obeyed_, heard.order.drawn);
   sample_ = std::move(heard.input), sampled_ = heard.sampled;
-  ++tally_.orders;
+  ++stats_.orders;
   return heard.order;
 }
 
@@ -211,7 +212,7 @@ bool Follower::explain(std::unique_lock<std::mutex>& lock) {
   bool late = false;  // part of it was lost: the node asks again each time it joins
   const auto has = [&] {
     if (std::exchange(received, incoming_.received()) != incoming_.received()) since = Clock::now();
-    late = Clock::now() - since > kLong;
+    late = Clock::now() - since > kLongWait;
     return hasEnded() || late || (incoming_.complete() && incoming_.serial() == obeyed_);
   };
   if (!await(lock, "the scene of the leader, to compare ours with it", has) || hasEnded() || late)
@@ -246,9 +247,10 @@ bool Follower::mayShow(const TimeSignature& now) {
   // Repeated after a while: a host that has just connected does not use all topics at once, in either
   // direction.
   while (go_ < serial && !hasEnded() && !options_.stop())
-    if (changed_.wait_for(lock, kLook) == std::cv_status::timeout) bus_->tell(told), announceProgress();
+    if (changed_.wait_for(lock, kPollInterval) == std::cv_status::timeout)
+      bus_->tell(told), announceProgress();
   if (go_ == serial && latest_ == options_.node)
-    tally_.barrier.add(std::chrono::duration<double, std::milli>(Clock::now() - drawn).count());
+    stats_.barrier.add(std::chrono::duration<double, std::milli>(Clock::now() - drawn).count());
   if (go_ < serial) return false;
   framesShown_ = now.frame + 1;
   return true;
@@ -257,16 +259,16 @@ bool Follower::mayShow(const TimeSignature& now) {
 void Follower::simulated(std::uint64_t frame, std::uint64_t digest) {
   const ScopedRealtimePriority prompt;  // others wait while it holds the lock
   const std::lock_guard lock(mutex_);
-  ++tally_.compared;
+  ++stats_.compared;
   bus_->tell(SceneHash{static_cast<std::uint8_t>(options_.node), joined_, frame, digest});
 }
 
-ClusterStats Follower::tally() const {
+ClusterStats Follower::stats() const {
   const std::lock_guard lock(mutex_);
-  return tally_;
+  return stats_;
 }
 
-bool Follower::isToJoinAgain() const {
+bool Follower::mustRejoin() const {
   const std::lock_guard lock(mutex_);
   return again_ && !over_ && !double_;
 }
@@ -335,7 +337,7 @@ void Follower::hear(const Presence& other) {
     const bool theirs = has != have ? has : other.incarnation < incarnation_;
     if (!theirs) return;
     double_ = true;
-    options_.tell(other.cluster == options_.terms.cluster
+    options_.tell(other.cluster == options_.key.cluster
                       ? fmt::format("another program is {} already; this one ends",
                                     options_.cluster.nodes[options_.node].name)
                       : inTheWay(options_.cluster));
@@ -377,19 +379,19 @@ bool Follower::keepsScene() const {
   return plays_ && !differs_ && !kept_ && (isAsked || (again_ && !over_ && !double_));
 }
 
-std::shared_ptr<const KeptScene> Follower::kept() const {
+std::shared_ptr<const SavedScene> Follower::kept() const {
   const std::lock_guard lock(mutex_);
   return kept_;
 }
 
 void Follower::keep(const TimeSignature& last, SavedScene scene) {
-  KeptScene kept;
-  SceneTransfer& parcel = kept.parcel;
-  parcel.frame = last.frame, parcel.time = last.time, parcel.scene = std::move(scene);
+  SavedScene kept;
+  SceneTransfer& transfer = kept.transfer;
+  transfer.frame = last.frame, transfer.time = last.time, transfer.scene = std::move(scene);
   const std::lock_guard lock(mutex_);
-  parcel.session = joined_, parcel.serial = obeyed_, kept.show = show_;
-  parcel.still = still_, parcel.shown = presentation_, kept.framesShown = framesShown_;
-  kept_ = std::make_shared<const KeptScene>(std::move(kept));
+  transfer.session = joined_, transfer.serial = obeyed_, kept.show = show_;
+  transfer.still = still_, transfer.shown = presentation_, kept.framesShown = framesShown_;
+  kept_ = std::make_shared<const SavedScene>(std::move(kept));
   giveIfAsked();
 }
 

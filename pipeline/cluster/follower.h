@@ -32,12 +32,12 @@ namespace stadion::cluster {
 struct FollowerOptions {
   ClusterFile cluster;
   std::size_t node = 0;
-  CompatibilityKey terms;
+  CompatibilityKey key;
   std::function<void(const std::string&)> tell;
-  std::function<bool()> stop;               ///< the wait is no longer wanted
-  std::function<bool()> leave{};            ///< no further order is to be applied
-  std::shared_ptr<const KeptScene> kept{};  ///< the scene that the previous follower kept
-  std::uint64_t played = 0;                 ///< the previous follower's session; 0: there was none
+  std::function<bool()> stop;                ///< the wait is no longer wanted
+  std::function<bool()> leave{};             ///< no further order is to be applied
+  std::shared_ptr<const SavedScene> kept{};  ///< the scene that the previous follower kept
+  std::uint64_t played = 0;                  ///< the previous follower's session; 0: there was none
 };
 
 /// How the show is to be opened.
@@ -73,7 +73,7 @@ public:
   /// Reports the scene's digest() after that frame.
   void simulated(std::uint64_t frame, std::uint64_t digest);
   /// Returns true if orders are missing: the run has ended, and the node is to join again.
-  bool isToJoinAgain() const;
+  bool mustRejoin() const;
   /// Returns true if another program is this node already: ours must end.
   bool hasDouble() const;
   /// Returns true if the leader has other files than this host.
@@ -90,8 +90,8 @@ public:
   /// Keeps the current scene; `last` is the frame simulated last. Any node that asks gets it.
   void keep(const TimeSignature& last, SavedScene scene);
   /// Returns the kept scene; null if there is none, or if it differs from the others' scene.
-  std::shared_ptr<const KeptScene> kept() const;
-  ClusterStats tally() const;
+  std::shared_ptr<const SavedScene> kept() const;
+  ClusterStats stats() const;
   void finish();
 
   bool leads() const override { return false; }
@@ -147,16 +147,16 @@ private:
   std::deque<std::pair<std::uint64_t, bool>>
       shows_;  ///< orders applied and not yet shown: whether we draw them
   bool again_ = false, double_ = false, refused_ = false;
-  bool over_ = false;                      ///< the leader has ended the show
-  bool plays_ = false;                     ///< there is a scene from which the show can go on
-  bool differs_ = false;                   ///< but it is not that of the others
-  std::shared_ptr<const KeptScene> kept_;  ///< until there is another one
-  std::uint64_t given_ = 0;                ///< session of the leader to which it was sent
+  bool over_ = false;                       ///< the leader has ended the show
+  bool plays_ = false;                      ///< there is a scene from which the show can go on
+  bool differs_ = false;                    ///< but it is not that of the others
+  std::shared_ptr<const SavedScene> kept_;  ///< until there is another one
+  std::uint64_t given_ = 0;                 ///< session of the leader to which it was sent
   std::vector<std::thread> giving_;
   InputSample sample_;
   bool sampled_ = false;
   std::unique_ptr<InputDevice> input_;
-  ClusterStats tally_;
+  ClusterStats stats_;
   std::unique_ptr<Bus> bus_;
 };
 

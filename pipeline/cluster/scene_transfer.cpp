@@ -13,14 +13,14 @@ constexpr std::uint64_t kMostState = 4ULL << 30;  ///< [byte]
 
 }  // namespace
 
-void send(Bus& bus, const SceneTransfer& parcel) {
+void send(Bus& bus, const SceneTransfer& transfer) {
   bus.waitForReaders();
   StatePart part{};
-  part.to = parcel.to, part.session = parcel.session, part.serial = parcel.serial;
-  part.frame = parcel.frame, part.time = parcel.time;
-  part.still = static_cast<std::uint8_t>(parcel.still), part.shown = written(parcel.shown);
-  const std::vector<std::uint8_t>& bytes = parcel.scene.bytes;
-  part.files = parcel.scene.files, part.size = bytes.size();
+  part.to = transfer.to, part.session = transfer.session, part.serial = transfer.serial;
+  part.frame = transfer.frame, part.time = transfer.time;
+  part.still = static_cast<std::uint8_t>(transfer.still), part.shown = written(transfer.shown);
+  const std::vector<std::uint8_t>& bytes = transfer.scene.bytes;
+  part.files = transfer.scene.files, part.size = bytes.size();
   do {
     const std::size_t size = std::min(kPart, bytes.size() - part.offset);
     // The sequence borrows the bytes and only reads them.
@@ -36,29 +36,29 @@ void IncomingScene::add(const StatePart& part) {
   const std::uint64_t length = part.bytes._length;
   if (part.size > kMostState) return;
   // A complete scene that was never taken is replaced by a newer one.
-  if (complete_ && part.session == parcel_.session && part.serial == parcel_.serial) return;
+  if (complete_ && part.session == transfer_.session && part.serial == transfer_.serial) return;
   if (complete_ && part.offset != 0) return;
   if (part.offset == 0) {
     complete_ = false;
-    parcel_ = {};
-    parcel_.to = part.to, parcel_.session = part.session, parcel_.serial = part.serial;
-    parcel_.frame = part.frame, parcel_.time = part.time, parcel_.scene.files = part.files;
-    parcel_.still = readStandstill(part.still).value_or(Standstill::None);
-    parcel_.shown = read(part.shown).value_or(Presentation{});
+    transfer_ = {};
+    transfer_.to = part.to, transfer_.session = part.session, transfer_.serial = part.serial;
+    transfer_.frame = part.frame, transfer_.time = part.time, transfer_.scene.files = part.files;
+    transfer_.still = readStandstill(part.still).value_or(Standstill::None);
+    transfer_.shown = read(part.shown).value_or(Presentation{});
     size_ = part.size, received_ = 0;
   }
-  if (part.serial != parcel_.serial || part.session != parcel_.session || part.size != size_) return;
-  if (part.frame != parcel_.frame || part.time != parcel_.time || part.to != parcel_.to) return;
+  if (part.serial != transfer_.serial || part.session != transfer_.session || part.size != size_) return;
+  if (part.frame != transfer_.frame || part.time != transfer_.time || part.to != transfer_.to) return;
   if (part.offset != received_ || length > part.size - part.offset) return;
   // Grows with each part: the announced size may be wrong.
-  parcel_.scene.bytes.insert(parcel_.scene.bytes.end(), part.bytes._buffer, part.bytes._buffer + length);
+  transfer_.scene.bytes.insert(transfer_.scene.bytes.end(), part.bytes._buffer, part.bytes._buffer + length);
   received_ += length;
   complete_ = received_ == part.size;
 }
 
 SceneTransfer IncomingScene::take() {
   complete_ = false, received_ = 0;
-  return std::exchange(parcel_, {});
+  return std::exchange(transfer_, {});
 }
 
 }  // namespace stadion::cluster

@@ -29,15 +29,15 @@ struct SceneTransfer {
 };
 
 /// A scene that a host keeps ready while it plays no show, so that a crashed leader does not lose it.
-/// `parcel` names its session and its last order.
-struct KeptScene {
-  SceneTransfer parcel;
+/// `transfer` names its session and its last order.
+struct SavedScene {
+  SceneTransfer transfer;
   std::uint64_t show = 0;         ///< CompatibilityKey::show() of that session
   std::uint64_t framesShown = 0;  ///< Follower::framesShown_ then
 };
 
 /// May take long, because the scene is large.
-void send(Bus& bus, const SceneTransfer& parcel);
+void send(Bus& bus, const SceneTransfer& transfer);
 
 /// A scene that is being received.
 class IncomingScene {
@@ -48,11 +48,11 @@ public:
   std::uint64_t received() const { return received_; }  ///< [byte]
   /// Returns a scene only if it is complete. Afterwards there is none.
   SceneTransfer take();
-  std::uint64_t session() const { return parcel_.session; }
-  std::uint64_t serial() const { return parcel_.serial; }
+  std::uint64_t session() const { return transfer_.session; }
+  std::uint64_t serial() const { return transfer_.serial; }
 
 private:
-  SceneTransfer parcel_;
+  SceneTransfer transfer_;
   std::uint64_t size_ = 0, received_ = 0;  ///< [byte]
   bool complete_ = false;
 };

@@ -52,10 +52,11 @@ Result<std::unique_ptr<CpuRenderer>> CpuRenderer::create(CpuRoom& room, std::uin
 }
 
 CpuRenderer::CpuRenderer(CpuRoom& room, std::uint32_t width, std::uint32_t height, PictureRung rung)
-    : room_(room), width_(width), height_(height), rung_(rung) {}
+    : room_(room), width_(width), height_(height), rung_(rung),
+      costs_(room.meshes(), room.bands(), room.kernels()) {}
 
 std::string CpuRenderer::description() const {
-  return std::string("processor, ") + room_.kernels().name;
+  return std::string("CPU renderer, ") + room_.kernels().name;
 }
 
 std::optional<Diagnostic> CpuRenderer::draw(const DrawList& list, const std::function<bool()>& giveUp,
@@ -89,8 +90,28 @@ void CpuRenderer::drawWhole(const DrawList& list, const std::function<bool()>& g
     // Bands of both eyes are drawn side by side: their time is told as one.
     const SpanScope span(probe, Span::LeftEye);
     drawBands(scene, shadows ? &shadow : nullptr);
+    count(list, Eye::Left, probe);
   }
-  count(probe);
+  if (std::ranges::any_of(std::span(list.views).first(views_),
+                          [](const DrawView& v) { return v.eye == Eye::Right; })) {
+    const SpanScope span(probe, Span::RightEye);
+    count(list, Eye::Right, probe);
+  }
+  if (probe) sample(list, scene, shadows ? &shadow : nullptr, *probe);
+}
+
+/// Times what the probe wants to know, by drawing it once more.
+void CpuRenderer::sample(const DrawList& list, const SceneParameters& scene, const ShadowParameters* shadow,
+                         FrameProbe& probe) {
+  const DrawSample how = probe.drawSample(list.ticket.signature.frame, list.wall);
+  if (how == DrawSample::None) return costs_.reportLargest(list, probe);
+  for (std::uint32_t view = 0; view < views_; ++view) {
+    Picture& p = pictures_[view];
+    if (!p.drawn) continue;
+    const PieceCosts::View drawn{
+        list, view, {&room_.kernels(), &p.setup, &scene, shadow, &p.view, rung_, p.rgba}};
+    how == DrawSample::Whole ? costs_.sampleWhole(drawn, probe) : costs_.sampleSome(drawn, probe);
+  }
 }
 
 void CpuRenderer::prepare(const DrawList& list, const std::function<bool()>& giveUp) {
@@ -154,10 +175,10 @@ void CpuRenderer::forAll(std::size_t (*pieces)(const Picture&),
   room_.pool().run(all.size(), [&](std::size_t i) { work(*all[i].first, all[i].second); });
 }
 
-void CpuRenderer::count(FrameProbe* probe) {
+void CpuRenderer::count(const DrawList& list, Eye eye, FrameProbe* probe) {
   for (std::size_t view = 0; view < views_; ++view) {
     Picture& picture = pictures_[view];
-    if (!picture.drawn) continue;
+    if (!picture.drawn || list.views[view].eye != eye) continue;
     picture.counts = {picture.setup.partsAdded(), picture.setup.partsAdded(), picture.setup.trianglesAdded()};
     totals_[view].add(picture.counts);
     if (!probe) continue;

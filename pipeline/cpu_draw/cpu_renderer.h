@@ -16,6 +16,7 @@
 #include "pipeline/cpu_draw/picture_bands.h"
 #include "pipeline/cpu_draw/picture_rung.h"
 #include "pipeline/cpu_draw/picture_setup.h"
+#include "pipeline/cpu_draw/piece_costs.h"
 #include "pipeline/cpu_draw/shadow_store.h"
 #include "pipeline/draw_list/renderer.h"
 #include "pipeline/shader/look.h"
@@ -83,7 +84,9 @@ private:
   void prepare(const DrawList& list, const std::function<bool()>& giveUp);
   void begin(const DrawList& list, std::uint32_t view);
   void drawBands(const SceneParameters& scene, const ShadowParameters* shadow);
-  void count(FrameProbe* probe);
+  void count(const DrawList& list, Eye eye, FrameProbe* probe);
+  void sample(const DrawList& list, const SceneParameters& scene, const ShadowParameters* shadow,
+              FrameProbe& probe);
   /// Calls work(picture, piece) for each of the pieces of all pictures, on the pool.
   void forAll(std::size_t (*pieces)(const Picture&), const std::function<void(Picture&, std::size_t)>& work);
   void report(std::string what);
@@ -92,7 +95,8 @@ private:
   std::uint32_t width_, height_;
   PictureRung rung_;
   std::vector<Picture> pictures_;  ///< by view
-  std::size_t views_ = 0;          ///< of the list that is drawn
+  PieceCosts costs_;
+  std::size_t views_ = 0;  ///< of the list that is drawn
   ViewTotals totals_{};
   std::set<std::string> reported_;
   std::optional<Diagnostic> problem_;

@@ -1,13 +1,19 @@
 #include "pipeline/cpu_draw/draw_pool.h"
 
 #include <algorithm>
+#include <pthread.h>
+#include <string>
 
 namespace stadion {
 
 // With fewer threads than requested, or none, the result is the same.
-DrawPool::DrawPool(std::size_t threads) : most_(std::max<std::size_t>(threads, 1)) {
+DrawPool::DrawPool(std::size_t threads, Callers callers)
+    : most_(std::max<std::size_t>(threads, 1)), callers_(callers) {
   try {
-    for (std::size_t i = 1; i < most_; ++i) threads_.emplace_back([this] { work(); });
+    for (std::size_t i = callers_ == Callers::Work ? 1 : 0; i < most_; ++i) {
+      threads_.emplace_back([this] { work(); });
+      pthread_setname_np(threads_.back().native_handle(), ("draw-pool-" + std::to_string(i)).c_str());
+    }
   } catch (const std::exception&) {
     // The system has no more threads, or no memory.
   }
@@ -25,11 +31,12 @@ DrawPool::~DrawPool() {
 void DrawPool::run(std::size_t count, const std::function<void(std::size_t)>& piece) {
   if (count == 0) return;
   Job job{&piece, count, 0, 0, count, nullptr};
+  const bool works = callers_ == Callers::Work || threads_.empty();
   std::unique_lock lock(mutex_);
   jobs_.push_back(&job);
   changed_.notify_all();
   while (!job.isDone()) {
-    if (job.hasMore() && working_ < most_)
+    if (works && job.hasMore() && working_ < most_)
       take(job, lock);
     else
       changed_.wait(lock);

@@ -21,8 +21,12 @@ namespace stadion {
 
 class DrawPool {
 public:
+  /// Whether callers of run() work at their pieces, or leave them to the pool: then what a caller does itself
+  /// can be measured by its processor time.
+  enum class Callers { Work, Wait };
+
   /// So many threads work at a time, callers included; at least one.
-  explicit DrawPool(std::size_t threads);
+  explicit DrawPool(std::size_t threads, Callers callers = Callers::Work);
   ~DrawPool();
   DrawPool(const DrawPool&) = delete;
   DrawPool& operator=(const DrawPool&) = delete;
@@ -47,6 +51,7 @@ private:
   void take(Job& job, std::unique_lock<std::mutex>& lock);
 
   const std::size_t most_;
+  const Callers callers_;
   std::mutex mutex_;
   std::condition_variable changed_;
   std::deque<Job*> jobs_;

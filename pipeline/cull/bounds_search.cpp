@@ -11,7 +11,7 @@ namespace {
 static_assert(BoundsLayout::kWide == 8 && BoundsLayout::kSphereFloats == 32 && BoundsLayout::kBoxFloats == 48,
               "the kernels rely on it");
 
-/// Never shrinks, so that what is there is not made anew in each search.
+/// Never shrinks, so that a search reuses the elements of earlier ones.
 template <class T>
 T* roomFor(std::vector<T>& in, std::size_t count) {
   if (in.size() < count) in.resize(std::max(count, 2 * in.size()));

@@ -19,7 +19,7 @@ Vec3 originNear(const Vec3& p) {
 
 }  // namespace
 
-/// All is to be taken up anew. With room to grow, so that this is seldom.
+/// Takes up all bounds again, with room to grow, so that this happens seldom.
 void MovingBounds::layOut(std::uint32_t count) {
   capacity_ = std::max(4 * kBlock, (count + count / 2 + kBlock - 1) / kBlock * kBlock);
   layout_ = BoundsLayout(capacity_);

@@ -145,14 +145,14 @@ void DeskVisitor::sampleAt(Nanoseconds showTime, InputSample& sample) {
   if (sampled_ >= 0 && showTime > sampled_) advance(std::min(toSeconds(showTime - sampled_), 0.25));
   sampled_ = showTime;
   fill(showTime, sample);
-  pressed_ = pressedAnew(), letGo_ = 0, down_ = sample.trackers[1].buttons;
+  pressed_ = newlyPressed(), letGo_ = 0, down_ = sample.trackers[1].buttons;
 }
 
 void DeskVisitor::fill(Nanoseconds showTime, InputSample& sample) const {
   sample.time = showTime;
   sample.trackers = {tracker(kHeadTracker, headTold(), showTime), tracker(kWandTracker, {hand_, head().q}, showTime)};
   TrackerSample& wand = sample.trackers[1];
-  wand.buttons = (buttons_ | padButtons_ | pressed_) & ~pressedAnew();
+  wand.buttons = (buttons_ | padButtons_ | pressed_) & ~newlyPressed();
   for (std::size_t i = 0; i < axes_.size(); ++i)
     wand.axes[i] = static_cast<float>(std::clamp(axes_[i] + padAxes_[i], -1.0, 1.0));
 }

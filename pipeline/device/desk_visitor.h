@@ -81,7 +81,7 @@ private:
   std::uint32_t letGo_ = 0;    ///< and so must a release before another press
   std::uint32_t down_ = 0;     ///< in the last sample
   /// Returns the buttons released and pressed again since then: up in this sample, down in the next.
-  std::uint32_t pressedAnew() const { return down_ & letGo_ & pressed_; }
+  std::uint32_t newlyPressed() const { return down_ & letGo_ & pressed_; }
   Nanoseconds sampled_ = -1;
   std::optional<ControlKnot> told_;  ///< the wand's buttons and axes in the last frame; used by App only
 };

@@ -150,7 +150,7 @@ void GlRenderer::drawView(const DrawView& from, std::uint32_t index, FrameProbe*
 /// comes next: it is a part of what the sky takes alone.
 void GlRenderer::beginPicture(std::uint32_t view, bool withSmallObjects) {
   if (!withSmallObjects) return buffers_.begin(view);
-  const SmallThings& picture = small_.picture();
+  const SmallObjectRasterizer& picture = small_.picture();
   pieces_.part(Span::Sky, [&] { buffers_.begin(view, picture.colours(), picture.depths()); });
 }
 

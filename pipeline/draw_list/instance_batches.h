@@ -35,7 +35,7 @@ using InstanceMatrix = std::array<float, 12>;  ///< (3 x 4), row major, as in Dr
 
 class InstanceBatches {
 public:
-  /// Begins anew, with nothing.
+  /// Removes all batches.
   void begin(bool withOwners = false);
   /// Takes up opaque items of a list: those before `end`, by DrawList::kPortion (but for the last ones, if
   /// `end` is the list's), that have not been. Expects those of one mesh and level next to each other, sorted

@@ -1,13 +1,12 @@
 #pragma once
-/// How far Cull has come with a list that Draw has begun, so that a frame's Draw need not wait for all of its
-/// Cull (Performer's CULLoDRAW). No frame is added between pose and picture; the picture is the same.
+/// The progress of Cull in a draw list that Draw has already begun. So Draw need not wait until Cull has filled
+/// the whole list (CULLoDRAW in OpenGL Performer). The picture is that of a complete list.
 ///
-/// Order    Cull sets everything but the items, says begin(), and fills the items in the list's order: first
-///          the opaque ones, telling how far it has come, then the others; then it says finish(). Draw waits
-///          for what it comes to.
-/// Threads  restart, begin, reach, finish: the Cull thread that has the list; await, isVoid, isCutShort: the
-/// Draw thread
-///          that it was handed to; stop: any.
+/// Order    Cull sets everything but the items and calls begin(). Then it fills the items in the list's order,
+///          the opaque ones first, and calls reach() on the way. At the end it calls finish(). Before Draw
+///          reads an item, it calls await().
+/// Threads  restart(), begin(), reach(), finish(): the Cull thread that fills the list. await(), isVoid(),
+///          isCutShort(): the Draw thread that draws it. stop(): any thread.
 
 #include <condition_variable>
 #include <cstddef>

@@ -1,7 +1,8 @@
 #pragma once
 /// The interface of a renderer: it draws the lists of one wall and returns the pictures.
 ///
-/// A wall and a worker process need no more of a renderer than this. draw/gl_renderer.h draws with OpenGL.
+/// A wall and a worker process need no more of a renderer than this. draw/gl_renderer.h draws with OpenGL,
+/// cpu_draw/cpu_renderer.h without.
 ///
 /// Pictures  one for each view of a list, all of the same size. The same list gives the same pixels.
 /// Costs     totals() counts what was drawn. A probe gets the time of each part of a frame.
@@ -20,8 +21,21 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 
 namespace stadion {
+
+/// The implementations.
+enum class RendererKind : std::uint32_t {
+  Cpu,     ///< cpu_draw/cpu_renderer.h
+  OsMesa,  ///< draw/gl_renderer.h, with Mesa's software rasteriser
+  Egl,     ///< draw/gl_renderer.h, with what the system's EGL finds
+};
+
+/// "cpu", "osmesa" or "egl".
+constexpr std::string_view nameOf(RendererKind kind) {
+  return kind == RendererKind::Cpu ? "cpu" : kind == RendererKind::OsMesa ? "osmesa" : "egl";
+}
 
 class Renderer {
 public:

@@ -13,7 +13,9 @@ namespace stadion {
 struct FrameTicket {
   TimeSignature signature;
   std::chrono::steady_clock::time_point began{};  ///< start of App, which is also when it sampled the poses
-  bool drawn = true;  ///< false: the frame is never shown, so it is neither culled nor drawn
+  /// False: the walls skip this frame. It is neither culled nor drawn, and the last pictures stay. The swap
+  /// still counts it as shown.
+  bool drawn = true;
   Presentation shown{};
   bool last = false;  ///< no frame follows it
   /// The measurement time of the head's pose with which its pictures are drawn. If that is unknown, the time

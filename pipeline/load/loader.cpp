@@ -62,7 +62,7 @@ std::vector<std::uint32_t> Loader::overdue() const {
   return numbers;
 }
 
-std::unique_ptr<Load> Loader::take(std::uint32_t number) {
+std::unique_ptr<LoadedScene> Loader::take(std::uint32_t number) {
   std::unique_lock lock(mutex_);
   const bool waits = waitsTold_ && !done_.contains(number);
   if (waits) waitsTold_(true);
@@ -75,7 +75,7 @@ std::unique_ptr<Load> Loader::take(std::uint32_t number) {
   return std::move(prepared.load);
 }
 
-void Loader::dispose(std::unique_ptr<Load> load, std::uint64_t lastFrame) {
+void Loader::dispose(std::unique_ptr<LoadedScene> load, std::uint64_t lastFrame) {
   for (const MeshId mesh : load->meshes) parts_.meshes.release(mesh, lastFrame);
   const std::lock_guard lock(mutex_);
   waiting_.push_back({std::move(load), lastFrame});
@@ -179,9 +179,9 @@ Diagnostic Loader::askedForBy(const Job& job, Diagnostic d) const {
   return d;
 }
 
-std::unique_ptr<Load> Loader::prepare(const Job& job) {
+std::unique_ptr<LoadedScene> Loader::prepare(const Job& job) {
   Diagnostics findings;
-  std::unique_ptr<Load> load;
+  std::unique_ptr<LoadedScene> load;
   if (auto source = read(job)) {
     StateHash script;
     script.add(source.value().text());
@@ -194,8 +194,8 @@ std::unique_ptr<Load> Loader::prepare(const Job& job) {
   return load;
 }
 
-std::unique_ptr<Load> Loader::build(const Job& job, std::unique_ptr<Document> document,
-                                    Diagnostics& findings) {
+std::unique_ptr<LoadedScene> Loader::build(const Job& job, std::unique_ptr<Document> document,
+                                           Diagnostics& findings) {
   const std::vector<std::uint32_t> numbers = around(job.owner.load);
   for (const std::uint32_t n : numbers) {
     std::error_code unknown;
@@ -228,7 +228,7 @@ std::unique_ptr<Load> Loader::build(const Job& job, std::unique_ptr<Document> do
                          parts_.meshes,
                          [&](const Declaration& d) { return soundLength(d, findings); }};
   Built built = buildLoad(input, findings);
-  std::unique_ptr<Load> load = std::move(built.load);
+  std::unique_ptr<LoadedScene> load = std::move(built.load);
   load->meshes = std::move(imports.counted);
   if (findings.hasErrors()) {
     // No frame has shown them, so they may be freed at once.
@@ -310,7 +310,7 @@ Nanoseconds Loader::soundLength(const Declaration& d, Diagnostics& findings) {
   return kSilentStandIn;
 }
 
-void Loader::destroy(std::unique_ptr<Load> load) {
+void Loader::destroy(std::unique_ptr<LoadedScene> load) {
   around_.erase(load->number);
   if (load->chunk != kNoChunk) parts_.arena.free(load->chunk);
 }

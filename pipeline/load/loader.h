@@ -12,7 +12,7 @@
 
 #include "engine/asset/import.h"
 #include "engine/build/builder.h"
-#include "engine/scene/load.h"
+#include "engine/scene/loaded_scene.h"
 #include "engine/script/script_texts.h"
 #include "pipeline/load/imported_meshes.h"
 #include "pipeline/state/chunk_arena.h"
@@ -67,8 +67,8 @@ public:
 
   void request(std::uint32_t number, const std::string& file, NodeRef owner, const Affine& X_WO) override;
   bool takesEffect(std::uint32_t number, Nanoseconds now) override;
-  std::unique_ptr<Load> take(std::uint32_t number) override;
-  void dispose(std::unique_ptr<Load> load, std::uint64_t lastFrame) override;
+  std::unique_ptr<LoadedScene> take(std::uint32_t number) override;
+  void dispose(std::unique_ptr<LoadedScene> load, std::uint64_t lastFrame) override;
   void report(const Diagnostic& finding) override;
   std::string plugins() const override { return parts_.types.pluginsInWords(); }
 
@@ -77,7 +77,7 @@ public:
 
 private:
   struct Prepared {
-    std::unique_ptr<Load> load;
+    std::unique_ptr<LoadedScene> load;
     std::exception_ptr thrown;
   };
   struct Job {
@@ -89,7 +89,7 @@ private:
         place;  ///< among done_: taken early, while App can still be notified
   };
   struct Garbage {
-    std::unique_ptr<Load> load;
+    std::unique_ptr<LoadedScene> load;
     std::uint64_t lastFrame;
   };
   /// The part of a file that its sub-scenes need to resolve outer names. Kept only for files with sub-scenes.
@@ -112,13 +112,14 @@ private:
   bool stopped() const { return parts_.stop && *parts_.stop; }
   Result<SourceText> read(const Job& job);
   Diagnostic askedForBy(const Job& job, Diagnostic d) const;
-  std::unique_ptr<Load> prepare(const Job& job);
-  std::unique_ptr<Load> build(const Job& job, std::unique_ptr<Document> document, Diagnostics& findings);
+  std::unique_ptr<LoadedScene> prepare(const Job& job);
+  std::unique_ptr<LoadedScene> build(const Job& job, std::unique_ptr<Document> document,
+                                     Diagnostics& findings);
   std::optional<ImportedMeshes::Key> keyOf(const std::string& file, const ImportOptions& options,
                                            std::uint32_t levels) const;
   MeshId importMesh(const Declaration& d, Diagnostics& findings);
   Nanoseconds soundLength(const Declaration& d, Diagnostics& findings);
-  void destroy(std::unique_ptr<Load> load);
+  void destroy(std::unique_ptr<LoadedScene> load);
   std::vector<std::uint32_t> around(std::uint32_t outer) const;
 
   LoaderParts parts_;
@@ -126,9 +127,9 @@ private:
   std::condition_variable changed_;
   std::deque<Job> jobs_;
   std::map<std::uint32_t, Prepared> done_;
-  std::exception_ptr thrown_;                  ///< outside a preparation
-  std::deque<Garbage> waiting_;                ///< until their last frame is shown
-  std::deque<std::unique_ptr<Load>> garbage_;  ///< may be freed
+  std::exception_ptr thrown_;                         ///< outside a preparation
+  std::deque<Garbage> waiting_;                       ///< until their last frame is shown
+  std::deque<std::unique_ptr<LoadedScene>> garbage_;  ///< may be freed
   bool ending_ = false;
   std::map<std::uint32_t, Around> around_;  ///< the worker's own
   bool live_ = false;                       ///< this and the next four are used by App only

@@ -309,15 +309,16 @@ std::optional<FrameOrder> FrameLoop::nextOrder() {
 }
 
 Standstill FrameLoop::standstill() const {
-  const bool waits = options_.desk && options_.desk->state().waiting;
+  const bool waits = options_.controls && options_.controls->state().waiting;
   return waits ? Standstill::Waiting : Standstill::Paused;
 }
 
 // Returns the frame to be shown, and whether it is the last. On the leader, also sends it to all hosts.
 FrameOrder FrameLoop::issued(FrameOrder order) {
-  if (options_.desk) order.shown = options_.desk->state().shown;
+  if (options_.controls) order.shown = options_.controls->state().shown;
   // A waiting show plays its first frame, and a paused one each single step. Then time stands still again.
-  const bool stands = order.still != Standstill::None || (options_.desk && options_.desk->state().still());
+  const bool stands =
+      order.still != Standstill::None || (options_.controls && options_.controls->state().still());
   if (stands) order.standsAfter = standstill();
   if (!options_.orders) return order;
   order.last = noneFollows();
@@ -339,24 +340,24 @@ std::optional<FrameOrder> FrameLoop::leadersOrder() {
 // Returns the decision of the log, or in a live run of the decider, which measures time.
 FrameLoad FrameLoop::loadOf(std::uint64_t frame) {
   FrameLoad load = options_.decider ? options_.decider->decide(frame) : FrameLoad{};
-  const auto [first, last] = options_.relief.equal_range(frame);
+  const auto [first, last] = options_.degradation.equal_range(frame);
   for (auto at = first; at != last; ++at) load.add(at->second);
   return load;
 }
 
 // Applies the operator's commands to the whole coming frame. Returns false if no frame follows.
 bool FrameLoop::takeCommands() {
-  if (!options_.desk) return true;
-  options_.desk->beginFrame(nextIndex_);
-  const OperatorState& state = options_.desk->state();
+  if (!options_.controls) return true;
+  options_.controls->beginFrame(nextIndex_);
+  const OperatorState& state = options_.controls->state();
   outcome_.nextGroup = state.nextGroup;
   ending_ = ending_ || state.end;
   return !state.nextGroup;
 }
 
 std::size_t FrameLoop::framesUnderWay() const {
-  const bool commanded = options_.desk && options_.desk->state().latency > 0;
-  return commanded ? static_cast<std::size_t>(options_.desk->state().latency) : options_.latency;
+  const bool commanded = options_.controls && options_.controls->state().latency > 0;
+  return commanded ? static_cast<std::size_t>(options_.controls->state().latency) : options_.latency;
 }
 
 // With so few walls left to draw a frame, processors are idle. With many processors, half of the walls is

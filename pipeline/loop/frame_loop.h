@@ -15,7 +15,7 @@
 #include "pipeline/loop/frame_orders.h"
 #include "pipeline/loop/pacer.h"
 #include "pipeline/loop/write_watch.h"
-#include "pipeline/operator/operator_desk.h"
+#include "pipeline/operator/operator_controls.h"
 #include "pipeline/state/frame_slots.h"
 #include "pipeline/wall/stages.h"
 
@@ -51,10 +51,10 @@ struct FrameLoopOptions {
   /// Show times that a recorded run chose for some of its frames (see RunDecisions); the loop applies them.
   std::map<std::uint64_t, Nanoseconds> frameTimes{};
   /// A recorded run's decisions about overload; the loop applies them.
-  LoadDecisions relief{};
-  LoadDecider* decider = nullptr;  ///< makes these decisions in a live run; null = none are made
-  Playback* playback = nullptr;    ///< pauses a live run or slows it down; null = never
-  OperatorDesk* desk = nullptr;    ///< its commands are taken at the start of each frame; null = none
+  LoadDecisions degradation{};
+  LoadDecider* decider = nullptr;        ///< makes these decisions in a live run; null = none are made
+  Playback* playback = nullptr;          ///< pauses a live run or slows it down; null = never
+  OperatorControls* controls = nullptr;  ///< its commands are taken at the start of each frame; null = none
   /// The other hosts that play this show, which is then shown frame by frame; null = there are none.
   FrameOrders* orders = nullptr;
   /// Ends the run at the first write of a stage to what it may only read; null = nothing is watched. While it
@@ -63,8 +63,9 @@ struct FrameLoopOptions {
 };
 
 struct FrameLoopOutcome {
-  std::uint64_t framesSimulated = 0, framesShown = 0;
-  std::uint64_t framesDrawn = 0;      ///< of those shown
+  std::uint64_t framesSimulated = 0;
+  std::uint64_t framesShown = 0;      ///< frames that reached the swap, drawn or not (FrameTicket::drawn)
+  std::uint64_t framesDrawn = 0;      ///< frames among them with new pictures
   std::uint64_t missedTicks = 0;      ///< ticks in which App began no frame
   std::uint64_t ticksPassedOver = 0;  ///< between frames shown, as below, in all
   /// Most ticks in a row between two shown frames that began after the first one was shown.

@@ -24,7 +24,7 @@ struct FrameOrder {
   Standstill still = Standstill::None;        ///< if show time stands still, this is the last frame again
   Standstill standsAfter = Standstill::None;  ///< the state with which a new leader continues
   bool last = false;                          ///< no frame follows it
-  bool drawn = true;                          ///< false: this host does not yet show frames
+  bool drawn = true;                          ///< false: this host skips the frame (FrameTicket::drawn)
 };
 
 class FrameOrders {

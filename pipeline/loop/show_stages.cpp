@@ -2,8 +2,9 @@
 
 #include "engine/input/tracker_names.h"
 #include "pipeline/draw/warm_up_list.h"
-#include "pipeline/process/views_in_workers.h"
-#include "pipeline/wall/drawing_here.h"
+#include "pipeline/process/per_view_process_renderer.h"
+#include "pipeline/wall/cpu_wall_renderer.h"
+#include "pipeline/wall/gl_wall_renderer.h"
 
 #include <algorithm>
 #include <iterator>
@@ -11,25 +12,29 @@
 namespace stadion {
 namespace {
 
-std::unique_ptr<WallDrawing> drawingOf(const ShowParts& parts) {
-  if (!parts.provider) return {};
+std::unique_ptr<WallRenderer> wallRendererFor(const ShowParts& parts) {
   std::vector<PictureSize> sizes;
   for (const WallViews& wall : parts.walls) sizes.push_back({wall.width, wall.height});
   std::vector<std::string> names;
   for (const WallViews& wall : parts.walls) names.push_back(wall.name);
-  if (!parts.workers)
-    return std::make_unique<DrawingHere>(
-        DrawingHereParts{*parts.provider, parts.meshes, std::move(sizes), parts.quality, parts.contexts,
-                         parts.giveUp, parts.probe, parts.processors, std::move(names), parts.tell});
+  if (!parts.workers && parts.pool)
+    return std::make_unique<CpuWallRenderer>(CpuWallRendererParts{parts.meshes, *parts.pool, std::move(sizes),
+                                                                  PictureRung::of(parts.quality),
+                                                                  parts.giveUp, parts.probe});
+  if (!parts.workers && parts.provider)
+    return std::make_unique<GlWallRenderer>(
+        GlWallRendererParts{*parts.provider, parts.meshes, std::move(sizes), parts.quality, parts.contexts,
+                            parts.giveUp, parts.probe, parts.processors, std::move(names), parts.tell});
+  if (!parts.workers) return {};
   const WallWorkers& w = *parts.workers;
-  DrawingInWorkersParts workers{
-      parts.meshes,          std::move(sizes), std::move(names), parts.quality, w.egl,
+  PerWallProcessParts workers{
+      parts.meshes,          std::move(sizes), std::move(names), parts.quality, w.renderer,
       w.rasteriserThreads,   w.everyFrame,     w.rate,           parts.giveUp,  w.tell,
       worker::wallProgram(), parts.processors};
-  if (parts.quality.look != Look::Plain) return std::make_unique<DrawingInWorkers>(std::move(workers));
+  if (parts.quality.look != Look::Plain) return std::make_unique<PerWallProcessRenderer>(std::move(workers));
   std::vector<std::uint32_t> views;
   for (const WallViews& wall : parts.walls) views.push_back(static_cast<std::uint32_t>(wall.views.size()));
-  return std::make_unique<ViewsInWorkers>(std::move(workers), views);
+  return std::make_unique<PerViewProcessRenderer>(std::move(workers), views);
 }
 
 void tellCounts(const FrameCounters& counters, FrameProbe& probe) {
@@ -41,8 +46,8 @@ void tellCounts(const FrameCounters& counters, FrameProbe& probe) {
 }  // namespace
 
 ShowStages::ShowStages(ShowParts parts)
-    : parts_(std::move(parts)), room_(parts_.walls), drawing_(drawingOf(parts_)), drawn_(parts_.walls.size()),
-      pictures_(parts_.walls.size()) {
+    : parts_(std::move(parts)), room_(parts_.walls), wallRenderer_(wallRendererFor(parts_)),
+      drawn_(parts_.walls.size()), pictures_(parts_.walls.size()) {
   if (parts_.head.latch) latch_.emplace(parts_.input, *parts_.head.latch);
   for (const WallViews& wall : parts_.walls) {
     const Wall* last = nullptr;
@@ -66,7 +71,7 @@ void ShowStages::app(const TimeSignature& now, std::size_t slot) {
   InputSample& input = input_;
   {
     const SpanScope span(parts_.probe, Span::Input);
-    if (parts_.desk) parts_.input.freezeHead(parts_.desk->state().headFrozen);
+    if (parts_.controls) parts_.input.freezeHead(parts_.controls->state().headFrozen);
     if (parts_.head.predict) parts_.input.aimHead(aimedAt());
     parts_.input.sampleFrame(now.time - now.step, now.time, input);
     noteMeasured(input);
@@ -124,7 +129,7 @@ void ShowStages::latch(std::size_t wall, DrawList& list) {
 void ShowStages::hear(const InputSample& input, bool still) {
   if (!parts_.sounds) return;
   parts_.scene.listen(input, heard_);
-  parts_.sounds->hear(heard_, {parts_.desk ? parts_.desk->state().volume : 1, still});
+  parts_.sounds->hear(heard_, {parts_.controls ? parts_.controls->state().volume : 1, still});
 }
 
 // Signature, sky and viewer of the last frame stay in the change set, except that the visitor may look
@@ -136,7 +141,7 @@ void ShowStages::still(const TimeSignature& now, std::size_t slot) {
   else
     parts_.scene.publishAsItStands(now, changes_);
   published_ = true;
-  if (parts_.desk) parts_.input.freezeHead(parts_.desk->state().headFrozen);
+  if (parts_.controls) parts_.input.freezeHead(parts_.controls->state().headFrozen);
   if (parts_.head.predict) parts_.input.aimHead(aimedAt());
   InputSample input;
   if (parts_.input.sampleNow(input)) parts_.scene.look(input, changes_);
@@ -153,14 +158,14 @@ void ShowStages::cull(std::size_t wall, std::size_t slot, DrawList& list) {
 }
 
 Failure ShowStages::openWall(std::size_t wall) {
-  if (!drawing_) return {};
-  if (Failure f = drawing_->open(wall)) return f;
-  if (wall == 0) glDescription_ = drawing_->glDescription(wall);
+  if (!wallRenderer_) return {};
+  if (Failure f = wallRenderer_->open(wall)) return f;
+  if (wall == 0) drawnBy_ = wallRenderer_->drawnBy(wall);
   return {};
 }
 
 Failure ShowStages::warmUp(std::size_t wall, const DrawList& list) {
-  return drawing_ ? drawing_->warmUp(wall, warmUpList(list, parts_.meshes)) : std::nullopt;
+  return wallRenderer_ ? wallRenderer_->warmUp(wall, warmUpList(list, parts_.meshes)) : std::nullopt;
 }
 
 bool ShowStages::wantsDrawn(const FrameTicket& ticket) const {
@@ -168,19 +173,19 @@ bool ShowStages::wantsDrawn(const FrameTicket& ticket) const {
 }
 
 Failure ShowStages::draw(std::size_t wall, const DrawList& list) {
-  if (!drawing_) return {};
+  if (!wallRenderer_) return {};
   Drawn& drawn = drawn_[wall];
   drawn.views = 0;  // until it is finished there is no picture
   began_ = list.ticket.began;
   const bool wanted = list.ticket.last || (parts_.sink && parts_.sink->wants(list.ticket.signature));
-  if (DrawOutcome outcome = drawing_->draw(wall, list, wanted); outcome.failure || !outcome.drawn) {
+  if (DrawOutcome outcome = wallRenderer_->draw(wall, list, wanted); outcome.failure || !outcome.drawn) {
     if (!outcome.failure)
       drawn.late.inARow = std::max(drawn.late.inARow, ++drawn.lateNow), ++drawn.late.frames;
     return std::move(outcome.failure);
   }
   drawn.lateNow = 0, drawn.posed = list.ticket.posed;
   drawn.views = list.viewCount, drawn.frame = list.ticket.signature.frame, drawn.read = false;
-  drawn.totals = drawing_->totals(wall);
+  drawn.totals = wallRenderer_->totals(wall);
   return wanted ? readPictures(wall) : std::nullopt;
 }
 
@@ -192,19 +197,19 @@ Failure ShowStages::readPictures(std::size_t wall) {
   for (std::uint32_t view = 0; view < drawn.views; ++view) {
     Picture& p = pictures_[wall].eyes[view];
     p = Picture(parts_.walls[wall].width, parts_.walls[wall].height);
-    if (Failure f = drawing_->read(wall, view, p.rgba)) return f;
+    if (Failure f = wallRenderer_->read(wall, view, p.rgba)) return f;
   }
   drawn.read = true;
   return {};
 }
 
 void ShowStages::closeWall(std::size_t wall) {
-  if (!drawing_) return;
+  if (!wallRenderer_) return;
   // After a failure, or a wait that was given up, no stage knew which frame would be the last.
   const bool wanted =
-      drawn_[wall].views > 0 && !drawn_[wall].read && !(parts_.desk && parts_.desk->leaving());
+      drawn_[wall].views > 0 && !drawn_[wall].read && !(parts_.controls && parts_.controls->leaving());
   if (wanted) readPictures(wall);
-  drawing_->close(wall);
+  wallRenderer_->close(wall);
 }
 
 Failure ShowStages::swap(const TimeSignature& now) {

@@ -3,12 +3,14 @@
 
 #include "engine/input/input_device.h"
 #include "engine/scene/scene.h"
+#include "pipeline/cpu_draw/draw_pool.h"
 #include "pipeline/cull/cull.h"
 #include "pipeline/draw_list/draw_counts.h"
+#include "pipeline/draw_list/renderer.h"
 #include "pipeline/loop/head_latch.h"
 #include "pipeline/loop/head_timing.h"
 #include "pipeline/loop/swap_forecast.h"
-#include "pipeline/operator/operator_desk.h"
+#include "pipeline/operator/operator_controls.h"
 #include "pipeline/picture/picture.h"
 #include "pipeline/platform/processor_set.h"
 #include "pipeline/sound/sound_player.h"
@@ -16,7 +18,7 @@
 #include "pipeline/target/target.h"
 #include "pipeline/wall/stages.h"
 #include "pipeline/wall/wall_contexts.h"
-#include "pipeline/wall/wall_drawing.h"
+#include "pipeline/wall/wall_renderer.h"
 
 #include <atomic>
 #include <functional>
@@ -44,10 +46,10 @@ public:
 /// Called with the scene after each App stage, on the App thread.
 using AppObserver = std::function<void(const TimeSignature&, const InputSample&, const Scene&)>;
 
-/// Walls that are drawn by a process each (process/drawing_in_workers.h).
+/// Worker processes draw the walls (process/per_wall_process_renderer.h).
 struct WallWorkers {
-  bool egl = false;                     ///< else OSMesa
-  std::uint32_t rasteriserThreads = 0;  ///< of each process
+  RendererKind renderer = RendererKind::OsMesa;
+  std::uint32_t rasteriserThreads = 0;  ///< of each process; the CPU renderer's have at least one
   bool everyFrame = true;               ///< else the newest frame counts, and no wall waits for a late one
   double rate = 60;                     ///< [1/s]
   std::function<void(const std::string&)> tell{};  ///< receives reports about processes; on Draw threads
@@ -59,7 +61,8 @@ struct ShowParts {
   MeshStore& meshes;
   InputDevice& input;
   std::vector<WallViews> walls;
-  GlProvider* provider = nullptr;  ///< null draws nothing
+  GlProvider* provider = nullptr;  ///< OpenGL draws in this process; null: it does not
+  DrawPool* pool = nullptr;        ///< the CPU renderer draws in this process; without both nothing is drawn
   PictureSink* sink = nullptr;
   WallContexts* contexts = nullptr;  ///< contexts that outlive the show; null: it makes its own
   bool drawUnseen = true;            ///< false: draws only frames that the sink wants, and the last one
@@ -67,12 +70,12 @@ struct ShowParts {
   FrameProbe* probe = nullptr;
   /// Once it returns true, Draw stops and the run ends. Any thread; null = never.
   std::function<bool()> giveUp{};
-  std::function<void()> shown{};       ///< called when all walls have shown a frame, on the Draw thread that
-                                       ///< swaps
-  SoundPlayer* sounds = nullptr;       ///< null: no sound
-  const OperatorDesk* desk = nullptr;  ///< null: no operator
+  std::function<void()> shown{};  ///< called when all walls have shown a frame, on the Draw thread that
+                                  ///< swaps
+  SoundPlayer* sounds = nullptr;  ///< null: no sound
+  const OperatorControls* controls = nullptr;  ///< null: no operator
   RenderQuality quality{};
-  std::optional<WallWorkers> workers{};  ///< nothing: this process draws
+  std::optional<WallWorkers> workers{};  ///< draw instead of this process
   std::vector<WallPixels> otherWalls{};  ///< walls of the room that other hosts draw: detail levels are
                                          ///< chosen for all walls
   /// By wall: its processors; empty: any. Expects a thread or a process for each wall.
@@ -109,7 +112,7 @@ public:
   const std::vector<EyePictures>& lastPictures() const { return pictures_; }
   /// Of wall `wall`, by view: what it was drawn with in all. For when the run is over.
   const ViewTotals& drawn(std::size_t wall) const { return drawn_[wall].totals; }
-  std::string glDescription() const { return glDescription_; }
+  std::string drawnBy() const { return drawnBy_; }
   /// For use after the run.
   const WallLateness& late(std::size_t wall) const { return drawn_[wall].late; }
   /// Returns the counts of late latch; null without late latch. For use after the run.
@@ -145,15 +148,15 @@ private:
   RoomCull room_;
   std::vector<WallCull> culls_;  ///< by wall, each used by its Cull only
   SoundScape heard_;
-  std::unique_ptr<WallDrawing> drawing_;  ///< null draws nothing
-  std::vector<Drawn> drawn_;              ///< by wall
+  std::unique_ptr<WallRenderer> wallRenderer_;  ///< null draws nothing
+  std::vector<Drawn> drawn_;                    ///< by wall
   std::vector<EyePictures> pictures_;
   std::optional<HeadLatch> latch_;
   SwapForecast swaps_;
   std::optional<std::chrono::steady_clock::time_point> measured_;  ///< of App's frame
   std::atomic<std::chrono::steady_clock::time_point> began_{};     ///< the frame that is drawn now
   std::atomic<std::uint64_t> shownFrame_ = 0;
-  std::string glDescription_;
+  std::string drawnBy_;
 };
 
 }  // namespace stadion

@@ -3,9 +3,9 @@
 namespace stadion {
 
 bool SwapBarrier::wait(std::unique_lock<std::mutex>& lock) {
-  const std::uint64_t mine = round_;
-  changed_.wait(lock, [&] { return round_ != mine || stopped_; });
-  return round_ != mine;
+  const std::uint64_t mine = epoch_;
+  changed_.wait(lock, [&] { return epoch_ != mine || stopped_; });
+  return epoch_ != mine;
 }
 
 void SwapBarrier::stop() {

@@ -22,7 +22,7 @@ public:
     if (++arrived_ < walls_) return wait(lock);
     show();
     arrived_ = 0;
-    ++round_;
+    ++epoch_;
     changed_.notify_all();
     return true;
   }
@@ -34,7 +34,7 @@ private:
   std::mutex mutex_;
   std::condition_variable changed_;
   std::size_t walls_, arrived_ = 0;
-  std::uint64_t round_ = 0;
+  std::uint64_t epoch_ = 0;
   bool stopped_ = false;
 };
 

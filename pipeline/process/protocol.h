@@ -8,6 +8,7 @@
 /// no lock.
 
 #include "pipeline/draw_list/draw_counts.h"
+#include "pipeline/draw_list/renderer.h"
 #include "pipeline/platform/processor_set.h"
 #include "pipeline/shader/look.h"
 
@@ -18,7 +19,7 @@
 namespace stadion::worker {
 
 constexpr std::uint32_t kMagic = 0x57445453;  // "STDW"
-constexpr std::uint32_t kVersion = 4;
+constexpr std::uint32_t kVersion = 5;
 constexpr std::size_t kLongestText = 4096;
 
 // Address space, not memory.
@@ -36,8 +37,8 @@ struct OrderHead {
   Order order = Order::Open;
   // Of Open.
   std::uint32_t width = 0, height = 0;  ///< of one view's picture [pixels]
-  std::uint32_t egl = 0;                ///< 1: through EGL, else OSMesa
-  std::uint32_t rasteriserThreads = 0;  ///< 0: it rasterises on the thread that draws
+  RendererKind renderer = RendererKind::OsMesa;
+  std::uint32_t rasteriserThreads = 0;  ///< 0: the thread that draws makes the pixels, too
   RenderQuality quality{};
   ProcessorSet processors{};  ///< that it may use; empty: all
   // Of Draw.

@@ -1,5 +1,5 @@
 #pragma once
-/// When a process that died is started again, and what is told of it.
+/// When a process that crashed is restarted, and what the log says about it.
 ///
 /// The first time at once. One that dies again before it has drawn kSteady frames is started after pauses
 /// that double, so that a wall that cannot be drawn costs its neighbours nothing, and is not told of each

@@ -86,7 +86,7 @@ std::optional<std::string> WallWorker::start() {
   ++started_;
   state_ = State::Opening;
   OrderHead head;
-  head.width = setting_.width, head.height = setting_.height, head.egl = setting_.egl;
+  head.width = setting_.width, head.height = setting_.height, head.renderer = setting_.renderer;
   head.rasteriserThreads = setting_.rasteriserThreads, head.quality = setting_.quality;
   head.processors = setting_.processors;
   const std::array<int, 3> segments{list_.descriptor(), sharedMeshes_.descriptor(), pictures_.descriptor()};

@@ -26,8 +26,8 @@
 namespace stadion::worker {
 
 struct WorkerSetting {
-  std::filesystem::path program;        ///< stadion-wall
-  bool egl = false;                     ///< else OSMesa
+  std::filesystem::path program;  ///< stadion-wall
+  RendererKind renderer = RendererKind::OsMesa;
   std::uint32_t width = 0, height = 0;  ///< of one view's picture [pixels]
   RenderQuality quality{};
   std::uint32_t rasteriserThreads = 0;  ///< 0: it rasterises on the thread that draws

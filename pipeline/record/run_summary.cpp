@@ -156,6 +156,8 @@ std::string toText(const RunSummary& s) {
                       s.height, s.mode, s.rate);
   if (!s.howDrawn.workers.empty())
     text += fmt::format("  drawn by {}: {}\n", s.howDrawn.text, s.howDrawn.why);
+  if (!s.howDrawn.chosen.empty())
+    text += fmt::format("  renderer {}: {}\n", s.howDrawn.renderer, s.howDrawn.chosen);
   if (s.warmUpMs > 0)
     text += fmt::format("  warm-up {:.3f} s before the first frame: shaders, uploads\n", s.warmUpMs / 1000);
   if (s.frameMs.count + s.stages.size() + s.latency.size() > 0)
@@ -235,10 +237,13 @@ void addShow(Json& j, const RunSummary& s) {
   j["groups"] = s.groups;
   j["uptime_seconds"] = s.uptimeSeconds;
   if (!s.howDrawn.workers.empty())
-    j["how_drawn"] = Json{{"wall_workers", s.howDrawn.workers},
-                          {"rasteriser_threads", s.howDrawn.rasteriserThreads},
-                          {"pinned", s.howDrawn.pinned},
-                          {"why", s.howDrawn.why}};
+    j["how_drawn"] =
+        Json{{"renderer", s.howDrawn.renderer},
+             {"renderer_why", s.howDrawn.chosen},
+             {"wall_workers", s.howDrawn.workers},
+             {s.howDrawn.renderer == "cpu" ? "draw_threads" : "rasteriser_threads", s.howDrawn.threads},
+             {"pinned", s.howDrawn.pinned},
+             {"why", s.howDrawn.why}};
 }
 
 void addTimes(Json& j, const RunSummary& s) {

@@ -102,8 +102,8 @@ struct BudgetKept {
   double budget = 0;           ///< [ms]; 0 = it has none, but degrades to save the frame
   double mean = 0, worst = 0;  ///< [ms]
   std::uint64_t worstFrame = 0;
-  std::string worstStage;                   ///< the stage with most of that
-  std::uint64_t overruns = 0, changes = 0;  ///< frames; changes of the degradation level
+  std::string worstStage;                          ///< the stage with most of that
+  std::uint64_t overruns = 0, changes = 0;         ///< frames; changes of the degradation level
   std::uint32_t highest = 0, now = 0, levels = 0;  ///< levels of its degradation ladder
   bool drawCounted = true;                         ///< false: these figures exclude drawing
   bool drawMeasured = true;                        ///< false: drawing was never measured
@@ -122,10 +122,12 @@ struct StressFelt {
   std::uint64_t changes = 0;
 };
 
-/// Threads or processes that drew the walls, and the reason.
+/// What drew the walls, threads or processes, and the reasons.
 struct HowDrawn {
-  std::string workers;  ///< thread or process; empty: nothing was drawn
-  std::uint32_t rasteriserThreads = 0;
+  std::string renderer;       ///< cpu or gl
+  std::string chosen;         ///< why this renderer; empty: it was asked for
+  std::string workers;        ///< thread or process; empty: nothing was drawn
+  std::uint32_t threads = 0;  ///< of the CPU renderer or of OpenGL's rasteriser, in each process
   bool pinned = false;
   std::string why, text;  ///< `text`: the same in words
 };
@@ -146,8 +148,7 @@ struct RunSummary {
   std::uint64_t groups = 1;       ///< of visitors; the other figures describe the last one
   double uptimeSeconds = 0;       ///< of all groups and the pauses between them
   HowDrawn howDrawn{};
-  double warmUpMs =
-      0;  ///< before the first frame is drawn: contexts, shaders, uploads; counted here only
+  double warmUpMs = 0;  ///< before the first frame is drawn: contexts, shaders, uploads; counted here only
   std::uint64_t lateFrames = 0;
   Distribution frameMs;  ///< from one frame shown to the next
   std::vector<StageTimes> stages;

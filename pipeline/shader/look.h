@@ -22,11 +22,11 @@ struct RenderQuality {
   /// interrupted. 1 = a call for each object.
   std::uint32_t mostAtOnce = 1024;
   /// With one sample a pixel, objects that cover no pixel's middle are not drawn. In software, triangles that
-  /// cover none or face away are not drawn either (triangle_sieve.h). They would not be visible. False: all
+  /// cover none or face away are not drawn either (triangle_culler.h). They would not be visible. False: all
   /// objects in view go to OpenGL, for comparisons.
   bool leavesOutUnseen = true;
-  /// In software and in the plain look, small objects are drawn without OpenGL (small_things.h).
-  bool drawsSmallThings = true;
+  /// In software and in the plain look, small objects are drawn without OpenGL (small_object_rasterizer.h).
+  bool drawsSmallObjects = true;
 
   /// Number of fragments of transparent surfaces that are sorted at a time (glass_layers.h); each takes 32
   /// bytes. The picture does not depend on it.

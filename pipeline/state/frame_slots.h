@@ -20,7 +20,8 @@ namespace stadion {
 
 enum class Delivery {
   Every,   ///< every frame is shown; App waits for slow readers (recording, regression)
-  Latest,  ///< the newest frame is shown; App waits only while the walls hold all slots (live)
+  Latest,  ///< the newest frame is shown (live). App waits only if the walls hold all
+           ///< slots. Walls that ask as above never do.
 };
 
 struct Lease {

@@ -13,7 +13,7 @@ Recovery::Step Recovery::died(Nanoseconds time, Nanoseconds played) {
   steadyAt_ = kSteady + (again ? 0 : time);
   const Milliseconds pause =
       deaths_ == 1 ? Milliseconds(0) : std::min(kLongest, kShortest * (1 << (deaths_ - 2)));
-  return {again ? Way::BeginAgain : Way::GoOn, pause};
+  return {again ? Way::Restart : Way::GoOn, pause};
 }
 
 }  // namespace stadion

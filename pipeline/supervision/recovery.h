@@ -24,7 +24,7 @@ public:
   static constexpr std::size_t kFromScene = 5, kMost = 10;
   static constexpr Milliseconds kShortest{250}, kLongest{30'000};
 
-  enum class Way { GoOn, BeginAgain, GiveUp };
+  enum class Way { GoOn, Restart, GiveUp };
   struct Step {
     Way way;
     Milliseconds pause;  ///< before the next player is started

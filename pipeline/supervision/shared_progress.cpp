@@ -39,7 +39,7 @@ struct SharedProgress::Page {
   std::atomic<Nanoseconds> lastShown = 0, caughtUp = 0;
   Newest<Moment> moment;
   Newest<Kept> kept;
-  Newest<OperatorState> desk;
+  Newest<OperatorState> operatorState;
 };
 
 Nanoseconds machineClock() {
@@ -131,8 +131,8 @@ void SharedProgress::obeyed(const OperatorState& state) {
     page_->moment.next() = last;
     page_->moment.publish();
   }
-  page_->desk.next() = state;
-  page_->desk.publish();
+  page_->operatorState.next() = state;
+  page_->operatorState.publish();
 }
 
 SharedProgress::Moment SharedProgress::newest() const {
@@ -176,7 +176,7 @@ std::vector<std::uint8_t> SharedProgress::scene() const {
 }
 
 OperatorState SharedProgress::operatorState() const {
-  const OperatorState* state = page_->desk.find();
+  const OperatorState* state = page_->operatorState.find();
   return state ? *state : OperatorState{};
 }
 

@@ -5,6 +5,7 @@
 #include "pipeline/target/screen_saver.h"
 #include "pipeline/target/window.h"
 #include "pipeline/target/x_connection.h"
+#include "pipeline/target/x_pixels.h"
 
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
@@ -45,6 +46,7 @@ namespace {
   X(SetWindowCloseCallback)                                                                                  \
   X(SetWindowFocusCallback)                                                                                  \
   X(SetWindowIconifyCallback)                                                                                \
+  X(SetWindowRefreshCallback)                                                                                \
   X(SetWindowPos)                                                                                            \
   X(SetWindowTitle)                                                                                          \
   X(SetWindowUserPointer)                                                                                    \
@@ -131,11 +133,40 @@ private:
   std::chrono::steady_clock::time_point due_{};
 };
 
+/// Once the connection is lost, it must not be used any more; OpenGL output is discarded.
+class GlfwContext final : public WindowContext {
+public:
+  GlfwContext(const Glfw& glfw, GLFWwindow* handle, const GlTable& gl, std::mutex& turns, std::uint32_t width,
+              std::uint32_t height)
+      : WindowContext(gl, turns, width, height), glfw_(glfw), handle_(handle) {}
+
+  std::optional<Diagnostic> makeCurrent() override {
+    if (const auto why = xConnectionLost()) return problem(*why);
+    glfw_.GetError(nullptr);
+    glfw_.MakeContextCurrent(handle_);
+    const char* why = nullptr;
+    if (glfw_.GetError(&why) == GLFW_NO_ERROR) return {};
+    return problem(std::string("the window's context cannot be made current: ") + (why ? why : ""));
+  }
+  void release() override {
+    if (!xConnectionLost()) glfw_.MakeContextCurrent(nullptr);
+  }
+  void swap() override {
+    if (!xConnectionLost()) glfw_.SwapBuffers(handle_);
+  }
+  void waitForDisplay(bool wait) override { glfw_.SwapInterval(wait ? 1 : 0); }
+
+private:
+  const Glfw& glfw_;
+  GLFWwindow* handle_;
+};
+
 class GlfwWindow final : public Window {
 public:
-  GlfwWindow(const Glfw& glfw, GLFWwindow* handle, const GlTable& gl, std::mutex& turns, std::uint32_t width,
-             std::uint32_t height, bool quadBuffered, MonitorPlaces& monitors, ScreenSaverPause& saver)
-      : Window(gl, turns, width, height), glfw_(glfw), handle_(handle), quadBuffered_(quadBuffered),
+  /// With one of `context` and `pixels`.
+  GlfwWindow(const Glfw& glfw, GLFWwindow* handle, std::unique_ptr<GlfwContext> context,
+             std::unique_ptr<XPixels> pixels, MonitorPlaces& monitors, ScreenSaverPause& saver)
+      : glfw_(glfw), handle_(handle), context_(std::move(context)), pixels_(std::move(pixels)),
         monitors_(monitors), saver_(saver) {
     glfw_.SetWindowUserPointer(handle_, this);
     glfw_.SetKeyCallback(handle_, [](GLFWwindow* w, int key, int, int action, int mods) {
@@ -166,27 +197,18 @@ public:
     glfw_.SetWindowIconifyCallback(handle_, [](GLFWwindow* w, int iconified) {
       if (!iconified) static_cast<GlfwWindow*>(ownerOf(w))->saver_.restoreTimeouts();
     });
+    glfw_.SetWindowRefreshCallback(handle_, [](GLFWwindow* w) {
+      const GlfwWindow& window = *static_cast<GlfwWindow*>(ownerOf(w));
+      if (window.pixels_) window.pixels_->showAgain();
+    });
   }
   ~GlfwWindow() override {
+    pixels_.reset();
     if (!xConnectionLost()) glfw_.DestroyWindow(handle_);
   }
 
-  // If the connection is lost, it must not be used any more; OpenGL output is discarded.
-  std::optional<Diagnostic> makeCurrent() override {
-    if (const auto why = xConnectionLost()) return problem(*why);
-    glfw_.GetError(nullptr);
-    glfw_.MakeContextCurrent(handle_);
-    const char* why = nullptr;
-    if (glfw_.GetError(&why) == GLFW_NO_ERROR) return {};
-    return problem(std::string("the window's context cannot be made current: ") + (why ? why : ""));
-  }
-  void release() override {
-    if (!xConnectionLost()) glfw_.MakeContextCurrent(nullptr);
-  }
-  void swap() override {
-    if (!xConnectionLost()) glfw_.SwapBuffers(handle_);
-  }
-  void waitForDisplay(bool wait) override { glfw_.SwapInterval(wait ? 1 : 0); }
+  WindowContext* context() override { return context_.get(); }
+  WindowPixels* pixels() override { return pixels_.get(); }
   std::array<std::uint32_t, 2> size() const override {
     int width = 0, height = 0;
     if (!xConnectionLost()) glfw_.GetFramebufferSize(handle_, &width, &height);
@@ -194,7 +216,6 @@ public:
   }
   std::vector<WindowEvent> takeEvents() override { return std::exchange(events_, {}); }
   void setTitle(const std::string& title) override { glfw_.SetWindowTitle(handle_, title.c_str()); }
-  bool quadBuffered() const override { return quadBuffered_; }
   std::vector<MonitorPart> monitorParts() const override {
     const auto [width, height] = size();
     const MonitorPart atTop{{0, 0, width, height}, 0};
@@ -221,16 +242,21 @@ private:
 
   const Glfw& glfw_;
   GLFWwindow* handle_;
-  bool quadBuffered_;
+  std::unique_ptr<GlfwContext> context_;
+  std::unique_ptr<XPixels> pixels_;
   MonitorPlaces& monitors_;
   ScreenSaverPause& saver_;
   std::vector<WindowEvent> events_;
 };
 
+using WindowNumber = unsigned long(GLFWwindow*);
+
 class GlfwSystem final : public WindowSystem {
 public:
-  GlfwSystem(const Glfw& glfw, void* display)
-      : glfw_(glfw), monitors_(glfw_), saver_(std::make_unique<ScreenSaverPause>(display)) {}
+  /// `display` is Xlib's Display, null for another window system; `windowOf` gives X's number of a window.
+  GlfwSystem(const Glfw& glfw, void* display, WindowNumber* windowOf)
+      : glfw_(glfw), display_(windowOf ? display : nullptr), windowOf_(windowOf), monitors_(glfw_),
+        saver_(std::make_unique<ScreenSaverPause>(display)) {}
   ~GlfwSystem() override {
     saver_.reset();
     if (!xConnectionLost()) glfw_.Terminate();
@@ -243,26 +269,19 @@ public:
       monitor = find(plan.monitor);
       if (!monitor) return Created::failure(noSuch(plan.monitor));
     }
-    GLFWwindow* handle = nullptr;
-    for (const auto& [major, minor] : {std::pair(4, 5), std::pair(3, 3)})
-      if (!handle) handle = make(plan, monitor, major, minor);
+    const bool pixels = plan.surface == WindowSurface::Pixels && !plan.quadBuffer && display_;
+    GLFWwindow* const handle = pixels ? make(plan, monitor, {}) : makeWithContext(plan, monitor);
     if (!handle)
       return Created::failure(
-          fmt::format("no window{} with OpenGL 3.3 core: {}",
+          fmt::format("no window{}{}: {}",
                       plan.quadBuffer ? " with a back buffer for each eye (quad-buffered stereo)" : "",
-                      lastError(glfw_)));
+                      pixels ? "" : " with OpenGL 3.3 core", lastError(glfw_)));
     if (plan.fullscreen) saver_->restoreTimeouts();
     place(handle, plan, monitor);
     if (!plan.pointer) glfw_.SetInputMode(handle, GLFW_CURSOR, GLFW_CURSOR_HIDDEN);
-    if (const auto why = loadTable(handle)) {
-      glfw_.DestroyWindow(handle);
-      return *why;
-    }
-    int width = 0, height = 0;
-    glfw_.GetFramebufferSize(handle, &width, &height);
-    return std::unique_ptr<Window>(std::make_unique<GlfwWindow>(
-        glfw_, handle, gl_, turns_, static_cast<std::uint32_t>(width), static_cast<std::uint32_t>(height),
-        plan.quadBuffer, monitors_, *saver_));
+    auto made = pixels ? withPixels(handle) : withContext(handle);
+    if (!made) glfw_.DestroyWindow(handle);
+    return made;
   }
 
   void poll() override {
@@ -296,6 +315,13 @@ public:
     return names;
   }
 
+  Result<std::string> pixelsWay() override {
+    if (!display_) return Result<std::string>::failure("windows without OpenGL need an X server (XWayland)");
+    const auto pixels = XPixels::open(display_);
+    if (!pixels) return pixels.error();
+    return pixels.value()->way();
+  }
+
 private:
   std::vector<GLFWmonitor*> all() {
     int count = 0;
@@ -317,13 +343,23 @@ private:
                        fmt::join(monitors(), ", "));
   }
 
-  GLFWwindow* make(const WindowPlan& plan, GLFWmonitor* monitor, int major, int minor) {
+  GLFWwindow* makeWithContext(const WindowPlan& plan, GLFWmonitor* monitor) {
+    GLFWwindow* handle = nullptr;
+    for (const auto& version : {std::pair(4, 5), std::pair(3, 3)})
+      if (!handle) handle = make(plan, monitor, version);
+    return handle;
+  }
+
+  /// Without a version: without OpenGL. GLFW then loads no library of it.
+  GLFWwindow* make(const WindowPlan& plan, GLFWmonitor* monitor, std::optional<std::pair<int, int>> version) {
     const GLFWvidmode* mode = monitor ? glfw_.GetVideoMode(monitor) : nullptr;
+    const auto [major, minor] = version.value_or(std::pair(1, 0));
     const std::pair<int, int> hints[] = {
+        {GLFW_CLIENT_API, version ? GLFW_OPENGL_API : GLFW_NO_API},
         {GLFW_CONTEXT_VERSION_MAJOR, major},
         {GLFW_CONTEXT_VERSION_MINOR, minor},
-        {GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE},
-        {GLFW_OPENGL_FORWARD_COMPAT, GLFW_TRUE},
+        {GLFW_OPENGL_PROFILE, version ? GLFW_OPENGL_CORE_PROFILE : GLFW_OPENGL_ANY_PROFILE},
+        {GLFW_OPENGL_FORWARD_COMPAT, version ? GLFW_TRUE : GLFW_FALSE},
         {GLFW_DEPTH_BITS, 0},
         {GLFW_STENCIL_BITS, 0},
         {GLFW_STEREO, plan.quadBuffer ? GLFW_TRUE : GLFW_FALSE},
@@ -347,6 +383,25 @@ private:
     glfw_.ShowWindow(handle);
   }
 
+  using MadeWindow = Result<std::unique_ptr<Window>>;
+
+  MadeWindow withContext(GLFWwindow* handle) {
+    if (const auto why = loadTable(handle)) return *why;
+    int width = 0, height = 0;
+    glfw_.GetFramebufferSize(handle, &width, &height);
+    auto context = std::make_unique<GlfwContext>(
+        glfw_, handle, gl_, turns_, static_cast<std::uint32_t>(width), static_cast<std::uint32_t>(height));
+    return std::unique_ptr<Window>(
+        std::make_unique<GlfwWindow>(glfw_, handle, std::move(context), nullptr, monitors_, *saver_));
+  }
+
+  MadeWindow withPixels(GLFWwindow* handle) {
+    auto pixels = XPixels::open(display_, windowOf_(handle));
+    if (!pixels) return pixels.error();
+    return std::unique_ptr<Window>(
+        std::make_unique<GlfwWindow>(glfw_, handle, nullptr, std::move(pixels.value()), monitors_, *saver_));
+  }
+
   /// The functions are the same for all windows of a connection.
   std::optional<Diagnostic> loadTable(GLFWwindow* handle) {
     if (loaded_) return {};
@@ -360,6 +415,8 @@ private:
   }
 
   const Glfw glfw_;
+  void* const display_;
+  WindowNumber* const windowOf_;
   MonitorPlaces monitors_;
   std::unique_ptr<ScreenSaverPause> saver_;
   GlTable gl_;
@@ -406,7 +463,8 @@ Result<std::unique_ptr<WindowSystem>> WindowSystem::open(const std::string& scre
     const auto connection = library.value().find<void*()>("glfwGetX11Display");
     void* const xDisplay = connection ? connection() : nullptr;
     watchXConnection(xDisplay);
-    return std::unique_ptr<WindowSystem>(std::make_unique<GlfwSystem>(glfw.value(), xDisplay));
+    return std::unique_ptr<WindowSystem>(std::make_unique<GlfwSystem>(
+        glfw.value(), xDisplay, library.value().find<WindowNumber>("glfwGetX11Window")));
   }
   if (!screen.empty())
     return Opened::failure(

@@ -16,14 +16,14 @@ constexpr const char* kVectorWidth = "LP_NATIVE_VECTOR_WIDTH";
 constexpr const char* kThreads = "LP_NUM_THREADS";
 constexpr unsigned kMostThreads = 32;  // Mesa takes no more
 
-/// The C library takes the size as an int, and for the second value at most 32 MiB.
+}  // namespace
+
+// The C library takes the size as an int, and for the second value at most 32 MiB.
 void keepFreedMemory() {
   constexpr int kKeptAtMost = 1 << 28, kOwnPagesFrom = 1 << 25;  // [bytes]
   mallopt(M_TRIM_THRESHOLD, kKeptAtMost);
   mallopt(M_MMAP_THRESHOLD, kOwnPagesFrom);
 }
-
-}  // namespace
 
 std::optional<unsigned> rasteriserThreadsGiven() {
   const char* threads = std::getenv(kThreads);

@@ -17,6 +17,9 @@ namespace stadion {
 /// Errors   reports a setting in the environment with which the rasteriser crashes.
 std::optional<Diagnostic> pinRasteriser();
 
+/// Keeps the memory that one frame frees for the next, as pinRasteriser() does.
+void keepFreedMemory();
+
 /// Returns the number of rasteriser threads that the environment sets. Call it before pinRasteriser(), which
 /// sets the same variable.
 std::optional<unsigned> rasteriserThreadsGiven();

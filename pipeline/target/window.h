@@ -3,7 +3,8 @@
 ///
 /// Units    pixels; (0, 0) is the upper left corner of a window's content.
 /// Threads  the main thread makes the system and its windows, asks them for events and destroys them, as
-///          window systems require. A window's context may be current on any one thread.
+///          window systems require, and uses their pixels. A window's context may be current on any one
+///          thread.
 /// Errors   Without a display, open() says so, and what to do. If the display is lost while windows are
 ///          shown, lost() says so; all other calls then do nothing.
 
@@ -54,11 +55,19 @@ struct WindowEvent {
   std::uint32_t button = 0;  ///< of Button: 0 left, 1 right, 2 middle
   bool down = false;         ///< of Key and Button: pressed, else released
   bool shift = false;        ///< of Key, Button and Wheel: held meanwhile
-  double x = 0, y = 0;  ///< of Move: the pointer's place; of Wheel: the rotation, y away from the user
+  double x = 0, y = 0;       ///< of Move: the pointer's place; of Wheel: the rotation, y away from the user
+};
+
+/// How pictures get into a window.
+enum class WindowSurface {
+  OpenGl,  ///< through an OpenGL context
+  Pixels,  ///< from memory: no OpenGL library is loaded. Only X servers have such windows
 };
 
 struct WindowPlan {
   std::string title;
+  /// Without an X server, and with `quadBuffer`, it is OpenGl all the same.
+  WindowSurface surface = WindowSurface::OpenGl;
   std::uint32_t width = 800, height = 600;  ///< of the content; a full screen has the monitor's size
   bool frame = true;                        ///< a title bar, and edges for resizing
   bool placed = false;                      ///< at x, y of the screen, or of the named monitor
@@ -70,25 +79,60 @@ struct WindowPlan {
   bool quadBuffer = false;    ///< a left and a right back buffer
 };
 
-/// A window. Draw its content to framebuffer 0 of its context, then show it with swap().
-class Window : public Target {
+/// The OpenGL context of a window. Draw the content to its framebuffer 0, then show it with swap().
+class WindowContext : public Target {
 public:
-  /// Shows the drawn picture. Expects its context to be current here.
+  /// Shows the drawn picture. Expects that it is current here.
   virtual void swap() = 0;
-  /// Sets whether swap() waits for the display's next picture. Expects its context to be current here.
+  /// Sets whether swap() waits for the display's next picture. Expects that it is current here.
   virtual void waitForDisplay(bool wait) = 0;
+
+protected:
+  using Target::Target;
+};
+
+/// Rows of pixels from the top, without padding; each is 0xAARRGGBB with an alpha of 255.
+struct PixelRows {
+  std::uint32_t* first = nullptr;
+  std::uint32_t width = 0, height = 0;
+
+  std::uint32_t* row(std::uint32_t y) const { return first + std::size_t{y} * width; }
+};
+
+/// The content of a window without OpenGL.
+class WindowPixels {
+public:
+  virtual ~WindowPixels() = default;
+  WindowPixels() = default;
+  WindowPixels(const WindowPixels&) = delete;
+  WindowPixels& operator=(const WindowPixels&) = delete;
+
+  /// Returns memory for the next content, of that size. What stands in it is void. It waits until the window
+  /// system has read the last content.
+  virtual PixelRows begin(std::uint32_t width, std::uint32_t height) = 0;
+  /// Shows what was written into that memory.
+  virtual void show() = 0;
+};
+
+class Window {
+public:
+  virtual ~Window() = default;
+  Window() = default;
+  Window(const Window&) = delete;
+  Window& operator=(const Window&) = delete;
+
+  /// Null for a window without OpenGL.
+  virtual WindowContext* context() = 0;
+  /// Null for a window with OpenGL.
+  virtual WindowPixels* pixels() = 0;
   /// Returns the current size of its content.
   virtual std::array<std::uint32_t, 2> size() const = 0;
   /// Returns the events since the last call.
   virtual std::vector<WindowEvent> takeEvents() = 0;
   virtual void setTitle(const std::string& title) = 0;
-  virtual bool quadBuffered() const = 0;
   /// Returns the current parts of its content on monitors. If the window system gives no position, the
   /// content begins in a monitor's top row.
   virtual std::vector<MonitorPart> monitorParts() const = 0;
-
-protected:
-  using Target::Target;
 };
 
 /// The state of a gamepad, laid out like that of an Xbox.
@@ -117,6 +161,9 @@ public:
   virtual std::optional<std::string> mayGoDark() const = 0;
   /// Returns names such as "HDMI-1 (1920 x 1080)", in the order of their numbers.
   virtual std::vector<std::string> monitors() = 0;
+  /// Describes how windows without OpenGL get their pictures, such as "shared memory", or says why there are
+  /// none.
+  virtual Result<std::string> pixelsWay() = 0;
 };
 
 }  // namespace stadion

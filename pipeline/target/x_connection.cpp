@@ -22,10 +22,18 @@ using Error = int (*)(XDisplay*, XErrorEvent*);
 constexpr unsigned char kBadWindow = 3, kBadDrawable = 9;
 
 std::atomic<const char*> lost = nullptr;
+bool anyIgnored = false;
+Error handlerBefore = nullptr;
 
 void note(const char* why) {
   const char* none = nullptr;
   lost.compare_exchange_strong(none, why);
+}
+
+/// The function that sets the handler of errors; null without Xlib.
+Error (*handlerSetter())(Error) {
+  const auto xlib = SharedLibrary::open("libX11.so.6", "libx11-6");
+  return xlib ? xlib.value().find<Error(Error)>("XSetErrorHandler") : nullptr;
 }
 
 }  // namespace
@@ -54,6 +62,23 @@ std::optional<std::string> xConnectionLost() {
   const char* why = lost;
   if (!why) return {};
   return std::string("the connection to the display is lost: ") + why;
+}
+
+IgnoredXErrors::IgnoredXErrors() {
+  anyIgnored = false;
+  if (auto* set = handlerSetter())
+    handlerBefore = set([](XDisplay*, XErrorEvent*) {
+      anyIgnored = true;
+      return 0;
+    });
+}
+
+IgnoredXErrors::~IgnoredXErrors() {
+  if (auto* set = handlerSetter()) set(handlerBefore);
+}
+
+bool IgnoredXErrors::any() const {
+  return anyIgnored;
 }
 
 }  // namespace stadion

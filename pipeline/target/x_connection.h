@@ -20,4 +20,16 @@ void watchXConnection(void* display);
 /// Xlib's handlers do: a room that has lost one screen is not shown any more.
 std::optional<std::string> xConnectionLost();
 
+/// While it lasts, errors that an X server reports are only noted: for requests that may be refused. Wait for
+/// the answer to the last request (XSync) before it ends.
+class IgnoredXErrors {
+public:
+  IgnoredXErrors();
+  ~IgnoredXErrors();
+  IgnoredXErrors(const IgnoredXErrors&) = delete;
+  IgnoredXErrors& operator=(const IgnoredXErrors&) = delete;
+
+  bool any() const;
+};
+
 }  // namespace stadion

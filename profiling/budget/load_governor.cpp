@@ -13,7 +13,7 @@ constexpr double kMuchWorse = 3;               ///< ratio to the last report: su
 constexpr std::uint64_t kFramesUnderWay = 64;  ///< frames that were not shown by then never will be
 constexpr double kLevelSaves = 0.5;  ///< part of the frame's cost that one level is expected to leave
 
-ReliefPolicy policyOf(const NodeTerms& terms, double rate) {
+DegradationPolicy policyOf(const NodeTerms& terms, double rate) {
   return {{terms.budget > 0 ? terms.budget : HUGE_VAL, static_cast<std::uint64_t>(std::ceil(rate))},
           savingsOf(terms.gives)};
 }
@@ -32,16 +32,16 @@ double sumOf(const std::map<std::uint32_t, double>& byWall) {
 
 }  // namespace
 
-std::string nameOfLevel(const std::vector<Concession>& ladder, std::uint32_t level) {
+std::string nameOfLevel(const std::vector<DegradationStep>& ladder, std::uint32_t level) {
   if (level == 0) return "nothing";
-  for (const Concession c : ladder) {
+  for (const DegradationStep c : ladder) {
     if (level > levelsOf(c)) {
       level -= levelsOf(c);
       continue;
     }
-    const std::string word(kConcessionNames[static_cast<std::size_t>(c)]);
-    if (c == Concession::Lod) return fmt::format("{} ({:.3g} times)", word, std::pow(kLodLevel, level));
-    if (c == Concession::Half) return fmt::format("{} (one frame of {})", word, 1U << level);
+    const std::string word(kDegradationNames[static_cast<std::size_t>(c)]);
+    if (c == DegradationStep::Lod) return fmt::format("{} ({:.3g} times)", word, std::pow(kLodLevel, level));
+    if (c == DegradationStep::Half) return fmt::format("{} (one frame of {})", word, 1U << level);
     return word;
   }
   return "nothing";
@@ -176,20 +176,20 @@ void LoadGovernor::judgeFrame(std::uint64_t frame) {
   const double drawn =
       options_.pipelined ? std::max(mostOf(t.cull), mostOf(t.draw)) : sumOf(t.cull) + sumOf(t.draw);
   if (scalable_ && frame >= stressFrom_) stress_.take((options_.pipelined ? drawn : t.app + drawn) / period);
-  for (FrameRelief& relief : frame_) {
-    if (!relief.policy) continue;
-    const bool stressFirst = relief.drawn && scalable_ && !stress_.exhausted();
-    if (stressFirst && relief.policy->wanted() == 0) continue;
-    relief.policy->take(frame, {(relief.app ? t.app : 0) + (relief.drawn ? drawn : 0), 0});
+  for (FrameDegradation& degradation : frame_) {
+    if (!degradation.policy) continue;
+    const bool stressFirst = degradation.drawn && scalable_ && !stress_.exhausted();
+    if (stressFirst && degradation.policy->wanted() == 0) continue;
+    degradation.policy->take(frame, {(degradation.app ? t.app : 0) + (degradation.drawn ? drawn : 0), 0});
   }
   spreadFrameLevels();
 }
 
-std::uint32_t LoadGovernor::FrameRelief::usefulOf(const std::vector<Concession>& gives) const {
+std::uint32_t LoadGovernor::FrameDegradation::usefulOf(const std::vector<DegradationStep>& gives) const {
   std::uint32_t levels = 0, useful = 0;
-  for (const Concession c : gives) {
+  for (const DegradationStep c : gives) {
     levels += levelsOf(c);
-    const bool ofApp = c == Concession::Half || c == Concession::Rest;
+    const bool ofApp = c == DegradationStep::Half || c == DegradationStep::Rest;
     if (ofApp ? app : drawn) useful = levels;
   }
   return useful;
@@ -198,10 +198,10 @@ std::uint32_t LoadGovernor::FrameRelief::usefulOf(const std::vector<Concession>&
 /// Spreads the frame's levels over the ladders of the nodes, the lowest priority first.
 void LoadGovernor::spreadFrameLevels() {
   for (Governed& g : governed_) g.forFrame = 0;
-  for (const FrameRelief& relief : frame_) {
-    std::uint32_t left = relief.policy ? relief.policy->wanted() : 0;
+  for (const FrameDegradation& degradation : frame_) {
+    std::uint32_t left = degradation.policy ? degradation.policy->wanted() : 0;
     for (const std::size_t i : byPriority_) {
-      const std::uint32_t taken = std::min(left, relief.usefulOf(governed_[i].of.terms.gives));
+      const std::uint32_t taken = std::min(left, degradation.usefulOf(governed_[i].of.terms.gives));
       governed_[i].forFrame = std::max(governed_[i].forFrame, taken);
       left -= taken;
     }
@@ -238,7 +238,7 @@ bool LoadGovernor::see(const Scene& scene) {
   for (std::size_t i = 0; i < governed_.size(); ++i)
     if (governed_[i].report.levels > 0) byPriority_.push_back(i);
   std::ranges::stable_sort(byPriority_, {}, [&](std::size_t i) { return governed_[i].of.terms.priority; });
-  for (FrameRelief& relief : frame_) layFrameLadder(relief);
+  for (FrameDegradation& degradation : frame_) layFrameLadder(degradation);
   spreadFrameLevels();
   tellUncounted();
   std::vector<NodeRef> holders;
@@ -263,29 +263,29 @@ void LoadGovernor::tellUncounted() {
 }
 
 /// Builds the ladder from the present nodes. Degradations stay in place if their nodes still exist.
-void LoadGovernor::layFrameLadder(FrameRelief& relief) {
+void LoadGovernor::layFrameLadder(FrameDegradation& degradation) {
   FrameLadder ladder;
   std::map<std::pair<NodeRef, std::uint32_t>, std::uint32_t> levelOf;
   for (const std::size_t i : byPriority_)
-    for (std::uint32_t l = 1; l <= relief.usefulOf(governed_[i].of.terms.gives); ++l) {
+    for (std::uint32_t l = 1; l <= degradation.usefulOf(governed_[i].of.terms.gives); ++l) {
       ladder.push_back({governed_[i].of.node, l});
       levelOf[ladder.back()] = static_cast<std::uint32_t>(ladder.size());
     }
   std::vector<std::uint32_t> becomes{0};
-  for (const auto& step : relief.ladder) {
+  for (const auto& step : degradation.ladder) {
     const auto at = levelOf.find(step);
     becomes.push_back(at == levelOf.end() ? becomes.back() : std::max(becomes.back(), at->second));
   }
-  relief.ladder = std::move(ladder);
-  if (relief.ladder.empty()) return relief.policy.reset();
+  degradation.ladder = std::move(ladder);
+  if (degradation.ladder.empty()) return degradation.policy.reset();
   std::vector<LevelSavings> savings;
-  for (std::size_t l = 0; l <= relief.ladder.size(); ++l)
+  for (std::size_t l = 0; l <= degradation.ladder.size(); ++l)
     savings.push_back({std::pow(kLevelSaves, static_cast<double>(l)), 1, 1});
-  if (relief.policy)
-    relief.policy->relay(std::move(savings), becomes);
+  if (degradation.policy)
+    degradation.policy->relay(std::move(savings), becomes);
   else
-    relief.policy.emplace(
-        ReliefPolicy::Options{1e3 / options_.rate, static_cast<std::uint64_t>(std::ceil(options_.rate))},
+    degradation.policy.emplace(
+        DegradationPolicy::Options{1e3 / options_.rate, static_cast<std::uint64_t>(std::ceil(options_.rate))},
         std::move(savings));
 }
 
@@ -304,7 +304,8 @@ FrameLoad LoadGovernor::decide(std::uint64_t frame) {
         continue;
       }
       g.applied = wanted;
-      const Relief was = reliefAt(g.of.terms.gives, before), is = reliefAt(g.of.terms.gives, wanted);
+      const NodeDegradation was = degradationAt(g.of.terms.gives, before),
+                            is = degradationAt(g.of.terms.gives, wanted);
       if (was.hidden != is.hidden || was.lod != is.lod) costs_.drawnOtherwise(i, frame, is.hidden);
       BudgetReport& r = g.report;
       ++r.changes, r.highest = std::max(r.highest, wanted), r.now = wanted;
@@ -312,8 +313,8 @@ FrameLoad LoadGovernor::decide(std::uint64_t frame) {
     }
     g.policy.applied(frame);
   }
-  for (FrameRelief& relief : frame_)
-    if (relief.policy && all) relief.policy->applied(frame);
+  for (FrameDegradation& degradation : frame_)
+    if (degradation.policy && all) degradation.policy->applied(frame);
   return load;
 }
 
@@ -334,7 +335,7 @@ void LoadGovernor::applyStress(std::uint64_t frame) {
 }
 
 void LoadGovernor::tellChange(const Governed& g, std::uint32_t before, std::uint64_t frame) {
-  const std::vector<Concession>& ladder = g.of.terms.gives;
+  const std::vector<DegradationStep>& ladder = g.of.terms.gives;
   const std::string title = titleOf(g.of.node);
   if (g.applied > before)
     lines_.push_back(

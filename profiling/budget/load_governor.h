@@ -1,7 +1,7 @@
 #pragma once
 /// Measures the cost of a live show's nodes and frames, reports overruns, and decides which nodes degrade.
 ///
-/// Each node with a budget has a degradation ladder of its own (relief_policy.h). The whole show has two
+/// Each node with a budget has a degradation ladder of its own (degradation_policy.h). The whole show has two
 /// means. The first is stress (stress_filter.h). Once stress can do no more, the second is the ladders of all
 /// nodes, one after the other, the lowest priority first. A node applies the higher of its own level and the
 /// frame's level.
@@ -86,7 +86,7 @@ public:
 private:
   struct Governed {
     GovernedNode of;
-    ReliefPolicy policy;
+    DegradationPolicy policy;
     std::uint32_t forFrame = 0;  ///< the level that the whole frame requires
     std::uint32_t applied = 0;
     BudgetReport report;
@@ -110,16 +110,16 @@ private:
   void judgeFrame(std::uint64_t frame);
   using FrameLadder = std::vector<std::pair<NodeRef, std::uint32_t>>;
   /// The levels of all ladders together, one after the other, for the frame.
-  struct FrameRelief {
-    bool app = false, drawn = false;     ///< stages that take too long: App, or Cull and Draw
-    std::optional<ReliefPolicy> policy;  ///< nothing: no node can degrade
-    FrameLadder ladder;                  ///< for each of its levels, from 1 on: the node and the level of
-                                         ///< that node's ladder
+  struct FrameDegradation {
+    bool app = false, drawn = false;          ///< stages that take too long: App, or Cull and Draw
+    std::optional<DegradationPolicy> policy;  ///< nothing: no node can degrade
+    FrameLadder ladder;  ///< for each of its levels, from 1 on: the node and the level of
+                         ///< that node's ladder
     /// Returns how many levels of a ladder shorten that, with the levels before them.
-    std::uint32_t usefulOf(const std::vector<Concession>& gives) const;
+    std::uint32_t usefulOf(const std::vector<DegradationStep>& gives) const;
   };
   void spreadFrameLevels();
-  void layFrameLadder(FrameRelief& relief);
+  void layFrameLadder(FrameDegradation& degradation);
   void tellUncounted();
   void noteOverrun(Governed& g, std::uint64_t frame, const NodeCost& cost);
   void applyStress(std::uint64_t frame);
@@ -133,7 +133,7 @@ private:
   NodeCosts costs_;
   std::vector<Governed> governed_;
   std::vector<std::size_t> byPriority_;  ///< nodes that can degrade, the lowest priority first
-  std::vector<FrameRelief> frame_;       ///< pipelined: for App, for Cull and Draw; else one for all
+  std::vector<FrameDegradation> frame_;  ///< pipelined: for App, for Cull and Draw; else one for all
   std::uint64_t sampledUntil_ = 0;       ///< frames before it include the cost of sampling
   StressFilter stress_;
   std::uint32_t stressApplied_ = 0, highestStress_ = 0;
@@ -152,6 +152,6 @@ private:
 };
 
 /// Returns a name such as "half (every 4th frame)", "lod (1.5 times)": the step from the level below.
-std::string nameOfLevel(const std::vector<Concession>& ladder, std::uint32_t level);
+std::string nameOfLevel(const std::vector<DegradationStep>& ladder, std::uint32_t level);
 
 }  // namespace stadion

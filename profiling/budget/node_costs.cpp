@@ -25,7 +25,7 @@ std::pair<std::vector<GovernedNode>, std::map<NodeRef, std::vector<std::size_t>>
 governedNodes(const Scene& scene) {
   std::vector<GovernedNode> nodes;
   std::map<NodeRef, std::size_t> places;
-  scene.tree().forEachLoad([&](const Load& load) {
+  scene.tree().forEachLoad([&](const LoadedScene& load) {
     for (const auto& [position, terms] : load.terms) {
       places[{load.number, position}] = nodes.size();
       nodes.push_back({{load.number, position}, terms, mayBeDrawn(load.nodes[position].get())});
@@ -33,7 +33,7 @@ governedNodes(const Scene& scene) {
   });
   std::map<NodeRef, std::vector<std::size_t>> above;
   if (nodes.empty()) return {nodes, above};
-  scene.tree().forEachLoad([&](const Load& load) {
+  scene.tree().forEachLoad([&](const LoadedScene& load) {
     for (std::uint32_t i = 0; i < load.nodes.size(); ++i)
       for (NodeRef at{load.number, i}; at.valid(); at = scene.tree().parentOf(at))
         if (const auto place = places.find(at); place != places.end())
@@ -50,7 +50,7 @@ bool hasLevels(const Scene& scene) {
     const Mesh* mesh = object ? scene.instances().mesh(object->appearance().mesh) : nullptr;
     any |= node->kind() == "lod" || (mesh && !mesh->levels.empty());
   };
-  scene.tree().forEachLoad([&](const Load& load) {
+  scene.tree().forEachLoad([&](const LoadedScene& load) {
     for (const auto& node : load.nodes) look(node.get());
     for (const InstanceRecord& r : load.chunkRecords) any |= r.lodFactor > 0;
   });

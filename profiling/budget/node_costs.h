@@ -9,7 +9,7 @@
 /// Threads  the log's thread, except see(), which is App's; the owner locks names and terms.
 
 #include "engine/scene/scene.h"
-#include "profiling/budget/relief_policy.h"
+#include "profiling/budget/degradation_policy.h"
 #include "profiling/record/frame_log.h"
 
 #include <map>

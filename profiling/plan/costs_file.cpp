@@ -12,7 +12,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr const char* kFormat = "stadion-plan-costs 1";
+constexpr const char* kCostsFormat = "stadion-plan-costs 1";
 constexpr double kLongest = 1e7;  ///< [ms]
 constexpr std::size_t kMostWalls = WallFile::kMaxWalls, kMostPictures = 8;
 
@@ -68,12 +68,15 @@ bool costsNothing(const FrameCost& f) {
 
 ShowCosts costsOf(const Json& whole) {
   const Json& j = whole.is_object() && whole.contains("costs") ? whole.at("costs") : whole;
-  if (member(j, "format") != kFormat) throw Wrong{fmt::format("its format is not \"{}\"", kFormat)};
+  if (member(j, "format") != kCostsFormat) throw Wrong{fmt::format("its format is not \"{}\"", kCostsFormat)};
   ShowCosts costs;
   costs.show = member(j, "show").get<std::string>(), costs.size = member(j, "size").get<std::string>();
   costs.look = j.value("look", costs.look);
   if (costs.look != "full" && costs.look != "plain")
     throw Wrong{fmt::format("\"look\" is \"{}\", neither full nor plain", costs.look)};
+  costs.renderer = j.value("renderer", costs.renderer);
+  if (costs.renderer != "cpu" && costs.renderer != "gl")
+    throw Wrong{fmt::format("\"renderer\" is \"{}\", neither cpu nor gl", costs.renderer)};
   costs.eyes = static_cast<std::size_t>(number(member(j, "eyes"), "eyes", 1, 2));
   costs.walls = member(j, "walls").get<std::vector<std::string>>();
   costs.cores = number(member(j, "cores"), "cores", 1, 4096);
@@ -93,13 +96,14 @@ double rounded(double ms) {
 }  // namespace
 
 std::string toJson(const ShowCosts& costs) {
-  Json j{{"format", kFormat},
+  Json j{{"format", kCostsFormat},
          {"show", costs.show},
          {"size", costs.size},
          {"look", costs.look},
          {"eyes", costs.eyes},
          {"walls", costs.walls},
          {"cores", costs.cores},
+         {"renderer", costs.renderer},
          {"raster_threads", costs.rasterThreads},
          {"waits_in_turn", costs.waitsInTurn}};
   j["frames"] = Json::array();

@@ -8,7 +8,8 @@
 ///
 /// Costs are milliseconds of processor time. A picture has three numbers: the time of its calls in the
 /// drawing thread, the time of its rasterising in all threads of the rasteriser together, and how many of
-/// these work at a time.
+/// these work at a time. With the CPU renderer ("renderer": "cpu") these are the time of the drawing thread, that of
+/// the renderer's threads together, and how many of those work at a time.
 ///
 /// Threads  plain values, any thread.
 /// Errors   a message that says what is wrong and where.
@@ -20,7 +21,8 @@ namespace stadion::plan {
 
 struct ShowCosts {
   std::string show, size;
-  std::string look = "full";  ///< or "plain"; a file without it was measured in the full look
+  std::string look = "full";    ///< or "plain"; a file without it was measured in the full look
+  std::string renderer = "gl";  ///< or "cpu"; a file without it was measured with OpenGL
   std::size_t eyes = 2;
   std::vector<std::string> walls;  ///< names
   double cores = 1;                ///< of the machine where it was measured

@@ -70,11 +70,11 @@ std::string costsText(const ShowCosts& costs) {
   const FrameCost mean = meanOf(costs);
   std::string text = fmt::format(
       "{}, {} a picture, {} a wall, {} look: {} frames measured on {:g} cores, {:g} threads of the "
-      "rasteriser\n\n"
+      "{}\n\n"
       "ms of processor time a frame: App {:.3f}{}, swap {:.3f}\n"
       "    cull   draw: calls  rasterising  threads at a time  wall\n",
       shown(costs.show), shown(costs.size), costs.eyes == 2 ? "two" : "one", costs.look, costs.frames.size(),
-      costs.cores, costs.rasterThreads, mean.app,
+      costs.cores, costs.rasterThreads, costs.renderer == "cpu" ? "CPU renderer" : "rasteriser", mean.app,
       mean.appHelpers > 0.01 ? fmt::format(" and {:.3f} of its helpers", mean.appHelpers) : "", mean.swap);
   for (std::size_t w = 0; w < costs.walls.size(); ++w) {
     const WallCost& wall = mean.walls[w];
@@ -140,7 +140,7 @@ Json planJson(const Plan& p) {
 }  // namespace
 
 Machine machineWith(double cores, const ShowCosts& costs) {
-  const double threads = std::min(cores, kMostRasterThreads);
+  const double threads = costs.renderer == "cpu" ? cores : std::min(cores, kMostRasterThreads);
   return {cores, threads / costs.rasterThreads};
 }
 

@@ -177,8 +177,10 @@ private:
       my.handed.pop_front();
 
       double begin = simulation_.now();
-      co_await simulation_.until([&rasteriser] { return !rasteriser.taken; });
-      rasteriser.taken = true;
+      if (plan_.takesTurns) {
+        co_await simulation_.until([&rasteriser] { return !rasteriser.taken; });
+        rasteriser.taken = true;
+      }
       note(row, Doing::ForTurn, ticket.frame, begin);
       begin = simulation_.now();
       for (const PictureCost& picture : costOf(ticket.frame, wall).pictures) {

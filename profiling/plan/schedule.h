@@ -5,7 +5,8 @@
 /// of the stages. There is one thread for App and, for each wall, one for Cull and one for Draw, or one
 /// thread for all. There are three slots of scene state and two draw lists a wall; all walls swap together.
 /// The software rasteriser is modelled, too: walls take turns with their calls, and threads of its own
-/// rasterise one picture after the other. A wall keeps its turn until its picture is done.
+/// rasterise one picture after the other. A wall keeps its turn until its picture is done. Walls of the CPU
+/// renderer take no turns, and its threads draw one wall after the other.
 ///
 /// Units    milliseconds of processor time and of time.
 /// Threads  plain values.
@@ -53,6 +54,7 @@ struct Plan {
   Machine machine;
   std::size_t machines = 1;     ///< equal machines, each with an App of its own; all walls swap together
   std::size_t rasterisers = 1;  ///< on each machine; more than one: walls are processes
+  bool takesTurns = true;       ///< walls of a rasteriser, with their calls: those of OpenGL do
   bool waitsInTurn = true;      ///< for each picture, as llvmpipe does; else for all of them, afterwards
   Pacing pacing = Pacing::Free;
   double rate = 60;     ///< [1/s], unless free

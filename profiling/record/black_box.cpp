@@ -18,7 +18,7 @@ namespace {
 
 constexpr char kMagic[16] = "stadion frames5";
 constexpr std::string_view kAnyVersion = "stadion frames";
-constexpr std::size_t kMostWalls = 1024;  ///< that a file holds
+constexpr std::size_t kMostRecordedWalls = 1024;  ///< that a file holds
 constexpr std::size_t kNameBytes = 32;
 
 Diagnostic problem(const std::string& file, const std::string& what) {
@@ -184,7 +184,7 @@ Result<BlackBox::Place> BlackBox::open(const std::string& name, std::size_t wall
 }
 
 Result<std::unique_ptr<BlackBox>> BlackBox::create(BlackBoxOptions options, const NodeNames& names) {
-  auto place = open(options.file, std::min(options.walls.size(), kMostWalls));
+  auto place = open(options.file, std::min(options.walls.size(), kMostRecordedWalls));
   if (!place) return place.error();
   Ring* ring = place.value().ring;
   for (std::size_t i = 0; i < ring->walls; ++i) {
@@ -233,7 +233,7 @@ std::uint64_t BlackBox::late() const {
 }
 
 Result<BlackBox::Content> BlackBox::read(const std::string& file) {
-  auto bytes = readPlainFile(file, Ring::bytes(kMostWalls));
+  auto bytes = readPlainFile(file, Ring::bytes(kMostRecordedWalls));
   if (!bytes) return bytes.error();
   const std::size_t size = bytes.value().size();
   const bool ours = size >= sizeof(Ring) && std::memcmp(bytes.value().data(), kMagic, sizeof kMagic) == 0;
@@ -243,7 +243,7 @@ Result<BlackBox::Content> BlackBox::read(const std::string& file) {
     return problem(file, "holds no frames that this version of stadion kept; run and view write such a file "
                          "while they play live");
   const auto damaged = [&] { return problem(file, "is damaged: what it holds cannot be frames of a show"); };
-  if (ring->walls > kMostWalls || size != Ring::bytes(ring->walls)) return damaged();
+  if (ring->walls > kMostRecordedWalls || size != Ring::bytes(ring->walls)) return damaged();
   Content content;
   for (std::size_t i = 0; i < ring->walls; ++i) {
     Ring::Name name;

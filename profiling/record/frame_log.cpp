@@ -307,6 +307,13 @@ std::optional<std::size_t> firstEnded(const std::vector<SpanTrack*>& tracks) {
 
 }  // namespace
 
+/// Tells the readers that take the frame.
+template <class... What>
+void FrameLog::tell(std::uint64_t frame, const What&... what) {
+  for (SpanReader* reader : readers_)
+    if (frame >= options_.from || reader->takesFirstFrames()) reader->take(what...);
+}
+
 void FrameLog::collect() {
   std::vector<SpanTrack*> tracks;
   std::vector<SharedSpan> shared;
@@ -318,15 +325,10 @@ void FrameLog::collect() {
   }
   SpanRecord record;
   while (const auto first = firstEnded(tracks))
-    if (tracks[*first]->spans().take(record) && record.frame >= options_.from)
-      for (SpanReader* reader : readers_) reader->take(*first, record);
+    if (tracks[*first]->spans().take(record)) tell(record.frame, *first, record);
   for (SpanTrack* t : tracks)
-    for (CountRecord c; t->counts().take(c);)
-      if (c.frame >= options_.from)
-        for (SpanReader* reader : readers_) reader->take(c);
-  for (ShortVisits s; shortVisits_.take(s);)
-    if (s.frame >= options_.from)
-      for (SpanReader* reader : readers_) reader->take(s);
+    for (CountRecord c; t->counts().take(c);) tell(c.frame, c);
+  for (ShortVisits s; shortVisits_.take(s);) tell(s.frame, s);
   for (const SharedSpan& s : shared)
     for (SpanReader* reader : readers_) reader->take(s);
   for (const Alone& a : alone)

@@ -61,6 +61,8 @@ public:
   virtual void take(const ShortVisits&) {}
   virtual void take(const SharedSpan&) {}
   virtual void take(const DrawnAlone&, const std::vector<NodeShare>&) {}
+  /// True if the reader also takes the frames before FrameLogOptions::from.
+  virtual bool takesFirstFrames() const { return false; }
   /// Called when all present records have been passed on.
   virtual void caughtUp() {}
 };
@@ -70,7 +72,7 @@ struct FrameLogOptions {
   bool shares = false;  ///< shares even without drawing
   bool whole = true;    ///< of drawing: also the totals to be explained
   std::uint64_t sampleEvery = 16;
-  std::uint64_t from = 4;  ///< first frame to be recorded: first use of data is slow
+  std::uint64_t from = 4;  ///< first frame for readers of costs: first use of data is slow
 };
 
 class FrameLog final : public FrameProbe {
@@ -128,6 +130,8 @@ private:
   void tellShortVisits();
   std::uint64_t sampleEvery(std::uint32_t wall) const;
   void collect();
+  template <class... What>
+  void tell(std::uint64_t frame, const What&... what);
   void collectSafely() noexcept;
 
   std::vector<SpanReader*> readers_;

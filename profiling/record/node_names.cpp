@@ -15,17 +15,17 @@ void NodeNames::see(const Scene& scene) {
   seen_ = scene.tree().version();
   const std::lock_guard lock(mutex_);
   std::set<std::uint32_t> there;
-  scene.tree().forEachLoad([&](const Load& load) { there.insert(load.number); });
+  scene.tree().forEachLoad([&](const LoadedScene& load) { there.insert(load.number); });
   for (auto& [number, file] : files_) file.there = there.contains(number);
   for (const auto& [number, first] : again_)
     if (there.contains(number)) files_[first].there = true;
-  scene.tree().forEachLoad([&](const Load& load) {
+  scene.tree().forEachLoad([&](const LoadedScene& load) {
     if (!fileOf(load.number)) add(scene, load);
   });
   forgetGone(there);
 }
 
-NodeNames::File NodeNames::read(const Scene& scene, const Load& load) {
+NodeNames::File NodeNames::read(const Scene& scene, const LoadedScene& load) {
   File file;
   file.name = load.file, file.owner = load.owner;
   file.nodes.resize(load.nodes.size());
@@ -41,7 +41,7 @@ NodeNames::File NodeNames::read(const Scene& scene, const Load& load) {
   return file;
 }
 
-void NodeNames::add(const Scene& scene, const Load& load) {
+void NodeNames::add(const Scene& scene, const LoadedScene& load) {
   File file = read(scene, load);
   const auto asFirst = [&](NodeRef& ref, std::uint32_t first) {
     if (ref.load == load.number)

@@ -44,8 +44,8 @@ private:
     bool there = true;
   };
 
-  static File read(const Scene& scene, const Load& load);
-  void add(const Scene& scene, const Load& load);
+  static File read(const Scene& scene, const LoadedScene& load);
+  void add(const Scene& scene, const LoadedScene& load);
   void forgetGone(const std::set<std::uint32_t>& there);
   /// Returns the file with that load's nodes; null if it is unknown.
   const File* fileOf(std::uint32_t load) const;

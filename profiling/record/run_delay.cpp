@@ -32,7 +32,7 @@ RunDelay::~RunDelay() {
     if (file >= 0) close(file);
 }
 
-/// Mesa names its threads llvmpipe-0, llvmpipe-1 and so on.
+/// Mesa names its threads llvmpipe-0, llvmpipe-1 and so on, the CPU renderer draw-pool-1 and so on.
 void RunDelay::findRasteriser() {
   for (std::size_t i = 1; i < files_.size(); ++i)
     if (files_[i] >= 0) close(files_[i]);
@@ -41,7 +41,7 @@ void RunDelay::findRasteriser() {
     const std::string thread = "/proc/self/task/" + number;
     std::ifstream in(thread + "/comm");
     std::string name;
-    if (std::getline(in, name) && name.starts_with("llvmpipe-"))
+    if (std::getline(in, name) && (name.starts_with("llvmpipe-") || name.starts_with("draw-pool-")))
       files_.push_back(open((thread + "/schedstat").c_str(), O_RDONLY | O_CLOEXEC));
   }
 }

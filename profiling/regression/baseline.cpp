@@ -69,6 +69,9 @@ BaselineCase caseOf(const Json& j) {
   j.at("images").get_to(c.facts.images);
   j.at("counts").get_to(c.facts.counts);
   c.states = j.value("states", "");
+  if (j.contains("fields"))
+    for (const auto& [frame, text] : j.at("fields").items())
+      c.fields[std::strtoull(frame.c_str(), nullptr, 10)] = text.get<std::string>();
   if (j.contains("times")) j.at("times").get_to(c.times);
   if (j.contains("frames"))
     for (const auto& [stage, clocks] : j.at("frames").items())
@@ -86,6 +89,7 @@ Json jsonOf(const BaselineCase& c) {
          {"images", c.facts.images},
          {"counts", c.facts.counts}};
   if (!c.states.empty()) j["states"] = c.states;
+  for (const auto& [frame, text] : c.fields) j["fields"][std::to_string(frame)] = text;
   if (!c.times.empty()) j["times"] = c.times;
   for (const auto& [stage, clocks] : c.frames)
     for (const auto& [clock, kept] : clocks) j["frames"][stage][clock] = jsonOf(kept);

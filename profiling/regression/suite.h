@@ -52,8 +52,9 @@ struct SuiteCase {
   std::string size;           ///< "WxH"; empty: as the wall file says
   std::vector<std::string> modes{"sequential"};
   std::vector<std::string> assetRoots;
-  double rate = 0;           ///< [1/s]; 0: the show's
-  std::uint64_t frames = 0;  ///< 0: to the end of the input log
+  std::vector<std::string> renderer{};  ///< words of the command line; empty: the program chooses what draws
+  double rate = 0;                      ///< [1/s]; 0: the show's
+  std::uint64_t frames = 0;             ///< 0: to the end of the input log
   Metrics metrics;
   Tolerances tolerances;
   std::uint64_t rounds = 12;  ///< of times, at least 12: with fewer, chance cannot be excluded

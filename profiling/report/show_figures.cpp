@@ -332,6 +332,7 @@ private:
 
 std::string drawMethod(std::string_view gl) {
   if (gl.empty()) return {};
+  if (drawnByCpuRenderer(gl)) return "processor time of one thread, each batch drawn once more, alone";
   if (!drawnBySoftware(gl)) return "OpenGL timer queries, each batch alone";
   return "processor time of the drawing thread and the rasteriser's, each batch alone, " +
          rasteriserThreadsText();
@@ -341,6 +342,10 @@ std::string drawMethod(std::string_view gl) {
 
 bool drawnBySoftware(std::string_view gl) {
   return gl.find("llvmpipe") != std::string_view::npos || gl.find("softpipe") != std::string_view::npos;
+}
+
+bool drawnByCpuRenderer(std::string_view renderer) {
+  return renderer.starts_with("CPU renderer");
 }
 
 std::string rasteriserThreadsText() {

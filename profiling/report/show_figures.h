@@ -98,6 +98,9 @@ struct ShowFigures {
 /// time. Mesa's EGL may, too.
 bool drawnBySoftware(std::string_view gl);
 
+/// Returns true if this renderer, by its description, draws without OpenGL.
+bool drawnByCpuRenderer(std::string_view renderer);
+
 /// Returns "LP_NUM_THREADS=2": the setting of llvmpipe's drawing threads.
 std::string rasteriserThreadsText();
 

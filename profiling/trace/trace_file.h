@@ -41,6 +41,7 @@ public:
   using SpanReader::take;
   void take(std::size_t track, const SpanRecord& record) override;
   void take(const CountRecord& count) override;
+  bool takesFirstFrames() const override { return true; }
 
   /// Returns why there will be no file, such as a missing folder.
   const std::optional<Diagnostic>& error() const { return file_.error(); }

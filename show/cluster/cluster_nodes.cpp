@@ -129,9 +129,8 @@ void ClusterNodes::ended(Node& node, int status) {
   if (deaths >= kMostDeaths)
     return sayOf(node, fmt::format("{}, {} times in a row, and is given up", how, deaths));
   node.state = State::Pauses;
-  sayOf(node,
-        how + (deaths == 1 ? " and begins again"
-                           : fmt::format(", {} times in a row, and begins again after a pause", deaths)));
+  sayOf(node, how + (deaths == 1 ? " and restarts"
+                                 : fmt::format(", {} times in a row, and restarts after a pause", deaths)));
 }
 
 /// The show has come to its end, and this node, which went on or still waited, had to be asked to end.

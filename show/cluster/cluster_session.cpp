@@ -37,22 +37,23 @@ std::uint64_t hashOfFile(const std::string& file) {
 }
 
 /// (Files that scripts name are found out by the scenes' digests.)
-cluster::CompatibilityKey termsOf(const ShowOptions& show, StereoLayout layout, const ClusterFile& file) {
+cluster::CompatibilityKey compatibilityKeyOf(const ShowOptions& show, StereoLayout layout,
+                                             const ClusterFile& file) {
   const std::string log = inputLogOf(show.script, show.input);
-  cluster::CompatibilityKey terms;
-  terms.script = hashOfFile(show.script);
-  terms.input = log.empty() ? 0 : hashOfFile(log);
-  terms.cluster = cluster::hashOf(file), terms.walls = hashOfFile(wallFileOf(file.walls));
-  terms.pictures = fmt::format("--look {} --stereo {}{}{}", show.look, stereoLayoutName(layout),
-                               show.size.empty() ? "" : " --size ", show.size);
+  cluster::CompatibilityKey key;
+  key.script = hashOfFile(show.script);
+  key.input = log.empty() ? 0 : hashOfFile(log);
+  key.cluster = cluster::hashOf(file), key.walls = hashOfFile(wallFileOf(file.walls));
+  key.pictures = fmt::format("--look {} --stereo {}{}{}", show.look, stereoLayoutName(layout),
+                             show.size.empty() ? "" : " --size ", show.size);
   constexpr std::size_t kMostPlugins = 250;  // bytes; with many plugins, a hash stands for them
-  terms.plugins = show.types->pluginsInWords();
-  if (terms.plugins.size() > kMostPlugins) {
+  key.plugins = show.types->pluginsInWords();
+  if (key.plugins.size() > kMostPlugins) {
     StateHash hash;
-    hash.add(std::string_view(terms.plugins));
-    terms.plugins = fmt::format("{} in number ({:016x})", show.types->plugins().size(), hash.value());
+    hash.add(std::string_view(key.plugins));
+    key.plugins = fmt::format("{} in number ({:016x})", show.types->plugins().size(), hash.value());
   }
-  return terms;
+  return key;
 }
 
 }  // namespace
@@ -93,7 +94,7 @@ void ClusterSession::tell(const std::string& what) {
 
 // What the terms are is looked up each time: a script may have been saved since the show before.
 bool ClusterSession::openLead(Diagnostics& findings) {
-  cluster::LeaderOptions options{file_, termsOf(show_, layout_, file_), kPatience,
+  cluster::LeaderOptions options{file_, compatibilityKeyOf(show_, layout_, file_), kPatience,
                                  [this](const std::string& what) { tell(what); }, isGivenUp};
   if (lead_) options.above = lead_->session(), options.expected = lead_->played();
   lead_.reset();
@@ -122,7 +123,7 @@ bool ClusterSession::follow(ShowOptions& show, Diagnostics& findings) {
   if (over_) return false;
   const std::uint64_t played = follower_ ? follower_->session() : 0;
   follower_.reset();
-  auto opened = cluster::Follower::open({file_, node_, termsOf(show_, layout_, file_),
+  auto opened = cluster::Follower::open({file_, node_, compatibilityKeyOf(show_, layout_, file_),
                                          [this](const std::string& what) { tell(what); }, isGivenUp,
                                          [] { return stopSignal() != 0; }, std::move(kept_), played});
   if (!opened) return findings.add(opened.error()), false;
@@ -148,9 +149,9 @@ void ClusterSession::refuseFiles(Diagnostics& findings) {
           file_.nodes[file_.lead].name));
 }
 
-bool ClusterSession::beginAnew(const Diagnostics& found, Diagnostics& findings) {
+bool ClusterSession::restartShow(const Diagnostics& found, Diagnostics& findings) {
   const auto why = std::ranges::find(found.all(), Severity::Error, &Diagnostic::severity);
-  tell("the scripts or models of the show that the others play are others than ours: it begins anew" +
+  tell("the scripts or models of the others' show differ from ours: the show restarts" +
        (why == found.all().end() ? "" : " (" + why->message + ")"));
   after_.reset(), operator_.reset(), goesOn_ = false;
   return openLead(findings);
@@ -191,10 +192,10 @@ ClusterSession::differenceTo(const cluster::SavedScene& there) const {
   return cluster::Follower::Differs{std::move(d->where), std::move(d->here), std::move(d->there)};
 }
 
-void ClusterSession::addTo(FrameLoopOptions& loop, OperatorConsole& desk) {
+void ClusterSession::addTo(FrameLoopOptions& loop, OperatorConsole& console) {
   loop.orders = lead_ ? static_cast<FrameOrders*>(lead_.get()) : follower_.get();
   loop.after = after_;
-  if (const auto decided = std::exchange(operator_, {})) desk.resume(*decided);
+  if (const auto decided = std::exchange(operator_, {})) console.resume(*decided);
 }
 
 InputDevice* ClusterSession::inputOf(Player& player) {
@@ -236,7 +237,7 @@ void ClusterSession::finish(bool over) {
 }
 
 ClusterSummary ClusterSession::summary() const {
-  const cluster::ClusterStats t = lead_ ? lead_->tally() : follower_->tally();
+  const cluster::ClusterStats t = lead_ ? lead_->stats() : follower_->stats();
   ClusterSummary s;
   s.node = file_.nodes[node_].name, s.nodes = file_.nodes.size(), s.leads = leads();
   s.orders = t.orders;

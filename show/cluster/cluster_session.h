@@ -46,7 +46,7 @@ public:
   void refuseFiles(Diagnostics& findings);
   /// The same for the leader: the show restarts for all machines, with the files of this one. `found`: the
   /// reason. False, with findings: there is no network.
-  bool beginAnew(const Diagnostics& found, Diagnostics& findings);
+  bool restartShow(const Diagnostics& found, Diagnostics& findings);
   /// The show has been opened. The leader waits for the followers, until the operator hurries. `takeKeys`
   /// brings keys of windows into `asked`; it returns false if a window was lost. False, with findings: there
   /// is no network; without: a window was lost.
@@ -54,12 +54,12 @@ public:
              Diagnostics& findings);
   /// Adds the orders of the other machines, and the operator's decisions about a show that goes on. After
   /// begin().
-  void addTo(FrameLoopOptions& loop, OperatorConsole& desk);
+  void addTo(FrameLoopOptions& loop, OperatorConsole& console);
   /// What the show's parts sample: the same on all machines. After begin().
   InputDevice* inputOf(Player& player);
   void simulated(const TimeSignature& now);
   /// The run has ended because no order came, and the show is to be joined again.
-  bool isToJoinAgain() const { return follower_ && follower_->isToJoinAgain(); }
+  bool mustRejoin() const { return follower_ && follower_->mustRejoin(); }
   /// Another program already plays this node; it was reported, and this program is to end.
   bool hasDouble() const;
   /// join() has failed because the leader has ended the show.
@@ -100,7 +100,7 @@ private:
   TimeSignature last_;                     ///< simulated
   std::unique_ptr<cluster::ClusterLeader> lead_;
   std::unique_ptr<cluster::Follower> follower_;
-  std::shared_ptr<const cluster::KeptScene> kept_;  ///< of the show that the follower before played
+  std::shared_ptr<const cluster::SavedScene> kept_;  ///< of the show that the follower before played
 };
 
 }  // namespace stadion

@@ -23,19 +23,19 @@ double seconds(std::chrono::steady_clock::duration d) {
 
 std::unique_ptr<OperatorConsole> OperatorConsole::open(const Settings& settings, Reporter& reporter,
                                                        Diagnostics& findings) {
-  std::unique_ptr<OperatorConsole> desk(new OperatorConsole(settings, reporter));
-  if (settings.console.trackers.device.empty() || settings.console.elsewhere) return desk;
-  desk->trackers_ = TrackerDevice::open(settings.console.trackers, reporter.sayFunction(), findings);
-  if (!desk->trackers_) return nullptr;
-  desk->say("trackers: " + desk->trackers_->description());
-  return desk;
+  std::unique_ptr<OperatorConsole> opened(new OperatorConsole(settings, reporter));
+  if (settings.console.trackers.device.empty() || settings.console.elsewhere) return opened;
+  opened->trackers_ = TrackerDevice::open(settings.console.trackers, reporter.sayFunction(), findings);
+  if (!opened->trackers_) return nullptr;
+  opened->say("trackers: " + opened->trackers_->description());
+  return opened;
 }
 
 OperatorConsole::~OperatorConsole() = default;
 
 bool OperatorConsole::begin(const Player& player, Diagnostics& findings) {
   const auto& [show, play, console] = settings_;
-  desk_ = std::make_unique<OperatorDesk>(console.wait, player.walls().eyeSeparation);
+  controls_ = std::make_unique<OperatorControls>(console.wait, player.walls().eyeSeparation);
   const FrameLoopOptions loop = play.loopOptions(player);
   live_ = play.windows || loop.delivery == Delivery::Latest;
   // A show that plays faster than the clock has no sound.
@@ -46,13 +46,13 @@ bool OperatorConsole::begin(const Player& player, Diagnostics& findings) {
   }
   if (!live_ || console.elsewhere) return true;
   if (console.oscPort >= 0) {
-    auto osc = OscOperator::open(static_cast<std::uint16_t>(console.oscPort), desk_->queue(),
+    auto osc = OscOperator::open(static_cast<std::uint16_t>(console.oscPort), controls_->queue(),
                                  reporter_.sayFunction());
     if (!osc) return findings.error({}, "--osc: " + osc.error().message), false;
     osc_ = std::move(osc.value());
     say(fmt::format("operator: OSC on UDP port {}", osc_->port()));
   }
-  keys_ = OperatorKeys::open(STDIN_FILENO, desk_->queue(), reporter_.hintFunction());
+  keys_ = OperatorKeys::open(STDIN_FILENO, controls_->queue(), reporter_.hintFunction());
   const bool hasWindows = play.windows || play.display;
   if (console.wait && !keys_ && !osc_ && !hasWindows)
     return findings.error({}, "--wait: start could not be given: there is no terminal and no --osc PORT"),
@@ -63,22 +63,23 @@ bool OperatorConsole::begin(const Player& player, Diagnostics& findings) {
 
 void OperatorConsole::beginGroup(Player& player, RunWatch& watch) {
   ready_ = Clock::now();
-  if (std::exchange(groupIsNew_, false)) desk_->awaitPicture();
+  if (std::exchange(groupIsNew_, false)) controls_->awaitPicture();
   if (trackers_) player.takeInputFrom(trackers_->trackers());
   visitorIsLive_ = player.inputIsLive();
-  desk_->obey(player.decisions().orders);
-  desk_->told = [this, &watch](std::uint64_t frame, const OperatorCommand& command) {
+  controls_->obey(player.decisions().orders);
+  controls_->told = [this, &watch](std::uint64_t frame, const OperatorCommand& command) {
     tell(command, watch.time());
     if (isOfPresentation(command.action)) writeDown(frame, command, watch);
-    if (changed) changed(desk_->state());
+    if (changed) changed(controls_->state());
   };
   // What stands already stands from the first frame on.
-  const Presentation& shown = desk_->state().shown;
+  const Presentation& shown = controls_->state().shown;
   if (shown.black) watch.order(0, {OperatorAction::Black, 1, false});
   if (shown.swapEyes) watch.order(0, {OperatorAction::SwapEyes, 1, false});
   if (shown.eyeSeparation >= 0) watch.order(0, {OperatorAction::EyeSeparation, shown.eyeSeparation, false});
-  if (desk_->state().volume != 1) watch.order(0, {OperatorAction::Volume, desk_->state().volume, false});
-  if (desk_->state().waiting) say("waiting for start");
+  if (controls_->state().volume != 1)
+    watch.order(0, {OperatorAction::Volume, controls_->state().volume, false});
+  if (controls_->state().waiting) say("waiting for start");
 }
 
 void OperatorConsole::resume(const OperatorState& decided) {
@@ -94,7 +95,7 @@ void OperatorConsole::resume(const OperatorState& decided) {
 
 // What came of it, whatever it was before.
 void OperatorConsole::writeDown(std::uint64_t frame, const OperatorCommand& command, RunWatch& watch) const {
-  const OperatorState& s = desk_->state();
+  const OperatorState& s = controls_->state();
   const double value = command.action == OperatorAction::Black      ? s.shown.black
                        : command.action == OperatorAction::SwapEyes ? s.shown.swapEyes
                        : command.action == OperatorAction::Volume   ? s.volume
@@ -103,7 +104,7 @@ void OperatorConsole::writeDown(std::uint64_t frame, const OperatorCommand& comm
 }
 
 void OperatorConsole::pictureSeen() {
-  if (!desk_->pictureSeen()) return;
+  if (!controls_->pictureSeen()) return;
   say(fmt::format("group {} begins: reset in {:.2f} s, first picture after {:.2f} s; up {}", groups(),
                   seconds(ready_ - asked_), seconds(Clock::now() - asked_), clockText(uptime())));
 }
@@ -114,9 +115,9 @@ void OperatorConsole::endGroup(const RunWatch& watch) {
   for (const MeasuredDistance& m : watch.measured())
     told += fmt::format("{}{} {:.3f} m", std::exchange(before, ", "), m.node, m.metres);
   say(told);
-  asked_ = desk_->queue().nextGroupAsked();
+  asked_ = controls_->queue().nextGroupAsked();
   groupIsNew_ = true;
-  desk_->beginGroup();
+  controls_->beginGroup();
   if (trackers_) trackers_->trackers().restart();
   silence();
 }
@@ -129,7 +130,7 @@ void OperatorConsole::silence() {
 }
 
 std::string OperatorConsole::fileOfGroup(const std::string& file) const {
-  if (file.empty() || !desk_ || groups() == 1) return file;
+  if (file.empty() || !controls_ || groups() == 1) return file;
   std::filesystem::path path = file;
   const std::string ending = path.extension();
   return path.replace_extension().string() + fmt::format("-{}", groups()) + ending;
@@ -138,11 +139,11 @@ std::string OperatorConsole::fileOfGroup(const std::string& file) const {
 void OperatorConsole::addTo(ShowParts& parts, FrameLoopOptions& loop) {
   parts.sounds = sounds_.get();
   parts.tell = reporter_.sayFunction();
-  parts.desk = loop.desk = desk_.get();
-  loop.playback = &desk_->playback();
-  desk_->startWith(loop.latency);
-  parts.giveUp = [desk = desk_.get(), before = std::move(parts.giveUp)] {
-    return desk->leaving() || (before && before());
+  parts.controls = loop.controls = controls_.get();
+  loop.playback = &controls_->playback();
+  controls_->startWith(loop.latency);
+  parts.giveUp = [controls = controls_.get(), before = std::move(parts.giveUp)] {
+    return controls->leaving() || (before && before());
   };
 }
 
@@ -151,8 +152,8 @@ double OperatorConsole::uptime() const {
 }
 
 void OperatorConsole::tell(const OperatorCommand& command, Nanoseconds showTime) const {
-  const OperatorState& s = desk_->state();
-  const Nanoseconds stands = std::max(showTime, desk_->playback().standsFrom());
+  const OperatorState& s = controls_->state();
+  const Nanoseconds stands = std::max(showTime, controls_->playback().standsFrom());
   const auto onOff = [](bool on) { return on ? " on" : " off"; };
   std::string what(nameOf(command.action));
   switch (command.action) {

@@ -1,6 +1,6 @@
 #pragma once
 /// What a live show keeps from one group of visitors to the next: the operator with keys and network,
-/// trackers, sounds, and the parts of a show that need not be made again.
+/// trackers, sounds, and the parts of a show that can be reused.
 ///
 /// Ownership  borrows settings and reporter, which must outlive it.
 /// Threads    main, except where a function names another one.
@@ -52,13 +52,13 @@ public:
   void addTo(ShowParts& parts, FrameLoopOptions& loop);
   /// Learns what the operator has decided, whenever that has changed; on the App thread.
   std::function<void(const OperatorState&)> changed;
-  const OperatorState& state() const { return desk_->state(); }
+  const OperatorState& state() const { return controls_->state(); }
   /// Orders again what had been decided about a show that goes on here; whether it waits for Start included.
   void resume(const OperatorState& decided);
   /// Takes orders from elsewhere too, such as keys in a window.
-  OperatorQueue& queue() { return desk_->queue(); }
-  Playback& playback() { return desk_->playback(); }
-  std::uint64_t groups() const { return desk_->groups(); }
+  OperatorQueue& queue() { return controls_->queue(); }
+  Playback& playback() { return controls_->playback(); }
+  std::uint64_t groups() const { return controls_->groups(); }
   double uptime() const;  ///< since it was opened [s]
 
 private:
@@ -81,7 +81,7 @@ private:
   ReusableResources kept_;
   AssetRoots roots_;
   std::unique_ptr<TrackerDevice> trackers_;
-  std::unique_ptr<OperatorDesk> desk_;
+  std::unique_ptr<OperatorControls> controls_;
   std::unique_ptr<SoundPlayer> sounds_;
   std::unique_ptr<OscOperator> osc_;
   std::unique_ptr<OperatorKeys> keys_;

@@ -12,18 +12,6 @@ namespace {
 
 constexpr std::chrono::milliseconds kNap{1};  ///< while there is nothing new to show
 
-WindowStereo windowStereoOf(StereoLayout layout) {
-  switch (layout) {
-  case StereoLayout::Pair: return WindowStereo::Quad;
-  case StereoLayout::SideBySide: return WindowStereo::SideBySide;
-  case StereoLayout::TopBottom: return WindowStereo::TopBottom;
-  case StereoLayout::Anaglyph: return WindowStereo::Anaglyph;
-  case StereoLayout::Interlaced: return WindowStereo::Interlaced;
-  case StereoLayout::Off: break;
-  }
-  return WindowStereo::Mono;
-}
-
 /// The same keys as in the terminal.
 std::optional<OperatorCommand> windowOrderOf(Key key) {
   if (key == Key::Escape) return OperatorCommand{OperatorAction::End};
@@ -32,11 +20,14 @@ std::optional<OperatorCommand> windowOrderOf(Key key) {
 
 }  // namespace
 
-std::unique_ptr<DisplayRun> DisplayRun::open(const ShowOptions& show, StereoLayout layout,
-                                             const WallFile& walls, const LiveBudget& budget, bool hud,
-                                             Reporter& reporter, Diagnostics& findings) {
+std::unique_ptr<DisplayRun> DisplayRun::open(const ShowOptions& show, bool drawnWithOpenGl,
+                                             StereoLayout layout, const WallFile& walls,
+                                             const LiveBudget& budget, bool hud, Reporter& reporter,
+                                             Diagnostics& findings) {
   std::unique_ptr<DisplayRun> run(new DisplayRun(show, walls, budget, hud, reporter));
-  run->displays_ = WallDisplays::open(walls, windowStereoOf(layout), show.width, show.height, findings);
+  const WindowStereo stereo = windowStereo(layout);
+  run->displays_ = WallDisplays::open(walls, windowSurface(drawnWithOpenGl, stereo), stereo, show.width,
+                                      show.height, findings);
   return run->displays_ ? std::move(run) : nullptr;
 }
 
@@ -48,7 +39,7 @@ void DisplayRun::fitPictures(std::vector<WallViews>& walls) const {
   }
 }
 
-FrameLoopOutcome DisplayRun::play(FrameLoop& loop, OperatorConsole& desk) {
+FrameLoopOutcome DisplayRun::play(FrameLoop& loop, OperatorConsole& console) {
   FrameLoopOutcome outcome;
   std::vector<EyePictures> pictures;
   TimeSignature now;
@@ -59,25 +50,25 @@ FrameLoopOutcome DisplayRun::play(FrameLoop& loop, OperatorConsole& desk) {
     over = true;
   });
   while (!over) {
-    if (!takeKeys(desk) || !mailbox_.fetch(pictures, now)) {
+    if (!takeKeys(console) || !mailbox_.fetch(pictures, now)) {
       std::this_thread::sleep_for(kNap);
       continue;
     }
     countUnshown(now.frame);
-    if (hud_ && !pictures.empty()) layPanel(budgetLines(figures(now, desk)), pictures.front());
+    if (hud_ && !pictures.empty()) layPanel(budgetLines(figures(now, console)), pictures.front());
     displays_->show(pictures);
-    desk.pictureSeen();
+    console.pictureSeen();
     if (!std::exchange(shown_, true)) reporter_.hint("the walls are shown; Escape ends the show");
   }
   playing.join();
   return outcome;
 }
 
-HudFigures DisplayRun::figures(const TimeSignature& now, OperatorConsole& desk) const {
+HudFigures DisplayRun::figures(const TimeSignature& now, OperatorConsole& console) const {
   HudFigures f;
   f.show = std::filesystem::path(show_.script).filename().string();
   f.seconds = toSeconds(now.time), f.rate = show_.rate;
-  f.speed = desk.playback().speed(), f.paused = desk.playback().paused();
+  f.speed = console.playback().speed(), f.paused = console.playback().paused();
   f.budget = budget_.now(), f.dropped = unshown_;
   return f;
 }
@@ -89,10 +80,10 @@ void DisplayRun::countUnshown(std::uint64_t frame) {
   newest_ = frame;
 }
 
-bool DisplayRun::takeKeys(OperatorConsole& desk) {
+bool DisplayRun::takeKeys(OperatorConsole& console) {
   for (const Key key : displays_->poll()) {
     if (key == Key::F2) hud_ = !hud_;
-    if (const auto order = windowOrderOf(key)) desk.queue().post(*order);
+    if (const auto order = windowOrderOf(key)) console.queue().post(*order);
   }
   const auto lost = displays_->lost();
   if (lost) mailbox_.close(*lost);  // the next frame's pictures are refused, and all stages stop

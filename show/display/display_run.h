@@ -16,20 +16,21 @@ namespace stadion {
 
 class DisplayRun {
 public:
-  /// Opens the outputs. Null if one cannot be opened; the findings say which and why.
+  /// Opens the outputs. Null if one cannot be opened; the findings say which and why. `drawnWithOpenGl`: the
+  /// walls are, so windows may need it too.
   /// `budget` outlives it; `hud`: it is shown from the start.
-  static std::unique_ptr<DisplayRun> open(const ShowOptions& show, StereoLayout layout, const WallFile& walls,
-                                          const LiveBudget& budget, bool hud, Reporter& reporter,
-                                          Diagnostics& findings);
+  static std::unique_ptr<DisplayRun> open(const ShowOptions& show, bool drawnWithOpenGl, StereoLayout layout,
+                                          const WallFile& walls, const LiveBudget& budget, bool hud,
+                                          Reporter& reporter, Diagnostics& findings);
 
   PictureSink& sink() { return mailbox_; }
   /// The walls' pictures fill their outputs pixel by pixel, unless --size or the wall file says otherwise.
   void fitPictures(std::vector<WallViews>& walls) const;
-  /// Plays the loop to its end. Keys pressed in the windows are the operator's (docs/operator.md); F2 shows or
-  /// hides the frame budget on the first wall; Escape ends the run.
-  FrameLoopOutcome play(FrameLoop& loop, OperatorConsole& desk);
+  /// Plays the loop to its end. Keys pressed in the windows are the operator's (docs/operator.md); F2 shows
+  /// or hides the frame budget on the first wall; Escape ends the run.
+  FrameLoopOutcome play(FrameLoop& loop, OperatorConsole& console);
   /// Keys pressed since the last call become commands. False if the display was lost: then the run fails.
-  bool takeKeys(OperatorConsole& desk);
+  bool takeKeys(OperatorConsole& console);
   /// Why nothing can be shown any more; nothing while it can.
   std::optional<std::string> lost() const { return displays_->lost(); }
 
@@ -37,7 +38,7 @@ private:
   DisplayRun(const ShowOptions& show, const WallFile& walls, const LiveBudget& budget, bool hud,
              Reporter& reporter)
       : show_(show), walls_(walls), budget_(budget), reporter_(reporter), hud_(hud) {}
-  HudFigures figures(const TimeSignature& now, OperatorConsole& desk) const;
+  HudFigures figures(const TimeSignature& now, OperatorConsole& console) const;
   void countUnshown(std::uint64_t frame);
 
   const ShowOptions& show_;

@@ -4,6 +4,7 @@ namespace stadion {
 namespace {
 
 constexpr std::int32_t kMargin = 8;  ///< of what lies over the walls [pixels]
+
 }  // namespace
 
 WindowStereo windowStereo(StereoLayout layout) {
@@ -18,73 +19,56 @@ WindowStereo windowStereo(StereoLayout layout) {
   return WindowStereo::Mono;
 }
 
+WindowSurface windowSurface(bool drawnWithOpenGl, WindowStereo stereo) {
+  return drawnWithOpenGl || stereo == WindowStereo::Quad ? WindowSurface::OpenGl : WindowSurface::Pixels;
+}
+
 Result<std::unique_ptr<ShowWindow>> ShowWindow::open(WindowSystem& system, const WindowPlan& plan,
                                                      WindowStereo stereo, std::size_t walls) {
   WindowPlan wanted = plan;
   wanted.quadBuffer = stereo == WindowStereo::Quad;
   auto window = system.create(wanted);
   if (!window) return window.error();
-  std::unique_ptr<ShowWindow> made(new ShowWindow(std::move(window.value()), stereo));
-  if (auto why = made->window_->makeCurrent()) return *why;
-  auto pass = OutputPass::create(made->window_->gl());
-  if (!pass) return pass.error();
-  made->pass_ = std::move(pass.value());
-  for (std::size_t i = 0; i < walls; ++i) made->eyes_.push_back(std::make_unique<Eyes>(made->window_->gl()));
-  return made;
-}
-
-ShowWindow::~ShowWindow() {
-  enter();
-  overlays_.clear(), eyes_.clear(), pass_.reset();
-  window_->release();
-}
-
-void ShowWindow::enter() {
-  window_->makeCurrent();
+  auto canvas = WindowCanvas::create(*window.value(), walls);
+  if (!canvas) return canvas.error();
+  return std::unique_ptr<ShowWindow>(
+      new ShowWindow(std::move(window.value()), std::move(canvas.value()), stereo));
 }
 
 void ShowWindow::take(const std::vector<EyePictures>& pictures, const std::vector<std::size_t>& wanted) {
-  enter();
-  for (const std::size_t wall : wanted) {
-    if (wall >= pictures.size() || wall >= eyes_.size()) continue;
-    const std::vector<Picture>& eyes = pictures[wall].eyes;
-    Eyes& mine = *eyes_[wall];
-    mine.two = eyes.size() > 1;
-    if (!eyes.empty()) mine.left.upload(eyes[0]);
-    if (mine.two) mine.right.upload(eyes[1]);
-  }
+  static const std::vector<Picture> kNone;
+  for (const std::size_t wall : wanted)
+    canvas_->take(wall, wall < pictures.size() ? pictures[wall].eyes : kNone);
 }
 
 void ShowWindow::setOverlay(std::size_t number, const Picture& picture, bool atBottom) {
-  enter();
-  while (overlays_.size() <= number) overlays_.push_back(std::make_unique<Overlay>(window_->gl()));
-  Overlay& o = *overlays_[number];
-  o.shown = !picture.empty(), o.atBottom = atBottom;
-  if (o.shown) o.picture.upload(picture);
+  if (overlays_.size() <= number) overlays_.resize(number + 1);
+  overlays_[number] = {picture.height, atBottom};
+  canvas_->setOverlay(number, picture);
 }
 
 void ShowWindow::drawPane(const WindowPane& pane, EyeMix mix, std::int32_t firstRow) {
-  const Eyes& eyes = *eyes_[pane.wall];
-  pass_->draw({&eyes.left, eyes.two ? &eyes.right : nullptr, pane.place.x, pane.place.y, pane.place.width,
-               pane.place.height, mix, pane.shape, firstRow});
+  const SheetPlace& p = pane.place;
+  canvas_->draw({pane.wall, p.x, p.y, p.width, p.height, mix, pane.shape, firstRow});
 }
 
 // From the upper left corner down, and from the lower left corner up.
 void ShowWindow::drawOverlays(std::int32_t x, std::int32_t y, std::int32_t bottom) {
   std::int32_t top = y + kMargin;
   bottom -= kMargin;
-  for (const auto& o : overlays_) {
-    if (!o->shown) continue;
-    const auto high = static_cast<std::int32_t>(o->picture.height());
-    if (o->atBottom) bottom -= high;
-    pass_->overlay(o->picture, x + kMargin, o->atBottom ? bottom : top);
-    if (!o->atBottom) top += high + kMargin;
+  for (std::size_t i = 0; i < overlays_.size(); ++i) {
+    const auto high = static_cast<std::int32_t>(overlays_[i].height);
+    if (high == 0) continue;
+    const bool atBottom = overlays_[i].atBottom;
+    if (atBottom) bottom -= high;
+    canvas_->overlay(i, x + kMargin, atBottom ? bottom : top);
+    if (!atBottom) top += high + kMargin;
   }
 }
 
-void ShowWindow::drawSide(const std::vector<WindowPane>& panes, GLenum buffer, EyeMix mix) {
+void ShowWindow::drawSide(const std::vector<WindowPane>& panes, CanvasBuffer buffer, EyeMix mix) {
   const auto [width, height] = window_->size();
-  pass_->begin(width, height, buffer);
+  canvas_->begin(buffer);
   for (const WindowPane& pane : panes) drawPane(pane, mix);
   drawOverlays(0, 0, static_cast<std::int32_t>(height));
 }
@@ -92,17 +76,16 @@ void ShowWindow::drawSide(const std::vector<WindowPane>& panes, GLenum buffer, E
 // Monitors side by side may show a row of the window in an even and in an odd row of theirs.
 void ShowWindow::drawRows(const std::vector<WindowPane>& panes) {
   const auto [width, height] = window_->size();
-  pass_->begin(width, height);
+  canvas_->begin();
   const std::vector<MonitorPart> parts = window_->monitorParts();
   const auto odd = [](const MonitorPart& part) { return part.firstRow & 1; };
   for (const MonitorPart& part : parts) {
     const bool first = &part == &parts.front();
     if (!first && odd(part) == odd(parts.front())) continue;
-    const PixelRectangle& r = part.place;
-    if (!first) pass_->clip(r.x, r.y, r.width, r.height);
+    if (!first) canvas_->clip(part.place);
     for (const WindowPane& pane : panes) drawPane(pane, EyeMix::Interlaced, part.firstRow);
   }
-  pass_->clip(0, 0, 0, 0);
+  canvas_->clip({});
   drawOverlays(0, 0, static_cast<std::int32_t>(height));
 }
 
@@ -111,7 +94,7 @@ void ShowWindow::drawHalves(const std::vector<WindowPane>& panes, bool beside) {
   const auto [width, height] = window_->size();
   const auto right = static_cast<std::int32_t>(beside ? width / 2 : 0),
              down = static_cast<std::int32_t>(beside ? 0 : height / 2);
-  pass_->begin(width, height);
+  canvas_->begin();
   for (WindowPane pane : panes) {
     SheetPlace& p = pane.place;
     if (beside)
@@ -128,25 +111,19 @@ void ShowWindow::drawHalves(const std::vector<WindowPane>& panes, bool beside) {
 }
 
 std::optional<Picture> ShowWindow::draw(const std::vector<WindowPane>& panes, bool keep) {
-  enter();
   switch (stereo_) {
-  case WindowStereo::Mono: drawSide(panes, GL_BACK, EyeMix::Left); break;
+  case WindowStereo::Mono: drawSide(panes, CanvasBuffer::Whole, EyeMix::Left); break;
   case WindowStereo::SideBySide: drawHalves(panes, true); break;
   case WindowStereo::TopBottom: drawHalves(panes, false); break;
-  case WindowStereo::Anaglyph: drawSide(panes, GL_BACK, EyeMix::Anaglyph); break;
+  case WindowStereo::Anaglyph: drawSide(panes, CanvasBuffer::Whole, EyeMix::Anaglyph); break;
   case WindowStereo::Interlaced: drawRows(panes); break;
   case WindowStereo::Quad:
-    drawSide(panes, GL_BACK_RIGHT, EyeMix::Right);
-    drawSide(panes, GL_BACK_LEFT, EyeMix::Left);
+    drawSide(panes, CanvasBuffer::Right, EyeMix::Right);
+    drawSide(panes, CanvasBuffer::Left, EyeMix::Left);
     break;
   }
   if (!keep) return std::nullopt;
-  return pass_->read();
-}
-
-void ShowWindow::swap() {
-  enter();
-  window_->swap();
+  return canvas_->read();
 }
 
 }  // namespace stadion

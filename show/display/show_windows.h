@@ -5,8 +5,8 @@
 /// Errors   open() says what stands against it; afterwards windows only show what they are given.
 
 #include "engine/display/unfolding.h"
-#include "pipeline/draw/passes/output_pass.h"
 #include "pipeline/loop/show_stages.h"
+#include "pipeline/output/window_canvas.h"
 #include "pipeline/picture/stereo.h"
 #include "pipeline/target/window.h"
 
@@ -22,6 +22,10 @@ enum class WindowStereo { Mono, SideBySide, TopBottom, Anaglyph, Interlaced, Qua
 /// The way that a window shows a layout. For Pair it needs a buffer for each eye.
 WindowStereo windowStereo(StereoLayout layout);
 
+/// The only place that decides whether a window has OpenGL: if OpenGL draws the walls, or if the layout needs
+/// a buffer for each eye. Else no OpenGL library is loaded for it.
+WindowSurface windowSurface(bool drawnWithOpenGl, WindowStereo stereo);
+
 /// A wall in a window.
 struct WindowPane {
   std::size_t wall = 0;
@@ -34,44 +38,37 @@ public:
   /// `walls` = how many walls there are in all: pictures come for all of them.
   static Result<std::unique_ptr<ShowWindow>> open(WindowSystem& system, const WindowPlan& plan,
                                                   WindowStereo stereo, std::size_t walls);
-  ~ShowWindow();
 
   Window& window() { return *window_; }
-  /// Takes the pictures of the walls among `wanted`.
+  /// Takes the pictures of the walls among `wanted`. They must stay until others are taken.
   void take(const std::vector<EyePictures>& pictures, const std::vector<std::size_t>& wanted);
   /// A picture that lies over the walls, in a corner; an empty one is none.
   void setOverlay(std::size_t number, const Picture& picture, bool atBottom = false);
   /// Draws the panes and what lies over them. `keep`: and returns what was drawn.
   std::optional<Picture> draw(const std::vector<WindowPane>& panes, bool keep = false);
   /// Shows what was drawn.
-  void swap();
+  void show() { canvas_->show(); }
+  /// Sets whether show() waits for the display's next picture. Without OpenGL it never does.
+  void waitForDisplay(bool wait) { canvas_->waitForDisplay(wait); }
 
 private:
-  struct Eyes {
-    explicit Eyes(const GlTable& gl) : left(gl), right(gl) {}
-    PictureTexture left, right;
-    bool two = false;
-  };
   struct Overlay {
-    explicit Overlay(const GlTable& gl) : picture(gl) {}
-    PictureTexture picture;
-    bool shown = false, atBottom = false;
+    std::uint32_t height = 0;  ///< 0: not shown
+    bool atBottom = false;
   };
 
-  ShowWindow(std::unique_ptr<Window> window, WindowStereo stereo)
-      : window_(std::move(window)), stereo_(stereo) {}
-  void drawSide(const std::vector<WindowPane>& panes, GLenum buffer, EyeMix mix);
+  ShowWindow(std::unique_ptr<Window> window, std::unique_ptr<WindowCanvas> canvas, WindowStereo stereo)
+      : window_(std::move(window)), canvas_(std::move(canvas)), stereo_(stereo) {}
+  void drawSide(const std::vector<WindowPane>& panes, CanvasBuffer buffer, EyeMix mix);
   void drawHalves(const std::vector<WindowPane>& panes, bool beside);
   void drawRows(const std::vector<WindowPane>& panes);
   void drawPane(const WindowPane& pane, EyeMix mix, std::int32_t firstRow = 0);
   void drawOverlays(std::int32_t x, std::int32_t y, std::int32_t bottom);
-  void enter();
 
   std::unique_ptr<Window> window_;
+  std::unique_ptr<WindowCanvas> canvas_;
   WindowStereo stereo_;
-  std::unique_ptr<OutputPass> pass_;
-  std::vector<std::unique_ptr<Eyes>> eyes_;  ///< by wall
-  std::vector<std::unique_ptr<Overlay>> overlays_;
+  std::vector<Overlay> overlays_;
 };
 
 }  // namespace stadion

@@ -37,9 +37,9 @@ Result<WindowSystem*> WallDisplays::systemOf(const std::string& screen) {
   return system.get();
 }
 
-std::unique_ptr<WallDisplays> WallDisplays::open(const WallFile& walls, WindowStereo stereo,
-                                                 std::uint32_t width, std::uint32_t height,
-                                                 Diagnostics& findings) {
+std::unique_ptr<WallDisplays> WallDisplays::open(const WallFile& walls, WindowSurface surface,
+                                                 WindowStereo stereo, std::uint32_t width,
+                                                 std::uint32_t height, Diagnostics& findings) {
   std::unique_ptr<WallDisplays> displays(new WallDisplays);
   for (const WallEntry& entry : walls.walls) {
     const auto refuse = [&](const Diagnostic& why) {
@@ -50,11 +50,12 @@ std::unique_ptr<WallDisplays> WallDisplays::open(const WallFile& walls, WindowSt
     };
     const auto system = displays->systemOf(entry.output ? entry.output->place.screen : "");
     if (!system) return refuse(system.error());
-    auto window =
-        ShowWindow::open(*system.value(), planFor(entry, width, height), stereo, walls.walls.size());
+    WindowPlan plan = planFor(entry, width, height);
+    plan.surface = surface;
+    auto window = ShowWindow::open(*system.value(), plan, stereo, walls.walls.size());
     if (!window) return refuse(window.error());
     // One of them waits for its display; if all did, each would take a picture's time.
-    window.value()->window().waitForDisplay(displays->windows_.empty());
+    window.value()->waitForDisplay(displays->windows_.empty());
     displays->windows_.push_back(std::move(window.value()));
     displays->shapes_.push_back(entry.output ? entry.output->shape : OutputShape{});
   }
@@ -81,7 +82,7 @@ void WallDisplays::show(const std::vector<EyePictures>& pictures) {
     const auto [width, height] = windows_[i]->window().size();
     windows_[i]->draw({{i, {0, 0, width, height}, shapes_[i]}});
   }
-  for (const auto& window : windows_) window->swap();
+  for (const auto& window : windows_) window->show();
 }
 
 std::vector<Key> WallDisplays::poll() {

@@ -19,8 +19,8 @@ class WallDisplays {
 public:
   /// A wall without an output gets a window with a frame, of its stated pixels or of `width` x `height`. Null
   /// if one of the outputs cannot be opened; the findings say which and why.
-  static std::unique_ptr<WallDisplays> open(const WallFile& walls, WindowStereo stereo, std::uint32_t width,
-                                            std::uint32_t height, Diagnostics& findings);
+  static std::unique_ptr<WallDisplays> open(const WallFile& walls, WindowSurface surface, WindowStereo stereo,
+                                            std::uint32_t width, std::uint32_t height, Diagnostics& findings);
   ~WallDisplays();
 
   /// The size of picture that fills a wall's output pixel by pixel.

@@ -51,17 +51,16 @@ private:
     const std::size_t at = why.find("apt-get install");
     return at == std::string::npos ? "" : "sudo " + why.substr(at, why.find_first_of(");\n", at) - at);
   }
-  static std::string withoutInstall(const std::string& why) {
-    const std::size_t at = why.find(": apt-get install");
-    return at == std::string::npos ? why : why.substr(0, at);
+  static std::string withoutAdvice(const std::string& why) {
+    return why.substr(0, std::min(why.find(": apt-get install"), why.find("; set DISPLAY")));
   }
 
   void drawing() {
+    const std::string cpu = probes_.cpuRenderer();
     const auto gl = probes_.softwareGl();
-    if (gl) return add("drawing", Health::Works, gl.value());
-    add("drawing", Health::Missing, withoutInstall(gl.error().message),
-        "run draws nothing (--gl egl may, see gpu; --gl none plays without pictures)",
-        installOf(gl.error().message));
+    if (gl) return add("drawing", Health::Works, cpu + "; OpenGL: " + gl.value());
+    add("drawing", Health::Limited, cpu + "; " + withoutAdvice(gl.error().message),
+        "--gl osmesa, the reference that pictures can be compared with", installOf(gl.error().message));
   }
 
   static bool isSoftware(const std::string& renderer) {
@@ -69,10 +68,10 @@ private:
   }
 
   void gpu() {
-    constexpr const char* kLacks = "--gl egl and windows draw on the processors, at a few frames a second";
+    constexpr const char* kLacks = "--renderer auto draws on the processors (cpu), --gl egl too, but slower";
     const auto gl = probes_.hardwareGl();
     if (gl && !isSoftware(gl.value())) return add("gpu", Health::Works, gl.value());
-    const std::string found = gl ? gl.value() : withoutInstall(gl.error().message);
+    const std::string found = gl ? gl.value() : withoutAdvice(gl.error().message);
     if (!gl) return add("gpu", Health::Missing, found, kLacks, installOf(gl.error().message));
     const std::string node = "/dev/dri/renderD128";
     if (probes_.exists(node) && !probes_.writable(node))
@@ -102,12 +101,16 @@ private:
         if (wall.output) complete &= output(*walls, wall);
     const auto monitors = probes_.monitors("");
     if (!monitors)
-      return add("displays", Health::Missing, withoutInstall(monitors.error().message),
+      return add("displays", Health::Missing, withoutAdvice(monitors.error().message),
                  "view and run --display show nothing", displayCommand(monitors.error().message));
-    if (complete)
-      add("displays", Health::Works,
-          monitors.value().empty() ? "a window system without monitors"
-                                   : fmt::format("{}", fmt::join(monitors.value(), ", ")));
+    if (!complete) return;
+    const std::string found = monitors.value().empty() ? "a window system without monitors"
+                                                       : fmt::format("{}", fmt::join(monitors.value(), ", "));
+    const auto pixels = probes_.windowPixels();
+    if (pixels)
+      return add("displays", Health::Works, fmt::format("{}; without OpenGL: {}", found, pixels.value()));
+    add("displays", Health::Limited, fmt::format("{}; {}", found, withoutAdvice(pixels.error().message)),
+        "windows need OpenGL, also where the processors draw the walls", installOf(pixels.error().message));
   }
 
   /// False, with a finding, if the wall's output is not there.
@@ -118,7 +121,7 @@ private:
     if (!monitors) {
       if (out.place.screen.empty()) return true;  // reported once, for all walls
       add("displays", Health::Missing, fmt::format("{}: no screen \"{}\"", where, out.place.screen),
-          withoutInstall(monitors.error().message), displayCommand(monitors.error().message));
+          withoutAdvice(monitors.error().message), displayCommand(monitors.error().message));
       return false;
     }
     if (out.place.monitor.empty() || isListed(monitors.value(), out.place.monitor)) return true;
@@ -131,9 +134,12 @@ private:
 
   std::string displayCommand(const std::string& why) const {
     if (const std::string install = installOf(why); !install.empty()) return install;
-    for (const int number : {0, 1})
-      if (probes_.exists(fmt::format("/tmp/.X11-unix/X{}", number)))
-        return fmt::format("export DISPLAY=:{}", number);
+    for (const int number : {0, 1}) {
+      // A socket alone says little: a server that has crashed leaves it, and another user's refuses us.
+      const std::string display = fmt::format(":{}", number);
+      if (probes_.exists(fmt::format("/tmp/.X11-unix/X{}", number)) && probes_.monitors(display))
+        return "export DISPLAY=" + display;
+    }
     return "sudo apt-get install xserver-xorg xinit, then startx; without a screen: xvfb-run stadion ...";
   }
 
@@ -154,7 +160,7 @@ private:
       mend = "sudo usermod -aG audio $USER, then log in again";
     else if (mend.empty())
       mend = "sudo apt-get install pipewire-pulse, then log in again";
-    add("sound", Health::Missing, withoutInstall(why), "shows play without their sounds", std::move(mend));
+    add("sound", Health::Missing, withoutAdvice(why), "shows play without their sounds", std::move(mend));
   }
 
   void tool(const char* topic, const char* program, const char* lacks) {

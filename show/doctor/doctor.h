@@ -48,11 +48,13 @@ struct NetworkPort {
 struct DoctorProbes {
   std::function<bool(const std::string&)> hasProgram;           ///< along PATH
   std::function<std::string(const std::string&)> helper;        ///< path of a program of Stadion; empty: none
+  std::function<std::string()> cpuRenderer;                     ///< its kernels and threads
   std::function<Result<std::string>()> softwareGl, hardwareGl;  ///< what OSMesa or EGL says of itself
   std::function<Result<std::string>()> sound;                   ///< the device's name
   std::function<Result<std::vector<std::string>>(const std::string& screen)> monitors;  ///< of an X screen
-  std::function<std::optional<bool>()> swapGroups;  ///< nothing: not known without a display
-  std::function<bool()> realtime;                   ///< whether a thread may become a real-time thread
+  std::function<Result<std::string>()> windowPixels;  ///< how windows without OpenGL get their pictures
+  std::function<std::optional<bool>()> swapGroups;    ///< nothing: not known without a display
+  std::function<bool()> realtime;                     ///< whether a thread may become a real-time thread
   std::function<std::vector<NetworkPort>()> network;
   std::function<std::string(const std::string&)> file;  ///< first line of a file; empty: it cannot be read
   std::function<bool(const std::string&)> exists, writable;

@@ -3,14 +3,18 @@
 #include "show/doctor/doctor.h"
 
 #include "engine/base/installed_files.h"
+#include "pipeline/cpu_draw/kernels/choose_kernels.h"
+#include "pipeline/platform/processor_set.h"
 #include "pipeline/platform/shared_library.h"
 #include "pipeline/sound/sound_device.h"
 #include "pipeline/target/target.h"
 #include "pipeline/target/window.h"
 
+#include <algorithm>
 #include <arpa/inet.h>
 #include <cstdlib>
 #include <cstring>
+#include <fmt/format.h>
 #include <fstream>
 #include <ifaddrs.h>
 #include <map>
@@ -39,6 +43,12 @@ std::string helperPath(const std::string& name) {
   return path.has_parent_path() && access(path.c_str(), X_OK) == 0 ? path.string() : "";
 }
 
+std::string cpuRendererHere() {
+  const std::size_t threads = std::max<std::size_t>(1, processorsOfThisThread().size());
+  return fmt::format("CPU renderer ({}), {} thread{}", bestDrawKernels().name, threads,
+                     threads == 1 ? "" : "s");
+}
+
 Result<std::string> rendererOf(GlProviderKind kind) {
   auto provider = openGlProvider(kind);
   if (!provider) return provider.error();
@@ -60,6 +70,12 @@ Result<std::vector<std::string>> monitorsOf(const std::string& screen) {
   auto system = WindowSystem::open(screen);
   if (!system) return system.error();
   return system.value()->monitors();
+}
+
+Result<std::string> windowPixels() {
+  auto system = WindowSystem::open();
+  if (!system) return system.error();
+  return system.value()->pixelsWay();
 }
 
 /// Whether the driver of the display has NVIDIA's swap groups.
@@ -122,9 +138,11 @@ std::string firstLineOf(const std::string& path) {
 DoctorProbes probesOfThisMachine() {
   DoctorProbes probes;
   probes.hasProgram = isInPath, probes.helper = helperPath;
+  probes.cpuRenderer = cpuRendererHere;
   probes.softwareGl = [] { return rendererOf(GlProviderKind::OsMesa); };
   probes.hardwareGl = [] { return rendererOf(GlProviderKind::Egl); };
   probes.sound = soundName, probes.monitors = monitorsOf, probes.swapGroups = hasSwapGroups;
+  probes.windowPixels = windowPixels;
   probes.realtime = mayBeRealtime, probes.network = portsHere, probes.file = firstLineOf;
   probes.exists = [](const std::string& path) { return access(path.c_str(), F_OK) == 0; };
   probes.writable = [](const std::string& path) { return access(path.c_str(), W_OK) == 0; };

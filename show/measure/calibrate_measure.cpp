@@ -84,7 +84,7 @@ Result<CalibrationFigures> measureSetting(const CalibrationRun& run, Diagnostics
   FrameLoop loop(stages, player->loopOptions(), watch.enough());
   if (const FrameLoopOutcome outcome = loop.run(); outcome.failure) return failed(outcome.failure->message);
   CalibrationFigures figures = watch.figures();
-  figures.rasteriser = stages.glDescription();
+  figures.rasteriser = stages.drawnBy();
   return figures;
 }
 

@@ -50,7 +50,7 @@ private:
   }
 
   void describe(const DynObjectNode& node, PlayedBody& body) {
-    const Load& load = *scene_.tree().load(node.self().load);
+    const LoadedScene& load = *scene_.tree().load(node.self().load);
     const FittedShape& fit = *node.fit();
     body.name = node.name(), body.file = load.file, body.line = load.lines[node.self().position];
     body.shape = fit.choice.kind, body.deviation = fit.choice.deviation;

@@ -23,8 +23,8 @@ double middleOfLast(const std::vector<double>& values, std::size_t count) {
 }
 
 /// Plays it once; false, with the findings, if that cannot be.
-bool play(const PlanRunOptions& options, Mode mode, GlProvider& provider, Reporter& reporter,
-          FrameProbe* probe, Diagnostics& findings, FrameTimes& times) {
+bool play(const PlanRunOptions& options, Mode mode, ShowRenderer& renderer, Reporter& reporter,
+          plan::CostProbe* probe, Diagnostics& findings, FrameTimes& times) {
   const std::atomic<bool>& stop = catchStopSignals();
   ShowOptions show = options.show;
   show.frames += kFramesBefore;
@@ -34,7 +34,9 @@ bool play(const PlanRunOptions& options, Mode mode, GlProvider& provider, Report
   loopOptions.mode = mode, loopOptions.walls = options.walls;
   ShowParts parts = player->parts(options.layout);
   parts.walls.resize(options.walls);
-  parts.provider = &provider;
+  renderer.drawFor(parts);
+  std::optional<DrawPool> measured;  // what its threads share is not mixed with what Draw does itself
+  if (probe && parts.pool) parts.pool = &measured.emplace(parts.pool->threads(), DrawPool::Callers::Wait);
   parts.probe = probe;
   const ShowStages* running = nullptr;
   parts.observer = [&](const TimeSignature&, const InputSample&, const Scene&) {
@@ -57,20 +59,20 @@ double loadNow() {
   return load;
 }
 
-bool measureCosts(const PlanRunOptions& options, GlProvider& provider, Reporter& reporter,
+bool measureCosts(const PlanRunOptions& options, ShowRenderer& renderer, Reporter& reporter,
                   MeasuredCosts& costs, Diagnostics& findings) {
   plan::CostProbe probe(options.walls, kFramesBefore, DrawList::kPortion);
   FrameTimes times(options.walls);
-  if (!play(options, Mode::Sequential, provider, reporter, &probe, findings, times)) return false;
+  if (!play(options, Mode::Sequential, renderer, reporter, &probe, findings, times)) return false;
   costs.runs.push_back(probe.costs());
-  costs.waitsInTurn = probe.waitsInTurn();
+  costs.waitsInTurn = renderer.drawsWithGl() && probe.waitsInTurn();
   return true;
 }
 
-std::optional<PlayedTimes> playTimes(const PlanRunOptions& options, Mode mode, GlProvider& provider,
+std::optional<PlayedTimes> playTimes(const PlanRunOptions& options, Mode mode, ShowRenderer& renderer,
                                      Reporter& reporter, Diagnostics& findings) {
   FrameTimes times(options.walls);
-  if (!play(options, mode, provider, reporter, nullptr, findings, times)) return {};
+  if (!play(options, mode, renderer, reporter, nullptr, findings, times)) return {};
   const std::size_t frames = options.show.frames;
   return PlayedTimes{middleOfLast(times.period.values(), frames - 1),
                      middleOfLast(times.latency.front().values(), frames)};

@@ -5,6 +5,7 @@
 #include "profiling/plan/cost_probe.h"
 #include "show/base/reporter.h"
 #include "show/player/player.h"
+#include "show/player/show_renderer.h"
 
 #include <optional>
 
@@ -35,9 +36,9 @@ constexpr std::uint64_t kFramesBefore = 6;
 double loadNow();
 
 /// Adds a run. False, with the findings, if something of the user's is wrong.
-bool measureCosts(const PlanRunOptions& options, GlProvider& provider, Reporter& reporter,
+bool measureCosts(const PlanRunOptions& options, ShowRenderer& renderer, Reporter& reporter,
                   MeasuredCosts& costs, Diagnostics& findings);
-std::optional<PlayedTimes> playTimes(const PlanRunOptions& options, Mode mode, GlProvider& provider,
+std::optional<PlayedTimes> playTimes(const PlanRunOptions& options, Mode mode, ShowRenderer& renderer,
                                      Reporter& reporter, Diagnostics& findings);
 
 }  // namespace stadion

@@ -31,7 +31,7 @@ std::string wallsText(const ProfileRunOptions& o, const Player& player) {
 }
 
 std::string rasteriserText(const ProfileRunOptions& o, const std::string& gl) {
-  if (!o.drawn || gl.empty()) return "none: App and Cull alone";
+  if (gl.empty()) return "none: App and Cull alone";
   return !drawnBySoftware(gl) ? gl : gl + ", " + rasteriserThreadsText();
 }
 
@@ -84,7 +84,8 @@ ReportHead reportHead(const ProfileRunOptions& o, const Player& player, const st
   return head;
 }
 
-std::optional<DynamicsFigures> dynamicsFigures(const ProfileRunOptions& o, const ShowFigures& figures) {
+std::optional<DynamicsFigures> dynamicsFigures(const ProfileRunOptions& o, const ShowFigures& figures,
+                                               OutputFiles& files) {
   const auto moved = std::ranges::count_if(
       figures.nodes, [](const NodeRow& r) { return r.name.type == "dynamics" && r.simulate > 0; });
   if (moved == 0 && !o.fidelityAsked) return {};
@@ -92,6 +93,7 @@ std::optional<DynamicsFigures> dynamicsFigures(const ProfileRunOptions& o, const
   options.show = o.show, options.show.walls = "desktop";
   if (o.fidelityAsked) {
     const auto all = measure(options);
+    if (all) files.write("fidelity.json", fidelityJson(*all) + "\n");
     return all ? std::optional(figuresOf(*all)) : std::nullopt;
   }
   if (figures.app.measured * 1e-3 * static_cast<double>(figures.frames) > kSeconds) return {};

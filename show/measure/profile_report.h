@@ -15,6 +15,8 @@ ReportHead reportHead(const ProfileRunOptions& options, const Player& player, co
 
 /// Cost and error of the bodies that dynamics nodes move; none if there are none. Bodies are played with
 /// other models if that was asked for, or takes seconds only; else their errors are missing, and it says why.
-std::optional<DynamicsFigures> dynamicsFigures(const ProfileRunOptions& options, const ShowFigures& figures);
+/// Errors that were asked for go into fidelity.json too.
+std::optional<DynamicsFigures> dynamicsFigures(const ProfileRunOptions& options, const ShowFigures& figures,
+                                               OutputFiles& files);
 
 }  // namespace stadion

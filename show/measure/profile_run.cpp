@@ -1,6 +1,5 @@
 #include "show/measure/profile_run.h"
 
-#include "engine/base/atomic_file.h"
 #include "show/base/stop_signal.h"
 #include "show/measure/profile_report.h"
 #include "show/player/write_watching.h"
@@ -23,28 +22,30 @@ std::string tooShort(const std::string& played) {
          std::to_string(kProfiledWithoutInput);
 }
 
-std::unique_ptr<ShowRecording> record(const ProfileRunOptions& options, const Player& player,
+std::unique_ptr<ShowRecording> record(const ProfileRunOptions& options, bool reports, const Player& player,
                                       Diagnostics& findings) {
   RecordingOptions recorded;
   const std::vector<std::string> walls = player.walls().names();
   recorded.trace = options.trace;
   if (recorded.trace) recorded.trace->show = options.show.script, recorded.trace->walls = walls;
   recorded.keep = unaskedLastFrames(walls);
-  if (!options.html.empty()) recorded.report = RecordingOptions::Report{player.rate(), walls};
+  if (reports) recorded.report = RecordingOptions::Report{player.rate(), walls};
   return findings.hasErrors() ? nullptr : ShowRecording::create(std::move(recorded), findings);
 }
 
 }  // namespace
 
-std::optional<ShowFigures> profileShow(const ProfileRunOptions& options, Reporter& reporter,
-                                       Diagnostics& findings, Failure& failure) {
+OutputFiles profileFiles(const std::string& folder, bool fidelityAsked) {
+  std::vector<std::string> names{"profile.html", "profile.json", "profile.csv"};
+  if (fidelityAsked) names.emplace_back("fidelity.json");
+  return {folder, std::move(names)};
+}
+
+std::optional<ShowFigures> profileShow(const ProfileRunOptions& options, OutputFiles& files,
+                                       Reporter& reporter, Diagnostics& findings, Failure& failure) {
   const std::atomic<bool>& stop = catchStopSignals();
-  std::unique_ptr<GlProvider> provider;
-  if (options.drawn) {
-    auto opened = openGlProvider(options.provider == "egl" ? GlProviderKind::Egl : GlProviderKind::OsMesa);
-    if (!opened) return findings.add(opened.error()), std::nullopt;
-    provider = std::move(opened.value());
-  }
+  const auto renderer = ShowRenderer::open(options.renderer);
+  if (!renderer) return findings.add(renderer.error()), std::nullopt;
   const auto player = Player::create(options.show, findings, reporter.reportFunction(), &stop);
   if (!player) return {};
   FrameLoopOptions loopOptions = player->loopOptions();
@@ -55,13 +56,12 @@ std::optional<ShowFigures> profileShow(const ProfileRunOptions& options, Reporte
            std::nullopt;
 
   // Files are opened before anything is played.
-  std::optional<AtomicFile> html;
-  if (!options.html.empty() && html.emplace(options.html).error()) findings.add(*html->error());
-  const auto recording = record(options, *player, findings);
+  files.open(findings);
+  const auto recording = record(options, files.areWanted(), *player, findings);
   if (!recording || findings.hasErrors()) return {};
   const ShowStages* running = nullptr;
   ShowParts parts = player->parts(options.layout);
-  parts.provider = provider.get();
+  renderer.value()->drawFor(parts);
   parts.probe = &recording->probe();
   parts.observer = [&](const TimeSignature& now, const InputSample&, const Scene& scene) {
     recording->see(scene);
@@ -84,19 +84,20 @@ std::optional<ShowFigures> profileShow(const ProfileRunOptions& options, Reporte
   if (recording->lost() > 0)
     findings.warning({}, std::to_string(recording->lost()) + " spans were lost: they came faster than they "
                                                              "could be collected");
-  ShowFigures figures =
-      recording->figures(player->walls().names(), options.drawn ? stages.glDescription() : "");
-  if (options.drawn) figures.warmUpMs = loop.times().warmUp;
+  ShowFigures figures = recording->figures(player->walls().names(), stages.drawnBy());
+  if (!options.renderer.drawsNothing()) figures.warmUpMs = loop.times().warmUp;
   if (figures.frames == 0) return findings.error({}, tooShort("the show ended too early")), std::nullopt;
-  if (html) {
-    ReportHead head = reportHead(options, *player, stages.glDescription());
+  if (files.areWanted()) {
+    ReportHead head = reportHead(options, *player, stages.drawnBy());
     if (figures.warmUpMs > 0)
       head.facts.emplace_back("warm-up", fmt::format("{:.3f} s before the first frame: shaders, uploads",
                                                      figures.warmUpMs / 1000));
     ReportData data = recording->report(std::move(head), figures);
-    if (!stop) data.dynamics = dynamicsFigures(options, figures);
-    html->write(reportPage(data));
-    if (const auto why = html->commit()) return findings.add(*why), std::nullopt;
+    if (!stop) data.dynamics = dynamicsFigures(options, figures, files);
+    files.write("profile.html", reportPage(data));
+    files.write("profile.json", toJson(figures) + "\n");
+    files.write("profile.csv", toCsv(figures));
+    if (!files.commit(findings)) return {};
   }
   return figures;
 }

@@ -3,7 +3,7 @@
 
 #include "pipeline/loop/show_stages.h"
 #include "pipeline/picture/stereo.h"
-#include "pipeline/target/target.h"
+#include "show/player/show_renderer.h"
 
 #include <optional>
 #include <vector>
@@ -11,8 +11,7 @@
 namespace stadion {
 
 struct DrawSettings {
-  std::optional<GlProviderKind> provider =
-      GlProviderKind::OsMesa;  ///< null: App and Cull alone, nothing is drawn
+  RendererSettings renderer{};
   StereoLayout layout = StereoLayout::Pair;
   std::optional<bool> processes{};  ///< a process for each wall, or a thread; null: what measured faster
   std::optional<bool> pinned{};     ///< each wall on processors of its own; null: what measured faster

@@ -66,7 +66,8 @@ KnownMachine knownMachine(Diagnostics& findings) {
   return known;
 }
 
-DrawingPlan::DrawingPlan(const DrawingNeeds& needs, const KnownMachine& machine) {
+DrawingPlan::DrawingPlan(const DrawingNeeds& needs, const KnownMachine& machine)
+    : drawsWithGl_(needs.cpuThreads == 0) {
   DrawingNeeds here = needs;
   here.wishes.processes = false;
   here_ = choose(here, machine);
@@ -79,6 +80,7 @@ void DrawingPlan::drawHere(const std::string& why) {
 }
 
 DrawingPlan::Choice DrawingPlan::choose(const DrawingNeeds& needs, const KnownMachine& machine) {
+  if (needs.cpuThreads > 0) return chooseForCpu(needs);
   const DrawWishes& wishes = needs.wishes;
   const MeasuredRoom* room = machine.measured ? roomFor(*machine.measured, needs.walls, needs.look) : nullptr;
   if (const MeasuredSetting* found = room ? nearestTo(wishes, *room) : nullptr) {
@@ -90,6 +92,28 @@ DrawingPlan::Choice DrawingPlan::choose(const DrawingNeeds& needs, const KnownMa
   const char* unknown = machine.measured ? "no room like this one is calibrated" : "not calibrated";
   return {unmeasuredSetting(machine.processors, needs.walls, wishes),
           fmt::format("{}; stadion calibrate measures what is fastest here", unknown)};
+}
+
+DrawingPlan::Choice DrawingPlan::chooseForCpu(const DrawingNeeds& needs) {
+  const DrawWishes& wishes = needs.wishes;  // LP_NUM_THREADS among them is OpenGL's
+  const bool pinned = wishes.pinned.value_or(false);
+  if (wishes.processes.value_or(false)) {
+    const auto share = static_cast<std::uint32_t>(needs.cpuThreads / std::max<std::size_t>(1, needs.walls));
+    return {{true, share <= 1 ? 0 : share, pinned}, "processes were asked for"};
+  }
+  const char* why = pinned ? "all walls share one pool of threads, so no wall is pinned"
+                           : "all walls share one pool of threads";
+  return {{false, needs.cpuThreads, false}, why};
+}
+
+std::string DrawingPlan::text(std::size_t walls) const {
+  const DrawSetting& s = setting();
+  if (drawsWithGl_) return textOf(s, walls);
+  const std::uint32_t threads = std::max(1u, s.rasteriserThreads);
+  return fmt::format(
+      "{}{} thread{} of the CPU renderer{}{}",
+      s.processes ? fmt::format("{} process{}, each with ", walls, walls == 1 ? "" : "es") : "", threads,
+      threads == 1 ? "" : "s", s.processes ? "" : " for all walls", s.pinned ? ", pinned" : "");
 }
 
 }  // namespace stadion

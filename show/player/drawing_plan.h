@@ -1,6 +1,10 @@
 #pragma once
-/// How a run draws its walls in software, and why: as the settings say, else as `stadion calibrate` found to
-/// be fastest on this machine, else by a rule (unmeasuredSetting).
+/// How a run draws its walls on processors, and why.
+///
+/// OpenGL  as the settings say, else as `stadion calibrate` found to be fastest on this machine, else by a rule
+///         (unmeasuredSetting).
+/// CPU     one pool of threads draws all walls of this process; processes only if they are asked for. The
+///         calibration measures OpenGL, so it decides nothing here.
 ///
 /// Threads  to be settled before the first OpenGL context is made.
 
@@ -28,6 +32,7 @@ struct DrawingNeeds {
   std::string here{};  ///< why this program must draw itself; empty: others may
   std::size_t walls = 1;
   std::string look = "full";
+  std::uint32_t cpuThreads = 0;  ///< of the CPU renderer, on all processors that may draw; 0: OpenGL draws
 };
 
 class DrawingPlan {
@@ -37,6 +42,8 @@ public:
   const DrawSetting& setting() const { return chosen_.setting; }
   /// "calibrated 2026-11-23 05:01 UTC: 17.2 frames/s with 4 walls, 12.3 by threads"
   const std::string& why() const { return chosen_.why; }
+  /// "2 threads of the CPU renderer for all walls"
+  std::string text(std::size_t walls) const;
   /// Threads of this program's rasteriser, for in-process and worker-process walls alike.
   std::uint32_t rasteriserThreadsHere() const { return here_.setting.rasteriserThreads; }
 
@@ -49,7 +56,9 @@ private:
     std::string why;
   };
   static Choice choose(const DrawingNeeds& needs, const KnownMachine& machine);
+  static Choice chooseForCpu(const DrawingNeeds& needs);
 
+  bool drawsWithGl_;
   Choice chosen_, here_;
 };
 

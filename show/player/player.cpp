@@ -178,7 +178,7 @@ FrameLoopOptions Player::loopOptions() const {
   l.walls = walls_.walls.size();
   l.frames = frames_;
   l.frameTimes = decisions_.frames;
-  l.relief = decisions_.relief;
+  l.degradation = decisions_.degradation;
   if (frames_ == 0) l.end = end_;
   return l;
 }

@@ -18,10 +18,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t kMostBytes = std::size_t{512} << 20;
+constexpr std::size_t kMostAssetBytes = std::size_t{512} << 20;
 
 std::string contentOf(const fs::path& file) {
-  const Result<std::string> text = readPlainFile(file.string(), kMostBytes);
+  const Result<std::string> text = readPlainFile(file.string(), kMostAssetBytes);
   return text ? text.value() : std::string();
 }
 

@@ -132,7 +132,7 @@ private:
   }
 
   /// How a body flies hangs on where its matter is, which its model does not show.
-  static void noteEvenMatter(const Load& load, const Document& document, Diagnostics& findings) {
+  static void noteEvenMatter(const LoadedScene& load, const Document& document, Diagnostics& findings) {
     for (const Declaration d : document) {
       if (d.kind() != "dynobject" || d.has("centre") || d.has("inertia")) continue;
       const auto* node = dynamic_cast<const DynObjectNode*>(load.nodes[d.index()].get());
@@ -232,7 +232,7 @@ void lookAtCollisions(const std::string& file, const std::vector<std::string>& r
   std::set<NodeRef> seen;
   player->scene().tree().forEachNode([&](const Node& node) {
     const auto* collision = dynamic_cast<const CollisionNode*>(&node);
-    const Load* load = player->scene().tree().load(node.self().load);
+    const LoadedScene* load = player->scene().tree().load(node.self().load);
     if (!collision || !load) return;
     for (const auto& [ref, fit] : collision->participants()) {
       const auto* object = dynamic_cast<const ObjectNode*>(player->scene().find(ref));
@@ -251,7 +251,7 @@ void lookAtCollisions(const std::string& file, const std::vector<std::string>& r
   });
   for (const auto& [fit, objects] : alike) {
     const NodeRef ref = objects.first->self();
-    const Load& from = *player->scene().tree().load(ref.load);
+    const LoadedScene& from = *player->scene().tree().load(ref.load);
     std::string text = "\"" + objects.first->name() + "\" " + fit->choice.remark;
     if (objects.count > 1)
       text += "; " + std::to_string(objects.count - 1) + " more of this model do the same";

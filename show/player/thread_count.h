@@ -15,11 +15,14 @@ struct ThreadCount {
   std::size_t cull = 0;        ///< one for each wall
   std::size_t draw = 0;        ///< one for each wall, in this program or in a process of its own
   std::size_t rasteriser = 0;  ///< of this program, or of all wall processes together
+  bool byCpu =
+      false;  ///< the CPU renderer: Draw threads are among its threads while they draw, and not counted
 
   std::size_t all() const { return app + cull + draw + rasteriser; }
 };
 
 ThreadCount threadsOf(const DrawSetting& setting, std::size_t walls);
+ThreadCount threadsOfCpuRenderer(std::uint32_t threads, std::size_t walls);
 
 /// One line with the counts and the processors. A second one with advice if there are more threads than
 /// processors; `walls` is the name that the user gave the wall file.

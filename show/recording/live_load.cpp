@@ -4,7 +4,7 @@ namespace stadion {
 
 bool hasDrawnBudgets(const Scene& scene) {
   bool any = false;
-  scene.tree().forEachLoad([&](const Load& load) {
+  scene.tree().forEachLoad([&](const LoadedScene& load) {
     for (const auto& [position, terms] : load.terms) any |= mayBeDrawn(load.nodes[position].get());
   });
   return any;

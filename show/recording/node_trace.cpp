@@ -29,7 +29,7 @@ NodeTrace::NodeTrace(std::string name)
 
 void NodeTrace::record(const TimeSignature& now, const Scene& scene) {
   const NodeRef node = scene.tree().resolve(name_, {1, 0});
-  const Load* load = scene.tree().load(node.load);
+  const LoadedScene* load = scene.tree().load(node.load);
   const auto* placed = load ? dynamic_cast<const PlacedNode*>(load->nodes[node.position].get()) : nullptr;
   if (!placed) return;  // it is unloaded at the moment
   const Pose X = poseOf(scene.placements().world(placed->placement()));

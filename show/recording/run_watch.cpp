@@ -14,14 +14,14 @@ namespace stadion {
 namespace {
 
 std::string nameIn(const Scene& scene, NodeRef node) {
-  const Load* load = scene.tree().load(node.load);
+  const LoadedScene* load = scene.tree().load(node.load);
   if (!load || node.position >= load->nodes.size() || !load->nodes[node.position]) return "?";
   const std::string name = load->nodes[node.position]->name();
   return name.empty() ? load->file + ":" + std::to_string(load->lines[node.position]) : name;
 }
 
 bool givesUp(const Scene& scene, NodeRef node) {
-  const Load* load = scene.tree().load(node.load);
+  const LoadedScene* load = scene.tree().load(node.load);
   const auto at = load ? load->terms.find(node.position) : decltype(load->terms.end())();
   return load && at != load->terms.end() && levelsOf(at->second.gives) > 0;
 }

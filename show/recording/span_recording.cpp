@@ -70,7 +70,7 @@ std::optional<Diagnostic> SpanRecording::finish() {
 }
 
 void nameNode(const Scene& scene, NodeRef node, regression::SpanRow& row) {
-  const Load* load = scene.tree().load(node.load);
+  const LoadedScene* load = scene.tree().load(node.load);
   if (!load || node.position >= load->nodes.size()) {
     row.path = "(unloaded)";
     return;

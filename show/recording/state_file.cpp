@@ -14,7 +14,29 @@ namespace {
 
 constexpr std::string_view kStateMagic = "stadion state 1\n";
 constexpr std::size_t kStateHead = kStateMagic.size() + sizeof(std::uint64_t);
+constexpr std::string_view kFieldsMagic = "stadion fields 1";  ///< ends a file that has them
 constexpr std::size_t kMostStateBytes = std::size_t{1} << 30;
+
+}  // namespace
+
+namespace {
+
+/// "@PATH\tFILE:LINE" for each node, and below it "NAME\tVALUE" for each field.
+std::string namedFields(Scene& scene) {
+  NodeNames names;
+  names.see(scene);
+  std::string text;
+  std::optional<NodeRef> last;
+  for (const SceneSnapshot::NamedField& f : SceneSnapshot(scene).named()) {
+    if (last != f.node) {
+      const auto name = names.find(f.node);
+      text += name ? fmt::format("@{}\t{}:{}\n", name->path, name->file, name->line) : "@the scene\n";
+      last = f.node;
+    }
+    text += f.name + '\t' + f.value + '\n';
+  }
+  return text;
+}
 
 }  // namespace
 
@@ -39,7 +61,23 @@ std::optional<Diagnostic> saveState(Scene& scene, const std::string& file) {
   std::string bytes(kStateMagic);
   bytes.append(reinterpret_cast<const char*>(&files), sizeof files);
   bytes.append(reinterpret_cast<const char*>(state.data()), state.size());
+  const std::string fields = namedFields(scene);
+  const std::uint64_t size = fields.size();
+  bytes += fields;
+  bytes.append(reinterpret_cast<const char*>(&size), sizeof size);
+  bytes += kFieldsMagic;
   return writeFile(file, bytes);
+}
+
+std::string fieldsIn(const std::string& file) {
+  const Result<std::string> read = readPlainFile(file, kMostStateBytes);
+  const std::string bytes = read ? read.value() : "";
+  std::uint64_t size = 0;
+  if (!bytes.ends_with(kFieldsMagic) || bytes.size() < kFieldsMagic.size() + sizeof size) return "";
+  const std::size_t end = bytes.size() - kFieldsMagic.size() - sizeof size;
+  std::memcpy(&size, bytes.data() + end, sizeof size);
+  return size <= end ? bytes.substr(end - static_cast<std::size_t>(size), static_cast<std::size_t>(size))
+                     : "";
 }
 
 Result<std::optional<SavedStateDifference>> compareState(Scene& scene, const std::string& file) {

@@ -22,9 +22,12 @@ struct SavedStateDifference {
 std::optional<SavedStateDifference> savedStateDifference(Scene& scene, std::uint64_t files,
                                                          std::span<const std::uint8_t> state);
 
-/// Writes the scene's state.
+/// Writes the scene's state: its bytes, and its fields by name, which other builds can compare too.
 std::optional<Diagnostic> saveState(Scene& scene, const std::string& file);
 /// Compares the scene with a state that saveState() wrote after the same frame.
 Result<std::optional<SavedStateDifference>> compareState(Scene& scene, const std::string& file);
+/// The fields by name in a file of saveState(): "@NODE<tab>FILE:LINE", and below it "FIELD<tab>VALUE" a line;
+/// fields that are zero are left out. Empty if the file has none.
+std::string fieldsIn(const std::string& file);
 
 }  // namespace stadion

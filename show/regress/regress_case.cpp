@@ -4,6 +4,7 @@
 #include "profiling/regression/statistics/hitch_comparison.h"
 #include "profiling/regression/statistics/instruction_comparison.h"
 #include "profiling/regression/statistics/rank_test.h"
+#include "profiling/report/show_figures.h"
 #include "show/base/processor_name.h"
 #include "show/regress/regress_child.h"
 #include "show/regress/regress_hint.h"
@@ -80,15 +81,20 @@ private:
     if (!child.fault.empty()) return {{}, program + ": " + child.fault, child.status == 2};
     auto facts = factsOf(child.out);
     if (!facts) return {{}, program + ": it did not print a summary as JSON"};
-    facts->renderer += " on " + processorName();
+    if (drawnByCpuRenderer(facts->renderer))
+      facts->renderer = "CPU renderer";  // its pixels are the same on all processors
+    else
+      facts->renderer += " on " + processorName();
     return {std::move(facts), {}, false, warningsIn(child.err)};
   }
 
   void takeUpFacts(const std::string& mode) {
     takeUp(*last_.facts, o_.asked, case_, result_.name, *update_);
     BaselineCase& kept = (*update_)[result_.name];
-    if (kept.states.empty() || o_.asked.state)
-      kept.states = keptStates(stateHistory(case_, {o_.program, mode}, o_.limit, stop_));
+    if (!kept.states.empty() && !o_.asked.state) return;
+    const auto history = stateHistory(case_, {o_.program, mode}, o_.limit, stop_);
+    kept.states = keptStates(history);
+    kept.fields = keptFields(case_, {o_.program, mode}, history.size(), o_.limit, stop_);
   }
 
   void add(std::vector<Check> checks) {
@@ -146,12 +152,10 @@ private:
     return checks;
   }
 
-  /// A baseline keeps hashes of frames. Only a build can tell node and field.
+  /// A baseline keeps hashes of frames, and the fields of nodes after a few of them.
   std::string sinceBaseline(const BaselineCase& kept, const std::string& mode) const {
     if (kept.states.empty()) return "--update keeps the states of frames, which would say in which it begins";
-    const std::string place =
-        stateLocation(stateHistory(case_, {o_.program, mode}, o_.limit, stop_), kept.states);
-    return place.empty() ? place : place + "; --against BUILD names node and field";
+    return stateLocation(case_, {o_.program, mode}, KeptStates{kept.states, kept.fields}, o_.limit, stop_);
   }
 
   /// Whatever the mode, the state and the pictures are the same.

@@ -156,6 +156,7 @@ std::vector<std::string> playWords(const std::string& program, const regression:
   else if (c.frames == 0)
     add("--input", logBeside(c.show));
   for (const std::string& root : c.assetRoots) add("--asset-root", root);
+  words.insert(words.end(), c.renderer.begin(), c.renderer.end());
   return words;
 }
 

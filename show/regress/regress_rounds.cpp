@@ -177,6 +177,7 @@ CountedInstructions countInstructions(const SuiteCase& c, const MeasuredProgram&
                                       const MeasuringOptions& options, CountedBy by) {
   const TemporaryFolder folder;
   SuiteCase shorter = c;
+  if (!drawn) shorter.renderer.clear();
   shorter.frames = c.frames == 0 ? kCountedFrames : std::min(c.frames, kCountedFrames);
   if (by == CountedBy::Hardware)
     return countByHardware(shorter, program, folder.path("spans"), drawn, options);

@@ -1,18 +1,23 @@
 #include "show/regress/state_location.h"
 
 #include "show/base/temporary_folder.h"
+#include "show/recording/state_file.h"
 #include "show/regress/regress_child.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <optional>
 #include <sstream>
+#include <utility>
 
 namespace stadion {
 namespace {
 
-constexpr std::size_t kKeptStates = 1024;  ///< frames of a case
-constexpr std::size_t kKeptDigits = 8;     ///< of each
+constexpr std::size_t kKeptStates = 1024;        ///< frames of a case
+constexpr std::size_t kKeptDigits = 8;           ///< of each
+constexpr std::size_t kKeptFields = 4;           ///< frames of a case whose fields are kept
+constexpr std::size_t kMostKeptBytes = 1 << 17;  ///< of all of them
 
 /// `PROGRAM hash SHOW ...`, as the case is played.
 std::vector<std::string> hashWords(const regression::SuiteCase& c, const StatePlay& play) {
@@ -55,6 +60,65 @@ std::string differenceIn(const std::string& out, const std::string& file) {
   return "";
 }
 
+struct Field {
+  std::string node, where;  ///< its path, and its number if several have the same; file and line
+  std::string name, value;
+};
+
+/// The fields of a text of fieldsIn().
+std::vector<Field> fieldsOf(const std::string& text) {
+  std::vector<Field> all;
+  std::map<std::string, int> seen;
+  std::string node, where;
+  std::istringstream lines(text);
+  for (std::string line; std::getline(lines, line);) {
+    const std::size_t tab = std::min(line.find('\t'), line.size());
+    const std::string first = line.substr(0, tab), second = tab < line.size() ? line.substr(tab + 1) : "";
+    if (!line.starts_with('@')) {
+      all.push_back({node, where, first, second});
+      continue;
+    }
+    const int number = ++seen[first];
+    node = first.substr(1) + (number > 1 ? fmt::format(" #{}", number) : ""), where = second;
+  }
+  return all;
+}
+
+/// Without files and lines: a baseline is compared elsewhere, and scripts are edited.
+std::string withoutPlaces(const std::string& text) {
+  std::string kept;
+  std::istringstream lines(text);
+  for (std::string line; std::getline(lines, line);)
+    kept += (line.starts_with('@') ? line.substr(0, line.find('\t')) : line) + '\n';
+  return kept;
+}
+
+/// fieldsIn() of the state after so many frames; empty if the program cannot save it.
+std::string fieldsAfter(const regression::SuiteCase& c, const StatePlay& play, std::size_t frames,
+                        std::chrono::seconds limit, const std::atomic<bool>& stop) {
+  const TemporaryFolder folder;
+  const std::string file = folder.path("state");
+  std::vector<std::string> save = hashWords(c, play, frames);
+  save.insert(save.end(), {"--save-state", file});
+  return runChild(save, limit, stop).status == 0 ? fieldsIn(file) : "";
+}
+
+/// The first and the last frame among which the states begin to differ; nothing if no kept one differs.
+std::optional<std::pair<std::size_t, std::size_t>> firstDiffering(const std::vector<std::string>& now,
+                                                                  const std::string& kept) {
+  std::size_t frames = 0;
+  std::string digits;
+  std::istringstream(kept) >> frames >> digits;
+  const std::size_t stride = strideOf(frames);
+  for (std::size_t i = 0; stride > 0 && (i + 1) * kKeptDigits <= digits.size(); ++i) {
+    const std::size_t last = (i + 1) * stride - 1;
+    if (last >= now.size()) return {};
+    if (digits.compare(i * kKeptDigits, kKeptDigits, now[last].substr(0, kKeptDigits)) != 0)
+      return std::pair(last + 1 - stride, last);
+  }
+  return {};
+}
+
 }  // namespace
 
 std::vector<std::string> stateHistory(const regression::SuiteCase& c, const StatePlay& play,
@@ -93,18 +157,53 @@ std::string keptStates(const std::vector<std::string>& history) {
   return kept;
 }
 
-std::string stateLocation(const std::vector<std::string>& now, const std::string& kept) {
-  std::size_t frames = 0;
-  std::string digits;
-  std::istringstream(kept) >> frames >> digits;
-  const std::size_t stride = strideOf(frames);
-  for (std::size_t i = 0; stride > 0 && (i + 1) * kKeptDigits <= digits.size(); ++i) {
-    const std::size_t last = (i + 1) * stride - 1;
-    if (last >= now.size()) return "";
-    if (digits.compare(i * kKeptDigits, kKeptDigits, now[last].substr(0, kKeptDigits)) == 0) continue;
-    return stride == 1 ? fmt::format("first in frame {}", last)
-                       : fmt::format("first in frames {} to {}", last + 1 - stride, last);
+std::map<std::uint64_t, std::string> keptFields(const regression::SuiteCase& c, const StatePlay& play,
+                                                std::size_t frames, std::chrono::seconds limit,
+                                                const std::atomic<bool>& stop) {
+  std::map<std::uint64_t, std::string> kept;
+  for (std::size_t part = kKeptFields; part > 0; --part) {
+    const std::size_t count = frames * part / kKeptFields;
+    if (count == 0 || kept.contains(count - 1)) continue;
+    std::string text = withoutPlaces(fieldsAfter(c, play, count, limit, stop));
+    if (text.empty() || text.size() > kMostKeptBytes) break;
+    const bool isLarge = text.size() > kMostKeptBytes / kKeptFields;
+    kept[count - 1] = std::move(text);
+    if (isLarge) break;
   }
+  return kept;
+}
+
+std::string stateLocation(const regression::SuiteCase& c, const StatePlay& now, const KeptStates& before,
+                          std::chrono::seconds limit, const std::atomic<bool>& stop) {
+  const auto differing = firstDiffering(stateHistory(c, now, limit, stop), before.hashes);
+  if (!differing) return "";
+  const auto [first, last] = *differing;
+  const std::string where = first == last ? fmt::format("first in frame {}", first)
+                                          : fmt::format("first in frames {} to {}", first, last);
+  for (auto at = before.fields.lower_bound(last); at != before.fields.end(); ++at) {
+    const auto frames = static_cast<std::size_t>(at->first) + 1;
+    const std::string found = firstDifference(fieldsAfter(c, now, frames, limit, stop), at->second);
+    if (found.empty()) continue;
+    return where + (at->first == first ? ": " : fmt::format("; after frame {}: ", at->first)) + found;
+  }
+  return where + "; --against BUILD names node and field";
+}
+
+std::string firstDifference(const std::string& now, const std::string& before) {
+  std::map<std::pair<std::string, std::string>, std::string> theirs;
+  for (Field& f : fieldsOf(before)) theirs[{f.node, f.name}] = std::move(f.value);
+  const auto told = [](const Field& f, const std::string& here, const std::string& there) {
+    const std::string where = f.where.empty() ? "" : " (" + f.where + ")";
+    return fmt::format("{}{}, {} is {} now, {} before", f.node, where, f.name, here, there);
+  };
+  for (const Field& f : fieldsOf(now)) {
+    const auto at = theirs.find({f.node, f.name});
+    const std::string there = at == theirs.end() ? "0" : at->second;
+    if (there != f.value) return told(f, f.value, there);
+    if (at != theirs.end()) theirs.erase(at);
+  }
+  for (const Field& f : fieldsOf(before))
+    if (theirs.contains({f.node, f.name})) return told(f, "0", f.value);
   return "";
 }
 

@@ -7,6 +7,8 @@
 
 #include <atomic>
 #include <chrono>
+#include <cstdint>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -28,7 +30,22 @@ std::string stateLocation(const regression::SuiteCase& c, const StatePlay& now, 
 
 /// A history as a baseline keeps it: of at most kKeptStates frames, eight digits of each hash.
 std::string keptStates(const std::vector<std::string>& history);
-/// "first in frames 33 to 40"; empty if no kept frame differs.
-std::string stateLocation(const std::vector<std::string>& now, const std::string& kept);
+/// The fields of nodes after some frames, by frame, as a baseline keeps them; none of a large scene.
+std::map<std::uint64_t, std::string> keptFields(const regression::SuiteCase& c, const StatePlay& play,
+                                                std::size_t frames, std::chrono::seconds limit,
+                                                const std::atomic<bool>& stop);
+
+/// The states of a case when its baseline was written.
+struct KeptStates {
+  const std::string& hashes;                           ///< keptStates()
+  const std::map<std::uint64_t, std::string>& fields;  ///< keptFields()
+};
+/// "first in frames 33 to 40; after frame 49: ball (kick.evs:27), velocity is 0 1 2 now, 0 1 3 before". Without
+/// node and field if none were kept; empty if no kept frame differs.
+std::string stateLocation(const regression::SuiteCase& c, const StatePlay& now, const KeptStates& before,
+                          std::chrono::seconds limit, const std::atomic<bool>& stop);
+
+/// The first field that differs between two texts of fieldsIn(), as in stateLocation(); empty if none does.
+std::string firstDifference(const std::string& now, const std::string& before);
 
 }  // namespace stadion

@@ -43,15 +43,6 @@ private:
   std::shared_ptr<Held> held_;
 };
 
-/// Whether processors make the provider's pictures.
-bool drawsInSoftware(GlProvider& provider) {
-  const auto target = provider.create(1, 1);
-  if (!target || target.value()->makeCurrent()) return true;
-  const std::string renderer = describeGl(target.value()->gl());
-  target.value()->release();
-  return drawnBySoftware(renderer);
-}
-
 }  // namespace
 
 OpenSession::OpenSession(SessionSettings settings, Reporter& terminal, const std::atomic<bool>& stop)
@@ -74,7 +65,7 @@ bool OpenSession::open(Diagnostics& findings) {
   player_ = openShow(findings);
   if (!player_) return false;
   state_.player = player_.get();
-  if (provider_ && !canDraw(findings)) return false;
+  if (!renderer_->drawsNothing() && !canDraw(findings)) return false;
   reconsiderDrawing();
   return openGroup(findings);
 }
@@ -82,16 +73,22 @@ bool OpenSession::open(Diagnostics& findings) {
 /// Before the first context: the rasteriser asks once how many threads it has.
 bool OpenSession::openDrawing(Diagnostics& findings) {
   const SessionSettings& s = state_.settings;
-  if (!s.draw.provider) return true;
-  auto provider = openGlProvider(*s.draw.provider);
-  if (!provider) return findings.add(provider.error()), false;
-  provider_ = std::move(provider.value());
+  RendererSettings settings = s.draw.renderer;
+  // Spans are processor time of the thread that draws.
+  if (!s.record.spans.file.empty() && settings.threads == 0) settings.threads = 1;
+  auto renderer = ShowRenderer::open(settings);
+  if (!renderer) return findings.add(renderer.error()), false;
+  renderer_ = std::move(renderer.value());
+  state_.renderer = renderer_.get();
+  if (renderer_->drawsNothing()) return true;
   Diagnostics reportedLater;
   const auto walls = loadWalls(s.show.walls, shareFolder() + "/walls", reportedLater);
   if (!walls) return true;
-  drawing_.emplace(s.drawingNeeds(walls->walls.size()), knownMachine(findings));
+  DrawingNeeds needs = s.drawingNeeds(walls->walls.size());
+  needs.cpuThreads = renderer_->threads();
+  drawing_.emplace(needs, renderer_->drawsWithGl() ? knownMachine(findings) : KnownMachine{});
   state_.drawing = &*drawing_;
-  setRasteriserThreads(drawing_->rasteriserThreadsHere());
+  if (renderer_->drawsWithGl()) setRasteriserThreads(drawing_->rasteriserThreadsHere());
   return true;
 }
 
@@ -102,7 +99,7 @@ bool OpenSession::canDraw(Diagnostics& findings) {
   const ShowParts parts = player_->parts(state_.settings.draw.layout);
   for (const WallViews& wall : parts.walls) {
     if (!why && !(before && before->width == wall.width && before->height == wall.height))
-      why = checkPictureSize(*provider_, wall.width, wall.height);
+      why = renderer_->checkSize(wall.width, wall.height);
     before = &wall;
   }
   if (why) findings.error(why->where, "--size: " + why->message);
@@ -113,8 +110,7 @@ bool OpenSession::canDraw(Diagnostics& findings) {
 void OpenSession::reconsiderDrawing() {
   const SessionSettings& s = state_.settings;
   if (!drawing_ || !drawing_->setting().processes || s.draw.processes) return;
-  if (s.draw.provider == GlProviderKind::Egl && !drawsInSoftware(*provider_))
-    drawing_->drawHere("a graphics card draws");
+  if (renderer_->drawsOnCard()) drawing_->drawHere("a graphics card draws");
   if (!s.play.everyFrameCounts(*player_) && hasDrawnBudgets(player_->scene()))
     drawing_->drawHere("budgets of what is drawn are measured where it is drawn");
 }
@@ -151,8 +147,8 @@ std::unique_ptr<Player> OpenSession::openShow(Diagnostics& findings) {
   player = createPlayer(show, findings);
   if (!player) return nullptr;
   if (!cluster)
-    state_.supervised->beginAgain(found);
-  else if (!cluster->beginAnew(found, findings))
+    state_.supervised->restartShow(found);
+  else if (!cluster->restartShow(found, findings))
     return nullptr;
   return player;
 }

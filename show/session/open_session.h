@@ -21,7 +21,7 @@ public:
   /// What follows once a show has been played.
   enum class Then { Ends, NextGroup, Rejoin };
   Then playOnce(std::optional<SessionReport>& report);
-  /// The next group's show: everything is made anew, except for the files that were read. False if there is
+  /// Creates the next group's show; only the files that were read are reused. Returns false if there is
   /// none.
   bool nextGroup();
   /// The show as the leader has it now. False if there is none.
@@ -43,6 +43,7 @@ private:
   bool waitForScript();
   ShowParts stageParts();
   void fillReport(SessionReport& report, const FrameLoopOutcome& outcome, double elapsed);
+  void addDrawing(RunSummary& summary) const;
   void addTimes(RunSummary& summary) const;
   void writeSummary(SessionReport& report);
   auto reversedParts() { return std::views::reverse(parts_); }
@@ -51,7 +52,7 @@ private:
   std::unique_ptr<RunJournal> journal_;
   JournalReporter reporter_;
   SessionState state_;
-  std::unique_ptr<GlProvider> provider_;
+  std::unique_ptr<ShowRenderer> renderer_;
   std::optional<DrawingPlan> drawing_;
   std::unique_ptr<OperatorConsole> console_;
   std::unique_ptr<Player> player_;

@@ -21,8 +21,9 @@ ShowParts OpenSession::stageParts() {
   const SessionSettings& s = state_.settings;
   ShowParts parts =
       player_->parts(s.draw.layout, state_.cluster ? state_.cluster->inputOf(*player_) : nullptr);
-  parts.provider = provider_.get();
-  if (drawing_) parts.workers = s.workers(*player_, drawing_->setting(), reporter_.sayFunction());
+  if (drawing_)
+    parts.workers = s.workers(*player_, drawing_->setting(), renderer_->kind(), reporter_.sayFunction());
+  renderer_->drawFor(parts);
   if (drawing_ && drawing_->setting().pinned)
     parts.processors = Topology::ofThisMachine().parts(parts.walls.size());
   parts.head = s.draw.headFor(parts.walls);
@@ -83,13 +84,7 @@ void OpenSession::fillReport(SessionReport& report, const FrameLoopOutcome& outc
   summary.elapsedSeconds = elapsed;
   state_.watch->addTo(summary, outcome.framesSimulated);
   addTimes(summary);
-  if (drawing_) {
-    const DrawSetting& how = drawing_->setting();
-    summary.howDrawn = {how.processes ? "process" : "thread", how.rasteriserThreads, how.pinned,
-                        drawing_->why(), textOf(how, player_->walls().walls.size())};
-  }
-  const std::string drawn = state_.stages->glDescription();
-  summary.remarks.push_back(drawn.empty() ? "nothing was drawn" : "drawn by " + drawn);
+  addDrawing(summary);
   if (outcome.stopped) summary.stopped = stopSignalName();
   for (const auto& part : reversedParts()) part->report(report);
   state_.reported = true;
@@ -97,11 +92,23 @@ void OpenSession::fillReport(SessionReport& report, const FrameLoopOutcome& outc
   if (state_.folder) writeSummary(report);
 }
 
+void OpenSession::addDrawing(RunSummary& summary) const {
+  const std::string drawn = state_.stages->drawnBy();
+  summary.remarks.push_back(drawn.empty() ? "nothing was drawn" : "drawn by " + drawn);
+  if (!drawing_) return;
+  const DrawSetting& how = drawing_->setting();
+  HowDrawn& to = summary.howDrawn;
+  to.renderer = renderer_->drawsWithGl() ? "gl" : "cpu", to.chosen = renderer_->why();
+  to.workers = how.processes ? "process" : "thread", to.threads = how.rasteriserThreads;
+  to.pinned = how.pinned, to.why = drawing_->why();
+  to.text = drawing_->text(player_->walls().walls.size());
+}
+
 void OpenSession::addTimes(RunSummary& s) const {
   const FrameTimes& t = state_.loop->times();
   const ShowStages& stages = *state_.stages;
   s.frameMs = distributionOf(t.period.values());
-  if (stages.glDescription() != "") s.warmUpMs = t.warmUp;
+  if (stages.drawnBy() != "") s.warmUpMs = t.warmUp;
   const std::string clock = "steady clock around the stage",
                     finish = std::string("steady clock around draw + finish + read back") +
                              (state_.settings.play.drawBeginsEarly ? ", with its waits for Cull" : "");

@@ -35,6 +35,7 @@ struct SessionState {
   OperatorConsole* console = nullptr;
   Player* player = nullptr;
   RunWatch* watch = nullptr;
+  const ShowRenderer* renderer = nullptr;
   const DrawingPlan* drawing = nullptr;
   const ShowStages* stages = nullptr;  ///< of the show that is played
   const FrameLoop* loop = nullptr;

@@ -17,11 +17,12 @@ DrawingNeeds SessionSettings::drawingNeeds(std::size_t walls) const {
 }
 
 std::optional<WallWorkers> SessionSettings::workers(const Player& player, const DrawSetting& setting,
+                                                    RendererKind renderer,
                                                     std::function<void(const std::string&)> say) const {
   if (!setting.processes) return {};
   WallWorkers w;
   w.rasteriserThreads = setting.rasteriserThreads;
-  w.egl = draw.provider == GlProviderKind::Egl;
+  w.renderer = renderer;
   w.everyFrame = play.everyFrameCounts(player) || !cluster.file.empty();
   w.rate = player.rate();
   w.tell = [say = std::move(say)](const std::string& what) { say("stadion: " + what); };

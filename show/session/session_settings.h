@@ -23,7 +23,7 @@ struct SessionSettings {
   /// What decides whether threads or processes draw so many walls.
   DrawingNeeds drawingNeeds(std::size_t walls) const;
   /// The processes that draw the walls; null if this process draws them.
-  std::optional<WallWorkers> workers(const Player& player, const DrawSetting& setting,
+  std::optional<WallWorkers> workers(const Player& player, const DrawSetting& setting, RendererKind renderer,
                                      std::function<void(const std::string&)> say) const;
 };
 

@@ -81,7 +81,7 @@ void RunJournal::see(const TimeSignature& now, const InputSample& input, const S
 void RunJournal::noteLoads(const Scene& scene) {
   loadsSeen_ = scene.tree().version();
   std::map<std::uint32_t, std::string> there;
-  scene.tree().forEachLoad([&](const Load& load) { there.emplace(load.number, load.file); });
+  scene.tree().forEachLoad([&](const LoadedScene& load) { there.emplace(load.number, load.file); });
   for (const auto& [number, file] : there)
     if (!loads_.contains(number)) note("loaded " + file);
   for (const auto& [number, file] : loads_)

@@ -23,7 +23,7 @@ std::string timesOf(std::uint64_t count) {
 
 SupervisedPart::SupervisedPart(std::unique_ptr<SharedProgress> progress,
                                std::function<void(const std::string&)> say)
-    : progress_(std::move(progress)), say_(std::move(say)), desk_(progress_->operatorState()),
+    : progress_(std::move(progress)), say_(std::move(say)), operator_(progress_->operatorState()),
       nextKept_(machineClock() + kKeepEvery) {
   progress_->enter(SharedProgress::Phase::Opening);
   from_ = progress_->kept();
@@ -45,25 +45,25 @@ std::unique_ptr<SupervisedPart> SupervisedPart::create(const SupervisionSettings
   return part;
 }
 
-void SupervisedPart::beginAgain(const Diagnostics& found) {
+void SupervisedPart::restartShow(const Diagnostics& found) {
   state_.reset(), from_.reset();
   const auto why = std::ranges::find(found.all(), Severity::Error, &Diagnostic::severity);
-  say_((why == found.all().end() ? "the kept scene cannot be put back" : why->message) +
-       " (have its files changed?): it begins again");
+  say_((why == found.all().end() ? "the saved scene cannot be restored" : why->message) +
+       " (have its files changed?): the show restarts");
 }
 
-void SupervisedPart::goOn(FrameLoopOptions& loop, OperatorConsole& desk, RunWatch& watch) {
+void SupervisedPart::goOn(FrameLoopOptions& loop, OperatorConsole& console, RunWatch& watch) {
   if (!keeps_) return;
   step_ = fromSeconds(1 / loop.rate);
-  desk.changed = [this](const OperatorState& state) { obeyed(state); };
+  console.changed = [this](const OperatorState& state) { obeyed(state); };
   progress_->catchesUpUntil(machineClock());
-  if (std::exchange(wentOn_, true) || progress_->starts() < 2) return obeyed(desk.state());
+  if (std::exchange(wentOn_, true) || progress_->starts() < 2) return obeyed(console.state());
   state_.reset();
-  desk.resume(desk_);
+  console.resume(operator_);
   const Nanoseconds at = from_ ? from_->time : 0;
   begun_ = machineClock(), due_ = std::max(at, progress_->timeNow());
   loop.late = due_ - at;
-  desk.playback().standFrom(due_);
+  console.playback().standFrom(due_);
   progress_->catchesUpUntil(begun_ + loop.late);
   catchesUp_ = true, nextKept_ = begun_ + kKeepSoon;
   if (from_) {
@@ -71,7 +71,7 @@ void SupervisedPart::goOn(FrameLoopOptions& loop, OperatorConsole& desk, RunWatc
     watch.goOnFrom(from_->history);
   }
   const std::string from =
-      from_ ? fmt::format("goes on from frame {}, {:.3f} s", from_->frame, toSeconds(at)) : "begins again";
+      from_ ? fmt::format("goes on from frame {}, {:.3f} s", from_->frame, toSeconds(at)) : "restarts";
   const bool paced = loop.pace != Pace::Free;
   say_(fmt::format("the show {}{}", from,
                    paced ? fmt::format(", and catches up to {:.3f} s", toSeconds(due_)) : ""));
@@ -103,7 +103,7 @@ void SupervisedPart::keep(const TimeSignature& now, Scene& scene, const RunWatch
                  "to keep the show's scene takes {:.1f} ms, more than a frame has; it is done every {:.0f} s",
                  1e3 * toSeconds(took), toSeconds(pause))
            : fmt::format("the show's scene cannot be kept: {}; if the player dies, the show goes on from an "
-                         "older one, or begins again",
+                         "older one, or restarts",
                          std::strerror(wrong)));
 }
 

@@ -28,9 +28,9 @@ public:
   /// The snapshot to continue from; null: the show begins.
   std::shared_ptr<const std::vector<std::uint8_t>> state() const { return state_; }
   /// The snapshot could not be restored, for the reasons found: the show restarts.
-  void beginAgain(const Diagnostics& found);
+  void restartShow(const Diagnostics& found);
   /// The first show of this process: where it continues, and what the operator had decided. Reports it.
-  void goOn(FrameLoopOptions& loop, OperatorConsole& desk, RunWatch& watch);
+  void goOn(FrameLoopOptions& loop, OperatorConsole& console, RunWatch& watch);
 
   void enter(SharedProgress::Phase phase) { progress_->enter(phase); }
   /// The next group's show begins.
@@ -52,7 +52,7 @@ private:
   std::optional<SharedProgress::Kept> from_;
   std::shared_ptr<const std::vector<std::uint8_t>> state_;
   bool keeps_ = true;  ///< the scene, for the next player
-  OperatorState desk_;
+  OperatorState operator_;
   bool wentOn_ = false, catchesUp_ = false;
   Nanoseconds begun_ = 0;     ///< when it went on, by machineClock()
   Nanoseconds due_ = 0;       ///< the show time where it would have been then

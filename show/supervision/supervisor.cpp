@@ -133,7 +133,7 @@ int Supervisor::play(const std::atomic<bool>& stop) {
       say(fmt::format("{}, the {}th time in a row; the show is given up", died, recovery_.deaths()));
       return end->status;
     }
-    const bool again = step.way == Recovery::Way::BeginAgain;
+    const bool again = step.way == Recovery::Way::Restart;
     say(fmt::format(
         "{}; {}{}", died,
         again ? fmt::format("the {}th time in a row: another one begins the show again", recovery_.deaths())

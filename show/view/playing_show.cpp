@@ -15,14 +15,14 @@ std::map<std::string, bool> subScenes(const Scene& scene) {
   std::set<std::uint32_t> loads;
   scene.tree().forEachNode([&](const Node& node) {
     const NodeRef ref = node.self();
-    const Load* load = scene.tree().load(ref.load);
+    const LoadedScene* load = scene.tree().load(ref.load);
     if (load && !load->owner.valid() && node.kind() == "scene" && !node.name().empty())
       known.try_emplace(node.name(), false);
     loads.insert(ref.load);
   });
   for (const std::uint32_t number : loads) {
-    const Load* load = scene.tree().load(number);
-    const Load* outer = load ? scene.tree().load(load->owner.load) : nullptr;
+    const LoadedScene* load = scene.tree().load(number);
+    const LoadedScene* outer = load ? scene.tree().load(load->owner.load) : nullptr;
     if (!outer || outer->owner.valid() || load->owner.position >= outer->nodes.size()) continue;
     if (const Node* owner = outer->nodes[load->owner.position].get()) known[owner->name()] = true;
   }
@@ -41,7 +41,7 @@ std::unique_ptr<PlayingShow> PlayingShow::open(const ShowSurroundings& around, D
   Player& player = *show->player_;
   if (around.visitor) player.takeInputFrom(*around.visitor);
   RecordSettings recorded = around.settings.record;
-  recorded.input = around.recorded ? around.desk.fileOfGroup(recorded.input) : "";
+  recorded.input = around.recorded ? around.console.fileOfGroup(recorded.input) : "";
   show->watch_ = RunWatch::create(recorded, around.settings.play, player, findings);
   if (!show->watch_) return nullptr;
   const SheetPlace& size = around.overviewSize;
@@ -84,7 +84,7 @@ ShowParts PlayingShow::parts() {
   outside.depth = player_->walls().depth;
   outside.width = around_.overviewSize.width, outside.height = around_.overviewSize.height;
   parts.walls.push_back(outside);
-  parts.provider = &around_.provider;
+  around_.renderer.drawFor(parts);
   parts.sink = &around_.sink;
   parts.contexts = &around_.kept->contexts;
   parts.probe = &recording_->probe();
@@ -101,8 +101,8 @@ void PlayingShow::start(const std::optional<ShowPlace>& place) {
   FrameLoopOptions options = around_.settings.play.loopOptions(*player_);
   options.walls += 1;  // the overview
   ShowParts show = parts();
-  around_.desk.beginGroup(*player_, *watch_);
-  around_.desk.addTo(show, options);
+  around_.console.beginGroup(*player_, *watch_);
+  around_.console.addTo(show, options);
   if (!player_->obeysLog()) options.decider = recording_->governor();
   writes_ = watchWrites(around_.settings.play.guard, show, options);
   stages_ = std::make_unique<ShowStages>(std::move(show));
@@ -152,7 +152,7 @@ void PlayingShow::takeUp(const ShowPlace& place) {
   scene.moveRig(place.X_WR);
   for (const auto& [name, loaded] : subScenes(scene)) {
     const bool wanted = place.loaded.contains(name);
-    if (wanted != loaded) scene.command(name, wanted ? Verb::Load : Verb::Unload, {}, 0);
+    if (wanted != loaded) scene.command(name, wanted ? CommandId::Load : CommandId::Unload, {}, 0);
   }
 }
 

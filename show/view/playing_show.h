@@ -32,9 +32,9 @@ struct ShowPlace {
 /// What a show plays into, and what outlives it.
 struct ShowSurroundings {
   const SessionSettings& settings;
-  GlProvider& provider;
+  ShowRenderer& renderer;
   PictureSink& sink;
-  OperatorConsole& desk;
+  OperatorConsole& console;
   /// From one show of a script to the next; shows that are there at the same time and play have one each.
   std::shared_ptr<ReusableResources> kept;
   InputDevice* visitor = nullptr;        ///< null: the input log plays
@@ -82,7 +82,7 @@ public:
   const Failure& failure() const { return outcome_.failure; }
   /// Whether it ended because the operator asked for the next group. After stop().
   bool nextGroup() const { return outcome_.nextGroup && !outcome_.failure; }
-  std::string glDescription() const { return stages_ ? stages_->glDescription() : ""; }
+  std::string drawnBy() const { return stages_ ? stages_->drawnBy() : ""; }
 
 private:
   explicit PlayingShow(const ShowSurroundings& around) : around_(around) {}

@@ -44,36 +44,34 @@ std::unique_ptr<ViewSession> ViewSession::open(ViewSettings settings, Reporter& 
   auto walls = loadWalls(played.show.walls, shareFolder() + "/walls", findings);
   if (!walls) return nullptr;
   s.walls_ = std::move(*walls);
-  s.windows_ = ViewWindows::open(s.settings_, s.walls_, findings);
-  if (!s.windows_ || !s.openDrawing(findings)) return nullptr;
+  if (!s.openDrawing(findings)) return nullptr;
+  s.windows_ = ViewWindows::open(s.settings_, s.walls_, s.renderer_->drawsWithGl(), findings);
+  if (!s.windows_) return nullptr;
   s.hud_.budgetShown = s.settings_.hud;
-  s.desk_ = OperatorConsole::open({played.show, played.play, played.console}, s.hudReporter_, findings);
-  if (!s.desk_) return nullptr;
+  s.console_ = OperatorConsole::open({played.show, played.play, played.console}, s.hudReporter_, findings);
+  if (!s.console_) return nullptr;
   s.show_ = PlayingShow::open(s.surroundings(std::make_shared<ReusableResources>()), findings);
-  if (!s.show_ || !s.desk_->begin(s.show_->player(), findings)) return nullptr;
+  if (!s.show_ || !s.console_->begin(s.show_->player(), findings)) return nullptr;
   return session;
 }
 
-// A display that the graphics card drives is a sign that the card can draw the walls too.
 bool ViewSession::openDrawing(Diagnostics& findings) {
+  auto renderer = ShowRenderer::open(settings_.session.draw.renderer);
+  if (!renderer) return findings.add(renderer.error()), false;
+  renderer_ = std::move(renderer.value());
+  if (!renderer_->drawsWithGl()) return true;
   DrawingNeeds needs = settings_.session.drawingNeeds(walls_.walls.size());
   needs.wishes.processes = false;
   setRasteriserThreads(DrawingPlan(needs, knownMachine(findings)).rasteriserThreadsHere());
-  const auto chosen = settings_.provider;
-  const auto kind = chosen ? *chosen : windows_->accelerated() ? GlProviderKind::Egl : GlProviderKind::OsMesa;
-  auto provider = openGlProvider(kind);
-  if (!provider && kind == GlProviderKind::Egl && !chosen) provider = openGlProvider(GlProviderKind::OsMesa);
-  if (!provider) return findings.add(provider.error()), false;
-  provider_ = std::move(provider.value());
   return true;
 }
 
 ShowSurroundings ViewSession::surroundings(std::shared_ptr<ReusableResources> kept) {
   const bool live = settings_.session.show.input == "none";
   return {settings_.session,
-          *provider_,
+          *renderer_,
           mailbox_,
-          *desk_,
+          *console_,
           std::move(kept),
           live ? &visitor_ : nullptr,
           windows_->pictureSizes(),
@@ -105,7 +103,7 @@ SessionEnd ViewSession::run(const std::atomic<bool>& stop) {
     updateHud();
     if (std::exchange(stale_, false)) {
       windows_->show(overview_.shown);
-      if (!begins_) desk_->pictureSeen();
+      if (!begins_) console_->pictureSeen();
       tellOfStep();
     } else {
       std::this_thread::sleep_for(kIdle);
@@ -173,18 +171,18 @@ bool ViewSession::operatorsCommand(Key key, bool shift) {
   const bool bracket = key == static_cast<Key>('[') || key == static_cast<Key>(']');
   if (bracket && !shift) return changeSpeed(key == static_cast<Key>(']') ? 2 : 0.5), true;
   const auto order = operatorCommandOf(key);
-  if (order) desk_->queue().post(*order);
+  if (order) console_->queue().post(*order);
   return order.has_value();
 }
 
 void ViewSession::step() {
   if (!steppedFrom_) steppedFrom_ = show_->framesPlayed();
-  if (!desk_->playback().paused()) desk_->queue().post({OperatorAction::Pause, 1, false});
-  desk_->queue().post({OperatorAction::Step});
+  if (!console_->playback().paused()) console_->queue().post({OperatorAction::Pause, 1, false});
+  console_->queue().post({OperatorAction::Step});
 }
 
 void ViewSession::changeSpeed(double factor) {
-  Playback& playback = desk_->playback();
+  Playback& playback = console_->playback();
   playback.setSpeed(playback.speed() * factor);
   say(fmt::format("speed 1/{:.0f}", 1 / playback.speed()));
 }
@@ -210,7 +208,7 @@ void ViewSession::begin(const std::optional<ShowPlace>& place) {
   unseen_ = 0;
   steppedFrom_.reset();
   visitor_.restart();
-  desk_->playback().hold(true);
+  console_->playback().hold(true);
   show_->start(place);
 }
 
@@ -222,7 +220,7 @@ void ViewSession::takePictures() {
   if (!begins_ && shown_.frame > before) unseen_ += shown_.frame - before - 1;
   if (!std::exchange(begins_, false)) return;
   say("playing " + settings_.session.show.script);
-  desk_->playback().hold(false);
+  console_->playback().hold(false);
 }
 
 void ViewSession::afterTheEnd() {
@@ -233,17 +231,18 @@ void ViewSession::afterTheEnd() {
     quit_ = true;
 }
 
-/// What the old one left is not the new one's.
+/// What the old one left is not the new one's. The windows keep the pictures that they show.
 void ViewSession::putInPlace(std::unique_ptr<PlayingShow> show) {
   show_ = std::move(show);
   show_->overview().move(overview_);
-  mailbox_.fetch(pictures_, shown_);
+  std::vector<EyePictures> left;
+  mailbox_.fetch(left, shown_);
 }
 
-// Everything of the show is made anew, but for what was read from files.
+// Creates a new show; only the contents of files are reused.
 void ViewSession::nextGroup() {
   finishRecord();
-  desk_->endGroup(show_->watch());
+  console_->endGroup(show_->watch());
   Diagnostics findings;
   auto next = PlayingShow::open(surroundings(show_->kept()), findings);
   reporter_.report(findings);
@@ -284,7 +283,7 @@ void ViewSession::finishReload() {
   if (!show) return say("the script has errors; the show goes on as it was");
   show_->stop();
   finishRecord();
-  desk_->silence();
+  console_->silence();
   std::optional<ShowPlace> place;
   if (!over_) {
     place = show_->place();
@@ -322,7 +321,7 @@ void ViewSession::endShow() {
 
 // Told when the newest of them is seen.
 void ViewSession::tellOfStep() {
-  const Playback& playback = desk_->playback();
+  const Playback& playback = console_->playback();
   const bool newest = steppedFrom_ && shown_.frame >= *steppedFrom_ && playback.stepsWaiting() == 0 &&
                       shown_.frame + 1 == show_->framesPlayed();
   if (!newest) return;
@@ -335,7 +334,7 @@ HudFigures ViewSession::figures() const {
   HudFigures f;
   f.show = std::filesystem::path(settings_.session.show.script).filename().string();
   f.seconds = toSeconds(shown_.time), f.rate = settings_.session.show.rate;
-  f.speed = desk_->playback().speed(), f.paused = desk_->playback().paused();
+  f.speed = console_->playback().speed(), f.paused = console_->playback().paused();
   f.budget = show_->budget(), f.dropped = show_->droppedTicks() + unseen_;
   if (const double stress = show_->stress(); stress > 1)
     f.given.push_back(fmt::format("everything counts as {:.3g} times farther away", stress));

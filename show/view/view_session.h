@@ -103,13 +103,13 @@ private:
   Reporter& reporter_;
   WallFile walls_;
   std::unique_ptr<ViewWindows> windows_;
-  std::unique_ptr<GlProvider> provider_;
+  std::unique_ptr<ShowRenderer> renderer_;
   DeskVisitor visitor_;
   ViewControls controls_{visitor_};
   PictureMailbox mailbox_;
   ViewHud hud_;
   HudReporter hudReporter_{reporter_, hud_};
-  std::unique_ptr<OperatorConsole> desk_;
+  std::unique_ptr<OperatorConsole> console_;
   OverviewPlace overview_;
   ScriptWatch files_;
   std::unique_ptr<PlayingShow> show_;

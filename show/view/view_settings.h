@@ -16,7 +16,6 @@ struct ViewSettings {
   WindowStereo stereo = WindowStereo::Mono;
   std::uint32_t width = 1200, height = 800;  ///< of the window at the start
   std::string shots = "screenshots";         ///< folder for screenshots
-  std::optional<GlProviderKind> provider{};  ///< null: EGL if the display is accelerated
   bool hud = false;                          ///< the frame budget is shown from the start
 };
 

@@ -16,7 +16,7 @@ SheetPlace moved(SheetPlace place, std::int32_t x, std::int32_t y) {
 }  // namespace
 
 std::unique_ptr<ViewWindows> ViewWindows::open(const ViewSettings& settings, const WallFile& walls,
-                                               Diagnostics& findings) {
+                                               bool drawnWithOpenGl, Diagnostics& findings) {
   std::unique_ptr<ViewWindows> made(new ViewWindows(walls, settings.stereo));
   auto system = WindowSystem::open();
   if (!system) return findings.add(system.error()), nullptr;
@@ -31,6 +31,7 @@ std::unique_ptr<ViewWindows> ViewWindows::open(const ViewSettings& settings, con
     return true;
   };
   WindowPlan plan;
+  plan.surface = windowSurface(drawnWithOpenGl, settings.stereo);
   if (settings.oneWindow) {
     plan.title = "Stadion: " + name;
     plan.width = settings.width, plan.height = settings.height;
@@ -44,11 +45,6 @@ std::unique_ptr<ViewWindows> ViewWindows::open(const ViewSettings& settings, con
     if (!add(plan)) return nullptr;
   }
   return made;
-}
-
-bool ViewWindows::accelerated() {
-  Window& first = windows_[0]->window();
-  return !first.makeCurrent() && !isSoftware(first.gl());
 }
 
 std::vector<std::pair<std::size_t, WindowEvent>> ViewWindows::takeEvents() {
@@ -96,7 +92,7 @@ void ViewWindows::take(const std::vector<EyePictures>& pictures) {
 
 void ViewWindows::show(bool overview) {
   for (std::size_t w = 0; w < windows_.size(); ++w) windows_[w]->draw(panesOf(w, overview));
-  for (const auto& window : windows_) window->swap();
+  for (const auto& window : windows_) window->show();
 }
 
 void ViewWindows::setPanel(std::size_t number, const std::vector<PanelLine>& lines, bool atBottom) {

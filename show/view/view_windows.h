@@ -17,21 +17,20 @@ namespace stadion {
 
 class ViewWindows {
 public:
-  /// Null, with the reason in the findings, if they cannot be opened.
+  /// Null, with the reason in the findings, if they cannot be opened. `drawnWithOpenGl`: the walls are, so
+  /// windows may need it too.
   static std::unique_ptr<ViewWindows> open(const ViewSettings& settings, const WallFile& walls,
-                                           Diagnostics& findings);
+                                           bool drawnWithOpenGl, Diagnostics& findings);
 
   /// Of the walls' pictures, where neither --size nor the wall file says.
   const std::vector<SheetPlace>& pictureSizes() const { return sizes_; }
-  /// Whether the display is drawn by the graphics card.
-  bool accelerated();
   std::optional<GamepadState> gamepad() { return system_->gamepad(); }
   /// Why nothing can be shown any more; nothing while it can.
   std::optional<std::string> lost() const { return system_->lost(); }
 
   /// What happened since it was asked last, and in which window.
   std::vector<std::pair<std::size_t, WindowEvent>> takeEvents();
-  /// The walls' pictures, by wall, then the overview's.
+  /// The walls' pictures, by wall, then the overview's. They must stay until others are taken.
   void take(const std::vector<EyePictures>& pictures);
   /// Shows them; with the overview, the first window shows the room from outside and its walls small.
   void show(bool overview);

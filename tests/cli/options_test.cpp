@@ -91,7 +91,7 @@ TEST(OptionTable, CommandsTakeTheirOptionsFromIt) {
 
 TEST(OptionTable, ThePageOfOptionsIsWhatTheProgramPrints) {
   EXPECT_EQ(fileContent(STADION_SOURCE_DIR "/docs/options.md"), stadionProgram({"manual", "options"}).out)
-      << "write it anew: ./stadion manual options > docs/options.md";
+      << "update it: ./stadion manual options > docs/options.md";
 }
 
 std::string sampleOf(std::string_view value) {

@@ -57,7 +57,7 @@ std::map<std::string, std::string> packagesOf(const std::set<std::string>& files
 void expectLoadedLibrariesIn(const std::set<std::string>& names) {
   std::set<std::string> libraries;
   RunningProgram run({{stadionPath(), "run", kRoot + "/scripts/olympia.evs", "--size", "32x24", "--walls",
-                       "desktop", "--input", "none"},
+                       "desktop", "--input", "none", "--gl", "osmesa"},
                       {"ALSOFT_DRIVERS=null"}});
   ASSERT_TRUE(run.says("sound: OpenAL")) << run.err();
   std::istringstream maps(procText(run.pid(), "maps"));

@@ -139,7 +139,7 @@ TEST(ProgramUsage, WhatIsNoPlainFileIsRefusedWithoutWaiting) {
   const std::string fifo = folder.path() / "fifo";
   ASSERT_EQ(::mkfifo(fifo.c_str(), 0600), 0);
   ProgramRun run;
-  run.limit = std::chrono::seconds(20);
+  run.limit = std::chrono::seconds(60);
   for (const std::string& file : {fifo, std::string("/dev/zero"), folder.path().string()}) {
     for (const std::vector<std::string>& words :
          std::vector<std::vector<std::string>>{{"run", file},

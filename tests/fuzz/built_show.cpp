@@ -93,7 +93,7 @@ void BuiltShow::request(std::uint32_t number, const std::string& file, NodeRef o
   asked_[number] = {file, owner, X_WO};
 }
 
-std::unique_ptr<Load> BuiltShow::take(std::uint32_t number) {
+std::unique_ptr<LoadedScene> BuiltShow::take(std::uint32_t number) {
   const Asked asked = asked_.at(number);
   const auto document = documents().find(asked.file);
   if (document == documents().end()) return nullptr;

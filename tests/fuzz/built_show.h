@@ -27,8 +27,8 @@ private:
   mutable NodeServices services_;
   mutable MeshStore meshes_;
   MeshId box_;
-  std::vector<std::unique_ptr<Load>>
-      kept_{};  ///< with the shapes of all shows: to fit them anew takes longest
+  std::vector<std::unique_ptr<LoadedScene>>
+      kept_{};  ///< with the shapes of all shows, because fitting them takes longest
 };
 
 /// Those of tests/fuzz/shows that are shows by themselves: one of everything, and small ones, whose states
@@ -62,8 +62,8 @@ private:
   };
 
   void request(std::uint32_t number, const std::string& file, NodeRef owner, const Affine& X_WO) override;
-  std::unique_ptr<Load> take(std::uint32_t number) override;
-  void dispose(std::unique_ptr<Load>, std::uint64_t) override {}
+  std::unique_ptr<LoadedScene> take(std::uint32_t number) override;
+  void dispose(std::unique_ptr<LoadedScene>, std::uint64_t) override {}
 
   const Workshop& workshop_;
   std::string_view show_;

@@ -64,7 +64,7 @@ void expectRead(const dds_topic_descriptor_t& type, Bytes bytes) {
   EXPECT_TRUE(Packet<T>(type, bytes));
 }
 
-/// Fails after a change of wire.idl, when no host can read them: write them anew (fuzz_seeds).
+/// Fails after a change of wire.idl, when no host can read them: write new ones (fuzz_seeds).
 TEST(FuzzTargets, WhatTheCorpusOfTheClusterSaysIsRead) {
   using namespace cluster;
   for (const fs::path& path : corpusOf("cluster_wire")) {

@@ -16,6 +16,38 @@ namespace {
 using Clock = std::chrono::steady_clock;
 constexpr std::chrono::seconds kGoodTime{300};  // a machine may be busy
 
+/// For Xorg: a screen in memory without devices for hands, which xdotool does not need.
+constexpr const char* kMemoryServer = R"(
+Section "ServerFlags"
+  Option "AutoAddDevices" "false"
+  Option "AllowMouseOpenFail" "true"
+  Option "DontVTSwitch" "true"
+EndSection
+Section "Module"
+  Load "monitor"
+EndSection
+Section "Device"
+  Identifier "memory"
+  Driver "dummy"
+  VideoRam 8192
+EndSection
+Section "Monitor"
+  Identifier "monitor"
+  HorizSync 5-1000
+  VertRefresh 5-200
+EndSection
+Section "Screen"
+  Identifier "screen"
+  Device "memory"
+  Monitor "monitor"
+  DefaultDepth 24
+  SubSection "Display"
+    Depth 24
+    Modes "640x480"
+  EndSubSection
+EndSection
+)";
+
 /// Until it is true; false if that takes too long.
 template <class Condition>
 bool until(const Condition& condition) {
@@ -89,16 +121,37 @@ int RunningProgram::status() {
   return status_;
 }
 
-std::unique_ptr<Display> Display::open(std::vector<std::string> screens) {
+std::unique_ptr<Display> Display::open(std::vector<std::string> screens, std::vector<std::string> more) {
   if (!hasProgram("Xvfb") || !hasProgram("xdotool") || !hasProgram("import")) return nullptr;
-  std::unique_ptr<Display> display(new Display);
-  // It looks for a free number by itself and says which.
   ProgramRun run{{"Xvfb", "-displayfd", "1", "-nolisten", "tcp", "-noreset"}};
   for (std::size_t i = 0; i < screens.size(); ++i) {
     run.words.insert(run.words.end(), {"-screen", std::to_string(i), screens[i]});
   }
-  display->server_ = std::make_unique<RunningProgram>(run);
-  if (!until([&] { return display->server_->out().find('\n') != std::string::npos; })) return nullptr;
+  return start(run);
+}
+
+std::unique_ptr<Display> Display::openWithMonitor() {
+  const std::string server = "/usr/lib/xorg/Xorg", modules = "/usr/lib/xorg/modules";
+  const std::string ours = STADION_BINARY_DIR "/tests/xorg";
+  for (const std::string& file : {server, modules + "/drivers/dummy_drv.so", ours + "/libmonitor.so"})
+    if (!std::filesystem::exists(file)) return nullptr;
+  if (!hasProgram("xdotool")) return nullptr;
+  auto folder = std::make_unique<TemporaryFolder>();
+  const std::string configuration = folder->write("xorg.conf", kMemoryServer);
+  auto display = start(
+      {{server, "-displayfd", "1", "-nolisten", "tcp", "-noreset", "-novtswitch", "-sharevts", "-config",
+        configuration, "-logfile", folder->path() / "log", "-modulepath", ours + "," + modules}});
+  if (display) display->folder_ = std::move(folder);
+  return display;
+}
+
+/// It looks for a free number by itself and says which.
+std::unique_ptr<Display> Display::start(const ProgramRun& server) {
+  std::unique_ptr<Display> display(new Display);
+  run.words.insert(run.words.end(), more.begin(), more.end());
+  display->server_ = std::make_unique<RunningProgram>(server);
+  const auto numbered = [&] { return display->server_->out().find('\n') != std::string::npos; };
+  if (!until([&] { return numbered() || !display->server_->runs(); }) || !numbered()) return nullptr;
   const std::string number = display->server_->out();
   display->name_ = ":" + number.substr(0, number.find('\n'));
   return display;

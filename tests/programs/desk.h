@@ -41,11 +41,14 @@ private:
   mutable bool ended_ = false;
 };
 
-/// An X server without a screen to look at (Xvfb), and hands (xdotool).
+/// An X server without a screen to look at (Xvfb, or Xorg with its driver "dummy"), and hands (xdotool).
 class Display {
 public:
-  /// Null if one of the programs is not there: the test is to be skipped then.
-  static std::unique_ptr<Display> open(std::vector<std::string> screens = {"1000x800x24"});
+  /// Null if one of the programs is not there: the test is to be skipped then. `more`: other words for Xvfb.
+  static std::unique_ptr<Display> open(std::vector<std::string> screens = {"1000x800x24"},
+                                       std::vector<std::string> more = {});
+  /// One screen of 640x480 on a monitor that DPMS can switch off. Null if a program or module is missing.
+  static std::unique_ptr<Display> openWithMonitor();
 
   const std::string& name() const { return name_; }  ///< ":99"
   /// `words` as xdotool understands them: {"key", "space"}.
@@ -57,6 +60,8 @@ public:
 
 private:
   Display() = default;
+  static std::unique_ptr<Display> start(const ProgramRun& server);
+  std::unique_ptr<TemporaryFolder> folder_;
   std::unique_ptr<RunningProgram> server_;
   std::string name_;
 };

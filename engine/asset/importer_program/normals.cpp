@@ -18,7 +18,7 @@ constexpr double kCosCrease = 0.7660444431;  // 40 degrees
 // ever.
 constexpr std::size_t kMostPairs = 512;
 
-Vec3 vec(const std::array<float, 3>& p) {
+Vec3 pointOf(const std::array<float, 3>& p) {
   return {p[0], p[1], p[2]};
 }
 
@@ -33,7 +33,7 @@ struct Face {
 
 Face faceOf(const Flat& flat, const FlatTriangle& t) {
   std::array<Vec3, 3> p;
-  for (int k = 0; k < 3; ++k) p[k] = vec(flat.vertices[t.corner[k]].position);
+  for (int k = 0; k < 3; ++k) p[k] = pointOf(flat.vertices[t.corner[k]].position);
   Face face;
   const Vec3 n = (p[1] - p[0]).cross(p[2] - p[0]);
   if (n.norm() > 0) face.normal = n / n.norm();

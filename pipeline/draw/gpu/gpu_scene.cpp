@@ -19,8 +19,9 @@ bool canBaseInstances(const GlTable& gl) {
 GpuScene::GpuScene(const GlTable& gl, const MeshStore& store, RenderQuality quality, bool sortsObjects,
                    ProblemLog& problems)
     : gl_(gl), look_(quality.look), problems_(problems), calls_(gl, canBaseInstances(gl)),
-      sieves_(quality.samples == 1 && quality.leavesOutUnseen && isSoftware(gl) && calls_.basesInstances()),
-      meshes_(gl, store, quality.look, sieves_), surfaces_(gl, quality.look, calls_, problems),
+      cullsTriangles_(quality.samples == 1 && quality.leavesOutUnseen && isSoftware(gl) &&
+                      calls_.basesInstances()),
+      meshes_(gl, store, quality.look, cullsTriangles_), surfaces_(gl, quality.look, calls_, problems),
       instances_(gl, sortsObjects), scene_(gl) {
   growTo(1);
 }

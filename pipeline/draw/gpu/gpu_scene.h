@@ -32,9 +32,9 @@ public:
   GpuScene(const GlTable& gl, const MeshStore& store, RenderQuality quality, bool sortsObjects,
            ProblemLog& problems);
 
-  /// Whether triangles are removed before OpenGL sees them (TriangleSieve). It pays where a processor
+  /// Whether triangles are removed before OpenGL sees them (TriangleCuller). It pays where a processor
   /// rasterises with one sample a pixel: most triangles of distant objects cover no pixel.
-  bool sieves() const { return sieves_; }
+  bool cullsTriangles() const { return cullsTriangles_; }
 
   /// Starts a draw list: frees meshes that the store has freed, and takes up the first items. `probe` gets
   /// uploads and the waits for Cull; null = none.
@@ -74,7 +74,7 @@ private:
   Look look_;
   ProblemLog& problems_;
   DrawCalls calls_;
-  bool sieves_;
+  bool cullsTriangles_;
   MeshCache meshes_;
   SurfacePrograms surfaces_;
   ListInstances instances_;

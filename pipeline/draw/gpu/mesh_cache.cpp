@@ -74,8 +74,8 @@ void pointAtInstances(const GlTable& gl, const GlBuffer& instances, std::uint32_
                            inBuffer(first * kMatrix + row * kRow));
 }
 
-MeshCache::MeshCache(const GlTable& gl, const MeshStore& meshes, Look look, bool sieved)
-    : gl_(gl), store_(meshes), look_(look), sieved_(sieved),
+MeshCache::MeshCache(const GlTable& gl, const MeshStore& meshes, Look look, bool culled)
+    : gl_(gl), store_(meshes), look_(look), culls_(culled),
       anisotropy_(!isSoftware(gl) && (hasGlExtension(gl, "GL_EXT_texture_filter_anisotropic") ||
                                       hasGlExtension(gl, "GL_ARB_texture_filter_anisotropic"))) {
   gl_.GetIntegerv(GL_UNIFORM_BUFFER_OFFSET_ALIGNMENT, &uniformAlignment_);
@@ -163,7 +163,7 @@ void MeshCache::uploadIndices(const Mesh& mesh, GlMesh& out) {
   const std::span<const std::uint32_t> all = mesh.levels.empty() ? std::span(mesh.indices) : ofLevels;
   gl_.BufferData(GL_ELEMENT_ARRAY_BUFFER, static_cast<GLsizeiptr>(all.size_bytes()), all.data(),
                  GL_STATIC_DRAW);
-  if (sieved_) out.sieve.emplace(mesh, all);
+  if (culls_) out.culler.emplace(mesh, all);
 }
 
 void MeshCache::uploadMaterials(const Mesh& mesh, GlMesh& out) {
@@ -212,7 +212,7 @@ void MeshCache::uploadMaterials(const Mesh& mesh, GlMesh& out) {
   const auto isPlain = [](const GlSubmesh& part) {
     return part.texture == 0 && part.glowTexture == 0 && !part.transparent && !part.masked;
   };
-  if (sieved_ && look_ == Look::Plain && std::ranges::all_of(out.parts, isPlain)) out.shading.emplace(mesh);
+  if (culls_ && look_ == Look::Plain && std::ranges::all_of(out.parts, isPlain)) out.shading.emplace(mesh);
 }
 
 GlTexture MeshCache::uploadTexture(const Texture& texture, float alphaCutoff) {

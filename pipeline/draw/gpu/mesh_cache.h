@@ -9,7 +9,7 @@
 #include "engine/base/diagnostic.h"
 #include "engine/core/frame_probe.h"
 #include "pipeline/gl/gl_object.h"
-#include "pipeline/raster/small_things.h"
+#include "pipeline/raster/small_object_rasterizer.h"
 #include "pipeline/shader/look.h"
 
 #include <algorithm>
@@ -40,9 +40,9 @@ struct GlSubmesh {
 };
 
 /// Which side of a part is seen, if the model matrix mirrors it or not.
-inline TriangleSieve::Facing facingOf(const GlSubmesh& part, bool mirrored) {
-  if (part.bothSides) return TriangleSieve::Facing::Both;
-  return mirrored ? TriangleSieve::Facing::Clockwise : TriangleSieve::Facing::CounterClockwise;
+inline TriangleCuller::Facing facingOf(const GlSubmesh& part, bool mirrored) {
+  if (part.bothSides) return TriangleCuller::Facing::Both;
+  return mirrored ? TriangleCuller::Facing::Clockwise : TriangleCuller::Facing::CounterClockwise;
 }
 
 struct GlMesh {
@@ -52,8 +52,8 @@ struct GlMesh {
   std::vector<GlSubmesh> parts;                ///< of the full surface
   std::vector<std::vector<GlSubmesh>> levels;  ///< of the simplified ones
   std::size_t transparentParts = 0;
-  std::optional<SieveMesh> sieve;  ///< all levels, as in `indices`; where triangles are sieved
-  Aabb bounds;                     ///< [m]
+  std::optional<CullerMesh> culler;  ///< all levels, as in `indices`; where triangles are culled
+  Aabb bounds;                       ///< [m]
   std::optional<MeshShading>
       shading;  ///< there, if it has neither pictures nor holes nor anything to see through
 
@@ -79,8 +79,8 @@ void pointAtInstances(const GlTable& gl, const GlBuffer& instances, std::uint32_
 
 class MeshCache {
 public:
-  /// `sieved`: meshes are kept for TriangleSieve, too.
-  MeshCache(const GlTable& gl, const MeshStore& meshes, Look look, bool sieved = false);
+  /// `culled`: meshes are kept for TriangleCuller, too.
+  MeshCache(const GlTable& gl, const MeshStore& meshes, Look look, bool culled = false);
 
   /// The mesh, uploaded if this is its first use; nullptr if it cannot be drawn.
   const GlMesh* find(MeshId id);
@@ -106,7 +106,7 @@ private:
   const GlTable& gl_;
   const MeshStore& store_;
   Look look_;  ///< colours are uploaded as it reckons with them
-  bool sieved_;
+  bool culls_;
   struct Cached {
     std::uint64_t hash = 0;    ///< of the content; an id may be given again
     std::optional<GlMesh> gl;  ///< empty: known not to be drawable

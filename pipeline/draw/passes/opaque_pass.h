@@ -2,13 +2,13 @@
 /// Draws the opaque objects of a view, instanced by mesh.
 ///
 /// Order    begins with what is known of a list that Cull still fills. Where a processor rasterises with one
-///          sample a pixel, triangles that cover no pixel are removed (raster/triangle_sieve.h), and the
+///          sample a pixel, triangles that cover no pixel are removed (raster/triangle_culler.h), and the
 ///          nearest quarter of the objects is drawn first: triangles behind it are removed, too.
 /// Threads  the thread on which the context is current.
 
 #include "pipeline/draw/passes/small_object_pass.h"
 #include "pipeline/draw/passes/surface_drawing.h"
-#include "pipeline/raster/triangle_sieve.h"
+#include "pipeline/raster/triangle_culler.h"
 
 #include <cstdint>
 #include <optional>
@@ -37,8 +37,8 @@ private:
 
   const PassContext& with_;
   SurfaceDrawing& surfaces_;
-  std::optional<TriangleSieve> sieve_;      ///< where it pays
-  std::vector<TriangleSieve::Range> seen_;  ///< triangles by part and instance, of the current call
+  std::optional<TriangleCuller> culler_;     ///< where it pays
+  std::vector<TriangleCuller::Range> seen_;  ///< triangles by part and instance, of the current call
   GlBuffer seenIndices_;
   std::vector<float> depths_, distances_;
 };

@@ -93,17 +93,17 @@ void ShadowMaps::updateRing(const DrawShadows& shadows, std::size_t index, MeshC
   const DrawShadowRing& now = shadows.rings[index];
   Ring& held = rings_[index];
   const Area tile = tileOf(index), moved = coveredBy(now, tile);
-  const bool anew = !held.drawn || held.stillKey != now.stillKey;
-  if (!anew && held.movingKey == now.movingKey) return;
+  const bool redraw = !held.drawn || held.stillKey != now.stillKey;
+  if (!redraw && held.movingKey == now.movingKey) return;
   held.drawn = false;  // until it is finished; what interrupts it leaves it void
   gl_.Viewport(tile.x, tile.y, tile.width, tile.height);
   gl_.Scissor(tile.x, tile.y, tile.width, tile.height);
-  if (anew) {
+  if (redraw) {
     gl_.BindFramebuffer(GL_FRAMEBUFFER, intoStill_.name());
     gl_.Clear(GL_DEPTH_BUFFER_BIT);
     if (now.still) drawCasters(shadows, index, *now.still, meshes, between);
   }
-  restore(anew ? tile : around(held.moved, moved));
+  restore(redraw ? tile : around(held.moved, moved));
   gl_.BindFramebuffer(GL_FRAMEBUFFER, intoShown_.name());
   drawCasters(shadows, index, now.moving, meshes, between);
   held = {now.stillKey, now.movingKey, true, moved};

@@ -6,7 +6,7 @@
 namespace stadion {
 
 SmallObjectPass::SmallObjectPass(const PassContext& with, RenderQuality quality) : with_(with) {
-  if (with.scene.sieves() && quality.look == Look::Plain && quality.drawsSmallThings)
+  if (with.scene.cullsTriangles() && quality.look == Look::Plain && quality.drawsSmallObjects)
     small_.emplace(with.width, with.height);
 }
 
@@ -14,7 +14,7 @@ bool SmallObjectPass::draw(const DrawView& from, std::uint32_t view, std::unique
                            FrameProbe* probe) {
   const SceneBlock& lighting = with_.scene.lighting();
   drew_.clear();
-  if (!small_ || !SmallThings::serves(from, lighting) || !pays(view)) return false;
+  if (!small_ || !SmallObjectRasterizer::serves(from, lighting) || !pays(view)) return false;
   std::array<float, 3> background{0, 0, 0};
   if (with_.scene.skyIsFlat()) std::copy_n(lighting.zenith.begin(), 3, background.begin());
   const bool away = turn.owns_lock() && !with_.pieces.timesAnything();
@@ -69,7 +69,7 @@ void SmallObjectPass::drawAll(std::uint32_t view, std::unique_lock<std::mutex>* 
 
 bool SmallObjectPass::drawOne(const MeshParts& mesh, const InstanceBatch& batch, std::uint32_t instance) {
   const InstanceMatrix& model = with_.scene.batches().matrices()[instance];
-  if (!small_->place(*mesh.gl->sieve, *mesh.gl->shading, model)) return false;
+  if (!small_->place(*mesh.gl->culler, *mesh.gl->shading, model)) return false;
   DrawCounts& counts = with_.scene.calls().counts();
   for (const GlSubmesh& part : mesh.parts) {
     counts.triangles +=

@@ -1,13 +1,13 @@
 #pragma once
 /// Draws small opaque objects without OpenGL, into the empty picture that OpenGL then continues
-/// (raster/small_things.h).
+/// (raster/small_object_rasterizer.h).
 ///
 /// Where    in the plain look, if a processor rasterises and one sample a pixel is taken, and if a view has
 ///          enough triangles to make it pay.
 /// Threads  the thread on which the context is current. Gives the turn away meanwhile: other walls draw.
 
 #include "pipeline/draw/passes/pass_context.h"
-#include "pipeline/raster/small_things.h"
+#include "pipeline/raster/small_object_rasterizer.h"
 
 #include <cstdint>
 #include <mutex>
@@ -25,7 +25,7 @@ public:
   /// away meanwhile, if it is held and nothing is timed. Throws RunStopped if the caller gives up.
   bool draw(const DrawView& from, std::uint32_t view, std::unique_lock<std::mutex>& turn, FrameProbe* probe);
   /// After draw() returned true.
-  const SmallThings& picture() const { return *small_; }
+  const SmallObjectRasterizer& picture() const { return *small_; }
   /// Whether the instance was drawn, in the current view.
   bool drew(std::uint32_t instance) const { return instance < drew_.size() && drew_[instance]; }
 
@@ -36,7 +36,7 @@ private:
   bool drawOne(const MeshParts& mesh, const InstanceBatch& batch, std::uint32_t instance);
 
   const PassContext& with_;
-  std::optional<SmallThings> small_;
+  std::optional<SmallObjectRasterizer> small_;
   std::vector<bool> drew_;  ///< by instance
 };
 

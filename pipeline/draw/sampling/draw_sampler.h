@@ -7,7 +7,7 @@
 
 #include "engine/core/frame_probe.h"
 #include "engine/display/wall.h"
-#include "pipeline/draw/sampling/lone_clock.h"
+#include "pipeline/draw/sampling/isolated_draw_timer.h"
 
 #include <algorithm>
 #include <array>
@@ -40,9 +40,9 @@ public:
     }
     now_.emptyMs = usualEmpty();
   }
-  /// A view for that eye, whose nodes are drawn in pieces, of which a few are timed. A piece is some instances that are
-  /// drawn one after the other; `starts` has the first of each, ascending, `wanted` the numbers of those that
-  /// are to have a turn, ascending. Both must stay until endEye().
+  /// A view for that eye, whose nodes are drawn in pieces, of which a few are timed. A piece is some
+  /// instances that are drawn one after the other; `starts` has the first of each, ascending, `wanted` the
+  /// numbers of those that are to have a turn, ascending. Both must stay until endEye().
   void beginEye(Eye of, std::span<const std::uint32_t> starts, std::span<const std::size_t> wanted) {
     const auto eye = static_cast<std::uint32_t>(of);
     now_.eye = eye;
@@ -118,7 +118,7 @@ private:
     probe_->drewAlone(drawn, nodes);
   }
 
-  LoneClock clock_;
+  IsolatedDrawTimer clock_;
   FrameProbe* probe_ = nullptr;
   DrawnAlone now_;
   std::array<double, 33> empties_{};  ///< what drawing nothing took [ms]

@@ -2,6 +2,7 @@
 ///
 /// Started by stadion with a socket as its standard input; it ends when the show closes that.
 
+#include "pipeline/cpu_draw/cpu_renderer.h"
 #include "pipeline/draw/gl_renderer.h"
 #include "pipeline/process/list_bytes.h"
 #include "pipeline/process/protocol.h"
@@ -82,6 +83,8 @@ public:
 private:
   using Access = SharedSegment::Access;
 
+  std::optional<std::string> openCpu(const OrderHead& order);
+  std::optional<std::string> openGl(const OrderHead& order);
   std::optional<Diagnostic> readPictures();
   void takeNews();
   void rename(std::vector<DrawItem>& items) const;
@@ -91,6 +94,8 @@ private:
   std::unique_ptr<GlProvider> provider_;
   std::unique_ptr<Target> target_;
   MeshStore meshes_;
+  std::unique_ptr<DrawPool> pool_;
+  std::unique_ptr<CpuRoom> room_;
   std::unique_ptr<Renderer> renderer_;
   std::size_t pictureBytes_ = 0;
   DrawList list_;
@@ -107,9 +112,28 @@ std::optional<std::string> Worker::open(const OrderHead& order, const std::array
   pictures_ = std::make_unique<SharedSegment>(segments[2], kPictureReserve, Access::Write);
   if (!order.processors.empty()) order.processors.bindThisThread();  // others will start from here
   goWithTheShow();
+  pictureBytes_ = std::size_t{order.width} * order.height * 4;
+  return order.renderer == RendererKind::Cpu ? openCpu(order) : openGl(order);
+}
+
+/// The threads of the pool run on the processors of the wall, as this one does.
+std::optional<std::string> Worker::openCpu(const OrderHead& order) {
+  keepFreedMemory();
+  const PictureRung rung = PictureRung::of(order.quality);
+  const std::size_t threads = order.processors.empty() ? order.rasteriserThreads : order.processors.size();
+  pool_ = std::make_unique<DrawPool>(threads);
+  room_ = std::make_unique<CpuRoom>(meshes_, rung.look, *pool_);
+  auto renderer = CpuRenderer::create(*room_, order.width, order.height, rung);
+  if (!renderer) return renderer.error().message;
+  renderer_ = std::move(renderer.value());
+  return {};
+}
+
+std::optional<std::string> Worker::openGl(const OrderHead& order) {
   setRasteriserThreads(order.rasteriserThreads);
   if (const auto why = pinRasteriser()) return why->message;
-  auto provider = openGlProvider(order.egl ? GlProviderKind::Egl : GlProviderKind::OsMesa);
+  auto provider =
+      openGlProvider(order.renderer == RendererKind::Egl ? GlProviderKind::Egl : GlProviderKind::OsMesa);
   if (!provider) return provider.error().message;
   provider_ = std::move(provider.value());
   auto target = provider_->create(order.width, order.height);
@@ -120,7 +144,6 @@ std::optional<std::string> Worker::open(const OrderHead& order, const std::array
       GlRenderer::create(target_->gl(), target_->turns(), meshes_, order.width, order.height, order.quality);
   if (!renderer) return renderer.error().message;
   renderer_ = std::move(renderer.value());
-  pictureBytes_ = std::size_t{order.width} * order.height * 4;
   return {};
 }
 

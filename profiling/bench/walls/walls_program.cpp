@@ -22,7 +22,7 @@ std::vector<std::string> ourWords(const WallsCase& c) {
   std::vector<std::string> words{"bench", "walls", "--one"};
   if (c.engine == "control") return words.insert(words.end(), {"--control"}), words;
   words.insert(words.end(), {"--scene", c.scene, "--class", c.kind, "--mode", c.mode, "--layout",
-                             c.flat ? "flat" : "grid", "--pace", c.pace});
+                             c.flat ? "flat" : "grid", "--pace", c.pace, "--gl", "osmesa"});
   if (!c.workers.empty()) words.insert(words.end(), {"--wall-workers", c.workers});
   return words;
 }

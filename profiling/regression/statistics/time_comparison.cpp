@@ -138,7 +138,7 @@ std::vector<StageShift> compareTimes(const StageTimesByName& baseline, const Sta
       s.shift = median(times) / was - 1;
     else
       s.unfit =
-          fmt::format("the baseline's times of it cannot be compared with: {}; --update measures them anew",
+          fmt::format("the baseline's times of it cannot be compared with: {}; --update measures new ones",
                       before->second.empty() ? "there are none" : fmt::format("the middle one is {:g}", was));
     probabilities.push_back(typical < kShortest || was <= 0 ? 1 : rankSumTest(before->second, times));
   }

@@ -22,7 +22,7 @@ public:
   void ended(EndedLoop& show) override {
     cluster_->finish(show.ends && !show.outcome.failure);
     // Asked after that: meanwhile the show may have ended for all.
-    show.rejoin = cluster_->isToJoinAgain() && !session_.stop;
+    show.rejoin = cluster_->mustRejoin() && !session_.stop;
   }
   void report(SessionReport& report) override { report.summary.cluster = cluster_->summary(); }
   SessionEnd closed(SessionEnd end) override {
@@ -38,7 +38,8 @@ private:
   /// Of a show that was played well, or is over: whether all results that were asked for are there.
   bool isAllThere() const {
     if (session_.inputIsLost || cluster_->hasDouble()) return false;
-    const bool keepsPictures = session_.settings.draw.provider && session_.settings.record.keepsPictures();
+    const bool keepsPictures =
+        !session_.settings.draw.renderer.drawsNothing() && session_.settings.record.keepsPictures();
     if (!keepsPictures || !cluster_->missedTheEnd()) return true;
     session_.reporter.say(
         "--out: the show ended before this machine had caught up with it: its last pictures are "
@@ -58,7 +59,8 @@ std::unique_ptr<SessionPart> makeClusterMemberPart(SessionState& session, Diagno
       ClusterSession::create(s.cluster, s.show, s.draw.layout, session.reporter.sayFunction(), findings);
   if (!cluster) return nullptr;
   s.console.elsewhere = !cluster->leads();
-  if (!cluster->hasWalls()) s.draw.provider.reset(), s.record.sheets = s.record.video = false;
+  if (!cluster->hasWalls())
+    s.draw.renderer.choice = RendererChoice::None, s.record.sheets = s.record.video = false;
   return std::make_unique<ClusterMemberPart>(session, std::move(cluster));
 }
 

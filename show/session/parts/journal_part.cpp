@@ -16,7 +16,7 @@ public:
     journal_.see(now, input, scene);
   }
   void shown() override {
-    if (journal_.shown()) journal_.firstPicture(session_.stages->glDescription());
+    if (journal_.shown()) journal_.firstPicture(session_.stages->drawnBy());
   }
   void following(NextShow next, Diagnostics&) override {
     if (next == NextShow::OfGroup) journal_.beginGroup();

@@ -49,8 +49,7 @@ public:
     recording_->finish();
     addBudgets(report.summary);
     if (session_.settings.record.profile)
-      report.figures =
-          recording_->figures(session_.player->walls().names(), session_.stages->glDescription());
+      report.figures = recording_->figures(session_.player->walls().names(), session_.stages->drawnBy());
     Diagnostics findings;
     recording_->finishTrace(findings);
     session_.reporter.report(findings);

@@ -54,7 +54,9 @@ TEST(ProgramBenchWalls, TheNumberOfNodesCanBeChosen) {
 TEST(ProgramBenchWalls, PicturesAreThoseOfTheFrameAfterTheLast) {
   const TemporaryFolder folder;
   const std::string out = folder.path() / "out", prefix = out + "/picture";
-  ASSERT_EQ(stadionProgram(one({"--scene", "a", "--out", out})).status, 0);
+  const ProgramResult r = stadionProgram(one({"--scene", "a", "--out", out}));
+  ASSERT_EQ(r.status, 0) << r.err;
+  EXPECT_EQ(fileContent(out + "/rows.jsonl"), r.out);
   const std::string left = fileContent(prefix + "_front_L.ppm");
   EXPECT_TRUE(left.starts_with("P6\n32 24\n255\n"));
   EXPECT_EQ(left.size(), 13u + 3 * 32 * 24);

@@ -4,6 +4,7 @@
 #include "pipeline/platform/machine.h"
 #include "tests/programs/program.h"
 
+#include <algorithm>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
@@ -38,6 +39,7 @@ public:
                                    "--frames",     "6",
                                    "--json"};
     words.insert(words.end(), more.begin(), more.end());
+    if (std::ranges::find(words, "--gl") == words.end()) words.insert(words.end(), {"--gl", "osmesa"});
     return start(words, environment);
   }
 
@@ -106,7 +108,7 @@ TEST(ProgramCalibrate, ForABudgetOnWhatIsDrawnThreadsDrawALiveShow) {
   const auto play = [&](const std::string& show) {
     return drawnSummaryOf(home.start({"run", folder.write("show.evs", show), "--asset-root", assetFolder(),
                                       "--walls", kCalibratedWalls, "--look", "plain", "--size", "64x48",
-                                      "--json", "--no-sound"}))["how_drawn"];
+                                      "--json", "--no-sound", "--gl", "osmesa"}))["how_drawn"];
   };
   EXPECT_EQ(play("object( file=football.3ds )\n")["wall_workers"], "process");
   const json how = play("object( file=football.3ds, budget=1 )\n");

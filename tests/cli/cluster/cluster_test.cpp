@@ -24,12 +24,14 @@ TEST(ProgramCluster, FourMachinesShowWhatOneShows) {
   const auto wanted = picturesIn(one);
   EXPECT_GE(wanted.size(), 32U);
   EXPECT_EQ(picturesIn(out), wanted);
+  const Json together = Json::parse(fileContent(out + "/summaries.json"));
   std::size_t last = 0;
   for (const char* node : {"front", "left", "right", "floor"}) {
     const Json s = summaryOf(out + "/" + node);
     EXPECT_EQ(s["state_hash"], summaryOf(one)["state_hash"]) << node;
     EXPECT_EQ(s["frames"], 16) << node;
     EXPECT_EQ(s["cluster"]["node"], node);
+    EXPECT_EQ(together[node], s);
     last += s["cluster"]["barriers"].get<std::size_t>();
   }
   EXPECT_GT(last, 0U);

@@ -76,7 +76,7 @@ TEST(ProgramCluster, AMachineThatDiesIsLeftOutAndComesBackWithTheSameScene) {
   const pid_t left = cluster.processOfRunning("left");
   const std::size_t heres = cluster.timesTold("left plays with us");
   ASSERT_TRUE(signalTo(left, SIGKILL));
-  EXPECT_TRUE(cluster.tells("left was ended by signal 9 and begins again")) << cluster.told();
+  EXPECT_TRUE(cluster.tells("left was ended by signal 9 and restarts")) << cluster.told();
   EXPECT_TRUE(cluster.tells("the others go on")) << cluster.told();
   EXPECT_TRUE(cluster.tells("left plays with us", heres + 1)) << cluster.told();
   EXPECT_EQ(cluster.stop(), 128 + SIGTERM) << cluster.told();

@@ -135,7 +135,7 @@ TEST(ProgramCluster, ALeaderThatComesBackWithOtherFilesRestartsTheShow) {
     EXPECT_EQ(front->status(), 128 + SIGKILL) << front->err();
     front = two.startWith(other, "front", OtherFiles::play("600"));
     EXPECT_TRUE(front->says("the show goes on after frame")) << front->err();
-    EXPECT_TRUE(front->says("are others than ours: it begins anew")) << front->err();
+    EXPECT_TRUE(front->says("differ from ours: the show restarts")) << front->err();
     EXPECT_TRUE(front->says("the scene of floor differs from ours")) << front->err() << floor->err();
     EXPECT_EQ(floor->status(), 4) << floor->err();
     EXPECT_EQ(TwoLive::endOf(*front), 130) << front->err();

@@ -134,14 +134,14 @@ TEST(ProgramClusterProcesses, TheSignalThatStopsThemIsTheOneThatCame) {
     ASSERT_TRUE(cluster.plays()) << cluster.told();
     ASSERT_TRUE(signalTo(cluster.program(), signal));
     EXPECT_EQ(cluster.end(), 128 + signal) << cluster.told();
-    EXPECT_FALSE(has(cluster.told(), "begins again")) << cluster.told();
+    EXPECT_FALSE(has(cluster.told(), "restarts")) << cluster.told();
     const Json said = Json::parse(cluster.said(), nullptr, false);
     ASSERT_TRUE(said.is_object()) << cluster.said();
     EXPECT_EQ(said["front"]["stopped"], signal == SIGTERM ? "SIGTERM" : "SIGINT");
   }
 }
 
-TEST(ProgramClusterProcesses, ANodeThatIsAskedToEndIsNotBegunAnew) {
+TEST(ProgramClusterProcesses, ANodeThatIsAskedToEndIsNotRestarted) {
   PlayingCluster cluster(forLong());
   ASSERT_TRUE(cluster.plays()) << cluster.told();
   ASSERT_TRUE(signalTo(cluster.node("left"), SIGTERM));
@@ -149,7 +149,7 @@ TEST(ProgramClusterProcesses, ANodeThatIsAskedToEndIsNotBegunAnew) {
   EXPECT_TRUE(becomes([&] { return cluster.node("left") < 0; }));
   ASSERT_TRUE(signalTo(cluster.node("front"), SIGTERM));
   EXPECT_EQ(cluster.end(), 128 + SIGTERM) << "and the leader ends the show for all: " << cluster.told();
-  EXPECT_FALSE(has(cluster.told(), "begins again")) << cluster.told();
+  EXPECT_FALSE(has(cluster.told(), "restarts")) << cluster.told();
 }
 
 /// A cluster of two of which the first one leads.
@@ -171,7 +171,7 @@ std::size_t startsIn(const fs::path& count) {
   return static_cast<std::size_t>(std::ranges::count(lines, '\n'));
 }
 
-TEST(ProgramClusterProcesses, ANodeWithoutMemoryOrOpenGlBeginsAgainAfterAPauseIfItFailsAtOnce) {
+TEST(ProgramClusterProcesses, ANodeWithoutMemoryOrOpenGlRestartsAfterAPauseIfItFailsAtOnce) {
   const TemporaryFolder folder;
   ClusterNodes nodes(twoNodes(), false, terminal);
   // The leader plays until the other one has begun for the third time, half a minute at most.
@@ -184,13 +184,12 @@ TEST(ProgramClusterProcesses, ANodeWithoutMemoryOrOpenGlBeginsAgainAfterAPauseIf
   EXPECT_EQ(nodes.play(), 0);
   const std::string told = testing::internal::GetCapturedStderr();
   EXPECT_EQ(startsIn(folder.path() / "left"), 3U);
-  EXPECT_TRUE(has(told, "cluster: left ended with exit code 3 and begins again\n")) << told;
-  EXPECT_TRUE(
-      has(told, "cluster: left ended with exit code 3, 2 times in a row, and begins again after a pause"))
+  EXPECT_TRUE(has(told, "cluster: left ended with exit code 3 and restarts\n")) << told;
+  EXPECT_TRUE(has(told, "cluster: left ended with exit code 3, 2 times in a row, and restarts after a pause"))
       << told;
 }
 
-TEST(ProgramClusterProcesses, WhatIsWrongWithTheShowIsNoReasonToBeginAgain) {
+TEST(ProgramClusterProcesses, AFaultInTheShowIsNoReasonToRestart) {
   const TemporaryFolder folder;
   for (const int code : {1, 2}) {
     const std::string name = "starts" + std::to_string(code);
@@ -234,7 +233,7 @@ TEST(ProgramClusterProcesses, ALeaderThatHangsIsReplaced) {
   EXPECT_EQ(nodes.play(), 0);
   const std::string told = testing::internal::GetCapturedStderr();
   EXPECT_TRUE(has(told, "cluster: front has shown nothing for 0.6 s, and is killed\n")) << told;
-  EXPECT_TRUE(has(told, "cluster: front was ended by signal 9 and begins again\n")) << told;
+  EXPECT_TRUE(has(told, "cluster: front was ended by signal 9 and restarts\n")) << told;
 }
 
 TEST(ProgramClusterProcesses, OnlyTheOneThatLeadsAndIsStoppedIsTakenForHanging) {
@@ -308,7 +307,7 @@ TEST(ProgramClusterProcesses, OfAShowThatWasStoppedNoPictureIsMissed) {
   EXPECT_EQ(nodes.play(), 128 + SIGTERM);
 }
 
-TEST(ProgramClusterProcesses, AShowThatEndsForADifferenceDoesNotBeginAgain) {
+TEST(ProgramClusterProcesses, AShowThatEndsForADifferenceDoesNotRestart) {
   const TemporaryFolder folder;
   ClusterFile cluster = twoNodes();
   cluster.stopOnDifference = true;
@@ -355,8 +354,7 @@ TEST(ProgramClusterProcesses, WhatBecomesOfANodeIsToldInItsJournal) {
   nodes.add("left", failing(file("starts"), 3, 1), std::move(Journal::open(file("left")).value()));
   folder.write("starts", "");
   EXPECT_EQ(nodes.play(), 0);
-  EXPECT_TRUE(
-      fileContent(file("left")).ends_with("  -  cluster: left ended with exit code 3 and begins again\n"))
+  EXPECT_TRUE(fileContent(file("left")).ends_with("  -  cluster: left ended with exit code 3 and restarts\n"))
       << fileContent(file("left"));
   EXPECT_EQ(fileContent(file("front")), "") << "nothing became of it";
 }
@@ -421,7 +419,7 @@ TEST(ProgramClusterProcesses, TheJournalOfANodeSaysThatItDied) {
   ASSERT_TRUE(signalTo(cluster.node("left"), SIGKILL));
   const auto journal = [&] { return fileContent(cluster.file("journal-left")); };
   EXPECT_TRUE(becomes([&] {
-    return has(journal(), "  -  cluster: left was ended by signal 9 and begins again\n");
+    return has(journal(), "  -  cluster: left was ended by signal 9 and restarts\n");
   })) << journal();
   EXPECT_TRUE(becomes([&] { return timesIn(journal(), "started: stadion") == 2; })) << journal();
   EXPECT_FALSE(has(fileContent(cluster.file("journal-right")), "signal 9"));

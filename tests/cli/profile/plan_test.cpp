@@ -26,10 +26,11 @@ TEST(ProgramPlan, TellsEveryNumberOfWallsInBothModes) {
   for (const auto& frame : plan.at("costs").at("frames"))
     for (const auto& wall : frame.at("walls")) EXPECT_EQ(wall.at("pictures").size(), 2U);
   EXPECT_NE(fileContent(out + "/plan.svg").find("</svg>"), std::string::npos);
+  EXPECT_EQ(fileContent(out + "/plan.json"), r.out);
 
   // The same costs once more, on a larger machine.
-  const std::string costs = folder.write("costs.json", r.out);
-  const ProgramResult again = stadionProgram({"plan", "--from", costs, "--cores", "64", "--wall-count", "6"});
+  const ProgramResult again =
+      stadionProgram({"plan", "--from", out + "/plan.json", "--cores", "64", "--wall-count", "6"});
   ASSERT_EQ(again.status, 0) << again.err;
   EXPECT_NE(again.out.find("6 walls, 64 cores"), std::string::npos) << again.out;
   EXPECT_NE(again.out.find("Draw 6"), std::string::npos);
@@ -85,6 +86,9 @@ TEST(ProgramPlan, MeasuresTheLookThatIsAskedForAndSaysWhichItWas) {
   EXPECT_EQ(nlohmann::json::parse(plain).at("costs").at("look"), "plain");
   EXPECT_NE(told(plain).out.find("plain look"), std::string::npos);
 
+  EXPECT_EQ(nlohmann::json::parse(plain).at("costs").at("renderer"), "cpu");
+  EXPECT_EQ(nlohmann::json::parse(measured({"--gl", "osmesa"})).at("costs").at("renderer"), "gl");
+
   auto full = nlohmann::json::parse(measured({})).at("costs");
   EXPECT_EQ(full.at("look"), "full");
   full.erase("look");
@@ -126,6 +130,8 @@ TEST(ProgramPlan, BesideMeasuredCostsWallsAreObeyedAndWhatMeasuresIsRefused) {
                                                                         {"--frames", "9"},
                                                                         {"--seconds", "1"},
                                                                         {"--gl", "egl"},
+                                                                        {"--renderer", "gl"},
+                                                                        {"--draw-threads", "2"},
                                                                         {"--input", "none"},
                                                                         {"--asset-root", "."},
                                                                         {"--app-threads", "2"}})

@@ -62,6 +62,15 @@ TEST(ProgramProfile, ItSaysWhatDrawingWasMeasuredWithWhateverTheProvider) {
   }
 }
 
+TEST(ProgramProfile, TheCpuRendererIsMeasuredByNode) {
+  const ProgramResult r = profileKick({"--json", "--walls", "desktop", "--renderer", "cpu"});
+  ASSERT_EQ(r.status, 0) << r.err;
+  const auto j = nlohmann::json::parse(r.out);
+  EXPECT_EQ(j["draw_method"], "processor time of one thread, each batch drawn once more, alone");
+  EXPECT_TRUE(std::ranges::any_of(j["nodes"], [](const auto& node) { return node.value("draw_ms", 0.0) > 0; }))
+      << j["nodes"].dump().substr(0, 2000);
+}
+
 TEST(ProgramProfile, ItCountsWhatAPlainRunCounts) {
   const ProgramResult r = profileKick({"--json", "--walls", "desktop", "--look", "plain"});
   const ProgramResult run = stadionProgram({"run", std::string(STADION_SOURCE_DIR "/scripts/kick.evs"),
@@ -219,6 +228,30 @@ TEST(ProgramProfile, LastFramesAreAPageAndJsonToo) {
   const std::string html = fileContent(out + "/last-frames.html");
   EXPECT_TRUE(html.starts_with("<!doctype html>") && html.ends_with("</html>\n"));
   EXPECT_NE(html.find("<rect"), std::string::npos);
+  EXPECT_EQ(fileContent(out + "/last-frames.json"), r.out);
+}
+
+TEST(ProgramProfile, TheFolderReceivesTheFiguresToo) {
+  const TemporaryFolder folder;
+  const std::string out = folder.path() / "out";
+  const std::vector<std::string> words{
+      "profile", STADION_SOURCE_DIR "/scripts/kick.evs", "--frames", "9", "--gl", "none", "--out", out};
+  const auto playedWith = [&](const std::vector<std::string>& more) {
+    std::vector<std::string> all = words;
+    all.insert(all.end(), more.begin(), more.end());
+    const ProgramResult r = stadionProgram(all);
+    EXPECT_EQ(r.status, 0) << r.err;
+    return r.out;
+  };
+  const std::string json = playedWith({"--json"});
+  EXPECT_EQ(fileContent(out + "/profile.json"), json);
+  const std::string csv = playedWith({"--csv"});
+  EXPECT_EQ(fileContent(out + "/profile.csv"), csv);
+  EXPECT_FALSE(std::filesystem::exists(out + "/fidelity.json")) << "nothing was asked for";
+  playedWith({"--fidelity", "--most", "1", "--rounds", "1"});
+  const auto models = nlohmann::json::parse(fileContent(out + "/fidelity.json"));
+  EXPECT_FALSE(models.at("bodies").empty());
+  EXPECT_NE(fileContent(out + "/profile.html").find("<!doctype html>"), std::string::npos);
 }
 
 TEST(ProgramProfile, WhatWouldNotBeObeyedIsRefused) {

@@ -181,7 +181,23 @@ TEST(ProgramTrace, ALiveRunIsTracedToo) {
   ASSERT_EQ(r.status, 0) << r.err;
   const TraceChecks seen(fileContent(file));
   EXPECT_EQ(seen.complaints(), std::vector<std::string>());
-  EXPECT_EQ(seen.flows(), 36U);
+  EXPECT_EQ(seen.flows(), 40U);
+}
+
+TEST(ProgramTrace, AShortRunIsTracedFromItsFirstFrameOn) {
+  const TemporaryFolder folder;
+  for (const char* command : {"profile", "run"})
+    for (const char* mode : {"pipelined", "sequential"}) {
+      const std::string file = folder.path() / (std::string(command) + mode + ".json");
+      const ProgramResult r =
+          stadionProgram({command, kKickShow, "--frames", "5", "--size", "32x24", "--walls", "desktop",
+                          "--look", "plain", "--mode", mode, "--trace", file});
+      ASSERT_EQ(r.status, 0) << r.err;
+      const TraceChecks seen(fileContent(file));
+      EXPECT_EQ(seen.complaints(), std::vector<std::string>()) << command << mode;
+      EXPECT_EQ(seen.frames(), (std::set<std::uint64_t>{0, 1, 2, 3, 4})) << command << mode;
+      EXPECT_EQ(seen.flows(), 5U) << command << mode << ": each frame goes through App, Cull and Draw";
+    }
 }
 
 TEST(ProgramTrace, FramesAfterTheRunsEndAreSaidToBeMissing) {

@@ -149,13 +149,13 @@ TEST(ProgramRegress, AnInterruptedSuiteGoesOnWhereItWas) {
   const std::string progress = fileContent(std::filesystem::path(out) / "progress.jsonl");
   const ProgramResult r = regress({suite, "--out", out, "--resume", "--json"});
   EXPECT_EQ(r.status, 2) << "there is no baseline" << r.err;
-  EXPECT_EQ(r.err.find("begins anew"), std::string::npos) << progress;
+  EXPECT_EQ(r.err.find("starts from the beginning"), std::string::npos) << progress;
   EXPECT_EQ(Json::parse(r.out)["benchmarks"].size(), 6u);
   EXPECT_FALSE(std::filesystem::exists(std::filesystem::path(out) / "progress.jsonl"));
   EXPECT_TRUE(std::filesystem::exists(std::filesystem::path(out) / "report.html"));
 }
 
-TEST(ProgramRegress, AnInterruptedSuiteBeginsAnewWhenAShowHasChangedMeanwhile) {
+TEST(ProgramRegress, AnInterruptedSuiteStartsFromTheBeginningWhenAShowHasChanged) {
   const TemporaryFolder folder;
   const std::string show = folder.write("show.evs", "group( name=a )\n");
   std::string text =
@@ -167,7 +167,7 @@ TEST(ProgramRegress, AnInterruptedSuiteBeginsAnewWhenAShowHasChangedMeanwhile) {
   folder.write("show.evs", "group( name=b )\n");
   const ProgramResult r = regress({suite, "--out", out, "--resume"});
   EXPECT_EQ(r.status, 2) << "there is no baseline" << r.err;
-  EXPECT_NE(r.err.find("begins anew"), std::string::npos) << r.err;
+  EXPECT_NE(r.err.find("starts from the beginning"), std::string::npos) << r.err;
 }
 
 TEST(ProgramRegress, WrongUseAndWrongSuitesAreToldWithTheFix) {

@@ -1,10 +1,12 @@
 /// `--guard` in the real program: a wrong write ends it with an exit code of its own.
 
+#include "tests/programs/desk.h"
 #include "tests/programs/preloaded_faults.h"
 
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <regex>
 #include <string>
 #include <vector>
 
@@ -23,12 +25,16 @@ protected:
     words.insert(words.begin(), stadionPath());
     words.insert(words.end(), {"--walls", "desktop", "--size", "32x24", "--frames", "40"});
     ProgramRun r{words};
-    r.environment = {"XDG_STATE_HOME=" + std::string(folder_.path()), "LP_NUM_THREADS=1"};
-    if (faulty) {
-      r.environment.push_back("LD_PRELOAD=" + faultLibrary());
-      r.environment.push_back(std::string("STADION_FAULT=protect nth=20 offset=") + kInModel);
-    }
+    prepare(r, faulty);
     return runProgram(r);
+  }
+  /// If `faulty`, a write into a slot is planted.
+  void prepare(ProgramRun& r, bool faulty) const {
+    r.environment.insert(r.environment.end(),
+                         {"XDG_STATE_HOME=" + std::string(folder_.path()), "LP_NUM_THREADS=1"});
+    if (!faulty) return;
+    r.environment.push_back("LD_PRELOAD=" + faultLibrary());
+    r.environment.push_back(std::string("STADION_FAULT=protect nth=20 offset=") + kInModel);
   }
   std::string kick() const { return STADION_SOURCE_DIR "/scripts/kick.evs"; }
 
@@ -50,6 +56,30 @@ TEST_F(ProgramGuard, MeansTheSameInProfile) {
   const ProgramResult r = play({"profile", kick(), "--guard", "--gl", "none"}, true);
   EXPECT_EQ(r.status, 5) << r.err;
   EXPECT_NE(r.err.find("App, frame 18: wrote to the published scene"), r.err.npos) << r.err;
+}
+
+TEST_F(ProgramGuard, MeansTheSameInView) {
+  const auto display = Display::open();
+  if (!display) GTEST_SKIP() << "needs Xvfb, xdotool and import: apt-get install xvfb xdotool imagemagick";
+  ProgramRun run = onDisplay(
+      *display, {"view", kick(), "--guard", "--walls", "desktop", "--window", "200x150", "--look", "plain"});
+  prepare(run, true);
+  RunningProgram view(run);
+  EXPECT_EQ(view.status(), 5) << view.err();
+  EXPECT_TRUE(std::regex_search(
+      view.err(),
+      std::regex("App, frame [0-9]+: wrote to the published scene, field \"model\", of .*kick.evs:")))
+      << view.err();
+}
+
+TEST_F(ProgramGuard, LetsAViewPlayIfNothingIsWritten) {
+  const auto display = Display::open();
+  if (!display) GTEST_SKIP() << "needs Xvfb, xdotool and import: apt-get install xvfb xdotool imagemagick";
+  ProgramRun run = onDisplay(*display, {"view", kick(), "--guard", "--walls", "desktop", "--window",
+                                        "200x150", "--look", "plain", "--frames", "60"});
+  prepare(run, false);
+  RunningProgram view(run);
+  EXPECT_EQ(view.status(), 0) << view.err();
 }
 
 TEST_F(ProgramGuard, WithoutItNothingIsProtected) {

@@ -239,10 +239,10 @@ TEST(ProgramSupervise, ALiveShowEndsWithItsSupervisor) {
   Supervised run({"--walls", "desktop", "--size", "32x24", "--look", "plain", "--input", "none"});
   ASSERT_TRUE(becomes([&] { return run.hasNoted("the first picture"); })) << fileContent(run.told());
   const pid_t first = run.player();
-  // Before a scene was kept: the show begins again, where it would be now.
+  // Before a scene was saved: the show restarts, and catches up.
   ASSERT_EQ(kill(first, SIGKILL), 0);
   ASSERT_TRUE(becomes([&] { return run.hasTold("pictures again"); })) << fileContent(run.told());
-  EXPECT_TRUE(run.hasTold("begins again, and catches up to")) << fileContent(run.told());
+  EXPECT_TRUE(run.hasTold("restarts, and catches up to")) << fileContent(run.told());
   const pid_t second = run.player();
   ASSERT_EQ(kill(run.pid(), SIGTERM), 0);
   EXPECT_EQ(run.end(), 128 + SIGTERM) << fileContent(run.told());

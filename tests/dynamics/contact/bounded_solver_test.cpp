@@ -64,7 +64,7 @@ TEST(BoundedSolver, PressingEndsTheSameAtEveryFrameRate) {
 
 TEST(BoundedSolver, WhatContradictsItselfIsSharedByTheSideThatGives) {
   // Up at 1 m/s, says the floor; down at 1 m/s, says the hand: the hand falls short.
-  std::vector<Mobile> m(3);
+  std::vector<SolverBody> m(3);
   m[0].inverseMass = 1, m[0].inverseInertia = 6 * Mat3::Identity();
   m[2].v = Vec3(0, 0, -1);
   std::vector<SolverContact> contacts;
@@ -164,8 +164,8 @@ TEST(BoundedSolver, PointsOfAThinShaftThatContradictEachOtherLeaveItSlow) {
   std::mt19937 random(3);
   std::uniform_real_distribution<double> any(-1, 1);
   for (int trial = 0; trial < 4000; ++trial) {
-    std::vector<Mobile> mobiles(2);
-    Mobile& shaft = mobiles[0];
+    std::vector<SolverBody> solverBodies(2);
+    SolverBody& shaft = solverBodies[0];
     shaft.p = {0, 0, 0.0145};
     shaft.inverseMass = 1 / 0.806, shaft.inverseInertia = Vec3(1 / 1.5e-4, 1 / 0.42, 1 / 0.42).asDiagonal();
     shaft.v = {1e-3 * any(random), 1e-3 * any(random), -0.02}, shaft.omega = {0.1 * any(random), 0, 0};
@@ -179,7 +179,7 @@ TEST(BoundedSolver, PointsOfAThinShaftThatContradictEachOtherLeaveItSlow) {
       c.pushA += 1e-5 * Vec3(any(random), any(random), 0);  // where it is in the middle of the step
       c.floor = any(random) > 0 ? 8e-4 : 0;
     }
-    solveContacts(mobiles, contacts);
+    solveContacts(solverBodies, contacts);
     const double speed = shaft.v.norm() + 0.015 * shaft.omega.norm();
     ASSERT_LT(speed, 1) << "trial " << trial;  // false of what is undefined
   }

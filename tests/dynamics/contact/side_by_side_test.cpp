@@ -72,7 +72,7 @@ TEST(ProgramWorkerPool, WithoutRoomForItsThreadsTheSameIsDone) {
 std::vector<std::uint64_t> hashesOn(std::size_t threads) {
   ShowFixture show(threads);
   const MeshId box = show.meshes.add(cube(3)), small = show.meshes.add(cube(0.1));
-  show.loader.files["show"] = [&](Load& load) {
+  show.loader.files["show"] = [&](LoadedScene& load) {
     addNode<Field>(load, "gravity", Vec3(0, 0, -9.81), true);
     for (int heap = 0; heap < 5; ++heap) {
       const std::string own = std::to_string(heap), floor = "floor" + own;
@@ -108,7 +108,7 @@ TEST(ThreadsDynamics, ANodeThatLooksAtAnothersBodyWaitsForIt) {
     ShowFixture show(threads);
     const MeshId crate = show.meshes.add(cube(0.1));
     const Ball *pushed = nullptr, *far = nullptr;
-    show.loader.files["show"] = [&](Load& load) {
+    show.loader.files["show"] = [&](LoadedScene& load) {
       addNode<Field>(load, "push", Vec3(2, 0, 0), true);
       addNode<Ball>(load, "first", Vec3(0, 0, 0), std::vector<std::string>{"push"}, NodeRef{}, crate);
       pushed = &addNode<Ball>(load, "second", Vec3(1, 0, 0), std::vector<std::string>{});

@@ -10,7 +10,7 @@ namespace {
 
 using namespace scenes;
 
-double tilt(const World& w, BodyId b) {
+double solidTilt(const World& w, BodyId b) {
   return det::logRotation(w.state(b).q).norm();
 }
 
@@ -63,7 +63,7 @@ TEST(SolidContact, ATallBlockTipsWhenItsEdgeSaysSo) {
         addBox(w, g, {.half = {0.1, 0.1, 0.3}, .pose = {{0, 0, 0.3}, Quat::Identity()}, .friction = 1});
     double reached = -1, before = 0, most = 0;
     play(w, tips ? 1.5 : 5, 60, [&](double t) {
-      const double now = tilt(w, b);
+      const double now = solidTilt(w, b);
       most = std::max(most, now);
       if (reached < 0 && now >= 0.5) reached = t - (now - 0.5) / (now - before) / 60;
       before = now;

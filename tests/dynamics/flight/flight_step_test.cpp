@@ -6,7 +6,7 @@
 #include "dynamics/flight/flight_table.h"
 #include "dynamics/flight/runge_kutta.h"
 #include "dynamics/flight/swarm_step.h"
-#include "dynamics/maths/wide.h"
+#include "dynamics/maths/double4.h"
 #include "engine/maths/angles.h"
 
 #include <bit>
@@ -98,7 +98,7 @@ void runForm(const SwarmSteps& form, FlightSwarm& swarm) {
 }
 
 TEST(FlightStep, TwoLanesAndFourLanesGiveTheSameBits) {
-  if (!hasWide()) GTEST_SKIP() << "this machine has no AVX2";
+  if (!hasAvx2()) GTEST_SKIP() << "this machine has no AVX2";
   const Case rod{javelinFlight(), kThrownJavelin, 0, Vec3(100, .2, 0)};
   FlightSwarm two(8), four(8);
   for (std::size_t i = 0; i < 8; ++i)

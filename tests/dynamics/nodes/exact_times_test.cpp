@@ -28,8 +28,9 @@ struct VisitedShow : ShowFixture {
     }
   }
   /// Every rate has a frame that ends at a whole second.
-  void tell(const std::string& target, Verb verb, std::vector<std::string> arguments, double seconds) {
-    ASSERT_TRUE(scene.command(target, verb, std::move(arguments), fromSeconds(seconds)));
+  void tell(const std::string& target, CommandId command, std::vector<std::string> arguments,
+            double seconds) {
+    ASSERT_TRUE(scene.command(target, command, std::move(arguments), fromSeconds(seconds)));
   }
 };
 
@@ -43,7 +44,7 @@ Kick kickAt(double rate, bool smooth, bool carried) {
   VisitedShow show(rate);
   const MeshId box = show.meshes.add(cube(0.1));
   Ball* ball = nullptr;
-  show.loader.files["show"] = [&](Load& load) {
+  show.loader.files["show"] = [&](LoadedScene& load) {
     if (carried) addNode<MovingNode>(load, "leg", PlaceAttributes{}, false);
     auto& foot = addNode<Block>(load, "foot", box, Vec3(0, 0, 0));
     (void)foot;
@@ -57,7 +58,7 @@ Kick kickAt(double rate, bool smooth, bool carried) {
       .key("foot", 0.2713, {-0.02, 0.1, 0.01}, {15, 0, -10}, smooth)
       .key("foot", 0.2811, {0.5, 0.15, 0.3}, {40, 0, 0}, smooth)
       .key("foot", 0.6, {2, -2, 0.3});
-  show.tell("foot", Verb::Attach, {"all", "foot"}, 0);
+  show.tell("foot", CommandId::Attach, {"all", "foot"}, 0);
   show.playTo(1);
   Kick kick;
   kick.after = ball->state();
@@ -89,7 +90,7 @@ struct Carried {
   enum class By { PathBefore, PathAfter, Body };
 
   Carried(double rate, By by) : show(rate) {
-    show.loader.files["show"] = [&](Load& load) {
+    show.loader.files["show"] = [&](LoadedScene& load) {
       const NodeRef parent{load.number, by == By::PathBefore ? 1u : 0u};
       const auto drive = [&](NodeRef cart) {
         Keyframe start, end;
@@ -121,11 +122,11 @@ TEST(ExactTimes, WhatFollowsATrackerIsThereWhateverMovesItsParentInWhicheverOrde
     for (const auto by : {Carried::By::PathBefore, Carried::By::PathAfter, Carried::By::Body}) {
       Carried c(rate, by);
       c.show.playTo(0.5);
-      c.show.tell("lamp", Verb::Attach, {"all", "head"}, 0.5);
+      c.show.tell("lamp", CommandId::Attach, {"all", "head"}, 0.5);
       c.show.playTo(1);
       EXPECT_LE((c.lampAt() - Vec3(3, 4, 2)).norm(), 1e-12) << rate << " Hz";
-      c.show.tell("lamp", Verb::Reset, {}, 1);
-      c.show.tell("lamp", Verb::Attach, {"all", "head"}, 1.2);
+      c.show.tell("lamp", CommandId::Reset, {}, 1);
+      c.show.tell("lamp", CommandId::Attach, {"all", "head"}, 1.2);
       c.show.playTo(2);
       EXPECT_LE((c.lampAt() - Vec3(3, 4, 2)).norm(), 1e-12) << rate << " Hz";
     }
@@ -135,7 +136,7 @@ TEST(ExactTimes, WhatOnlyTurnsWithATrackerIsStillCarried) {
   for (const double rate : kRates)
     for (const auto by : {Carried::By::PathBefore, Carried::By::PathAfter, Carried::By::Body}) {
       Carried c(rate, by);
-      c.show.tell("lamp", Verb::Attach, {"orientation", "head"}, 0);
+      c.show.tell("lamp", CommandId::Attach, {"orientation", "head"}, 0);
       c.show.playTo(2);
       EXPECT_LE((c.lampAt() - Vec3(by == Carried::By::Body ? 4 : 2, 0, 1)).norm(), 1e-9) << rate << " Hz";
     }
@@ -146,8 +147,8 @@ TEST(ExactTimes, WhatLeavesItsTrackerGoesAlongWithItsParentFromThatTime) {
   for (const double rate : kRates)
     for (const auto by : {Carried::By::PathBefore, Carried::By::PathAfter, Carried::By::Body}) {
       Carried c(rate, by);
-      c.show.tell("lamp", Verb::Attach, {"all", "head"}, 0);
-      c.show.tell("lamp", Verb::Detach, {}, kWhen);
+      c.show.tell("lamp", CommandId::Attach, {"all", "head"}, 0);
+      c.show.tell("lamp", CommandId::Detach, {}, kWhen);
       c.show.playTo(2);
       const double gone = by == Carried::By::Body ? 4 - kWhen * kWhen : 2 - kWhen;
       // Between frames a body's way is taken to be straight.
@@ -160,7 +161,7 @@ TEST(ExactTimes, NeitherItsParentNorAPathMovesABodyAtRest) {
   for (const bool parent : {false, true}) {
     VisitedShow show(60);
     const Ball* ball = nullptr;
-    show.loader.files["show"] = [&](Load& load) {
+    show.loader.files["show"] = [&](LoadedScene& load) {
       const NodeRef cart = addNode<MovingNode>(load, "cart", PlaceAttributes{}, false).self();
       ball = &addNode<Ball>(load, "ball", Vec3(0, 0, 5), std::vector<std::string>{}, cart);
       Keyframe start, end;
@@ -183,15 +184,15 @@ TEST(ExactTimes, AHandGrabsAndLetsGoInsideTheFrame) {
   for (const double rate : kRates) {
     VisitedShow show(rate);
     Ball* ball = nullptr;
-    show.loader.files["show"] = [&](Load& load) {
+    show.loader.files["show"] = [&](LoadedScene& load) {
       ball = &addNode<Ball>(load, "ball", Vec3(0, 0.3, 1), std::vector<std::string>{});
       addNode<Sim>(load, "sim", std::vector<std::string>{}, std::vector<std::string>{"ball"});
     };
     show.scene.open("show");
     show.visitor.key("wand", 0, {0, 0, 1}).key("wand", 1.5, {0, 3, 1}).key("wand", 3, {0, 0, 1});  // 2 m/s
     const double grabbed = 0.1234, released = 0.5077;
-    show.tell("ball", Verb::Grab, {"wand"}, grabbed);
-    show.tell("ball", Verb::Release, {}, released);
+    show.tell("ball", CommandId::Grab, {"wand"}, grabbed);
+    show.tell("ball", CommandId::Release, {}, released);
     show.playTo(1);
     // It goes along from the moment of the grab, and on with the hand's velocity: no jump at either end.
     EXPECT_NEAR(ball->state().p.y(), 0.3 + 2 * (1 - grabbed), 1e-9) << rate;
@@ -204,7 +205,7 @@ TEST(ExactTimes, AThrowDoesNotDependOnTheFrameRate) {
   for (const double rate : kRates) {
     VisitedShow show(rate);
     Ball* ball = nullptr;
-    show.loader.files["show"] = [&](Load& load) {
+    show.loader.files["show"] = [&](LoadedScene& load) {
       addNode<Field>(load, "gravity", Vec3(0, 0, -kStandardGravity), true);
       ball = &addNode<Ball>(load, "ball", Vec3(0.1, 0.3, 1), std::vector<std::string>{"gravity"});
       addNode<Sim>(load, "sim", std::vector<std::string>{}, std::vector<std::string>{"ball"});
@@ -214,8 +215,8 @@ TEST(ExactTimes, AThrowDoesNotDependOnTheFrameRate) {
       const double t = i / 91.0, s = t * t;
       show.visitor.key("wand", t, {0.2 * s, s, 1 + 0.3 * t}, {40 * s, 10 * t, 0});
     }
-    show.tell("ball", Verb::Grab, {"wand"}, 0.0507);
-    show.tell("ball", Verb::Release, {}, 0.6091);
+    show.tell("ball", CommandId::Grab, {"wand"}, 0.0507);
+    show.tell("ball", CommandId::Release, {}, 0.6091);
     show.playTo(1);
     if (!first) first = ball->state();
     EXPECT_GT(ball->state().v.y(), 1.0);
@@ -228,7 +229,7 @@ TEST(ExactTimes, AResetTakesEffectInsideTheFrameAndCommandsKeepTheirOrder) {
   for (const double rate : kRates) {
     VisitedShow show(rate);
     Ball* ball = nullptr;
-    show.loader.files["show"] = [&](Load& load) {
+    show.loader.files["show"] = [&](LoadedScene& load) {
       addNode<Field>(load, "gravity", Vec3(0, 0, -kStandardGravity), true);
       ball = &addNode<Ball>(load, "ball", Vec3(0, 0, 5), std::vector<std::string>{"gravity"});
       addNode<Sim>(load, "sim", std::vector<std::string>{}, std::vector<std::string>{"ball"});
@@ -236,10 +237,10 @@ TEST(ExactTimes, AResetTakesEffectInsideTheFrameAndCommandsKeepTheirOrder) {
     show.scene.open("show");
     show.visitor.key("wand", 0, {0, 0, 1});
     // Within one frame of 30 Hz, told in another order than they are due.
-    show.tell("ball", Verb::Reset, {}, 0.5043);
-    show.tell("ball", Verb::Release, {}, 0.5032);
-    show.tell("ball", Verb::Grab, {"wand"}, 0.5021);
-    show.tell("ball", Verb::Unhook, {"gravity"}, 0.5091);
+    show.tell("ball", CommandId::Reset, {}, 0.5043);
+    show.tell("ball", CommandId::Release, {}, 0.5032);
+    show.tell("ball", CommandId::Grab, {"wand"}, 0.5021);
+    show.tell("ball", CommandId::Unhook, {"gravity"}, 0.5091);
     show.playTo(1);
     const double fell = 0.5091 - 0.5043;
     EXPECT_NEAR(ball->state().v.z(), -kStandardGravity * fell, 1e-9) << rate;
@@ -254,7 +255,7 @@ TEST(ExactTimes, ASwitchedOffSimulationStandsStillAndThenGoesOn) {
     VisitedShow show(rate);
     const MeshId box = show.meshes.add(cube(0.1));
     Ball* ball = nullptr;
-    show.loader.files["show"] = [&](Load& load) {
+    show.loader.files["show"] = [&](LoadedScene& load) {
       addNode<Field>(load, "gravity", Vec3(0, 0, -kStandardGravity), true);
       addNode<Block>(load, "foot", box, Vec3(5, 0, 0));
       ball = &addNode<Ball>(load, "ball", Vec3(0, 0, 0), std::vector<std::string>{"gravity"});
@@ -264,11 +265,11 @@ TEST(ExactTimes, ASwitchedOffSimulationStandsStillAndThenGoesOn) {
     // While all stands still a foot passes through the ball, which will not feel it.
     show.visitor.key("foot", 0, {5, 0, -0.5}).key("foot", 0.5, {5, 0, -0.5});
     show.visitor.key("foot", 0.8, {-5, 0, -0.5}).key("foot", 3, {-5, 0, -0.5});
-    show.tell("foot", Verb::Attach, {"all", "foot"}, 0);
+    show.tell("foot", CommandId::Attach, {"all", "foot"}, 0);
     show.playTo(0.1);
     const double off = 0.3217, on = 1.2345;
-    show.tell("sim", Verb::Disable, {}, off);
-    show.tell("sim", Verb::Enable, {}, on);
+    show.tell("sim", CommandId::Disable, {}, off);
+    show.tell("sim", CommandId::Enable, {}, on);
     show.playTo(1);
     EXPECT_NEAR(ball->state().v.z(), -kStandardGravity * off, 1e-12) << rate;
     show.playTo(2);
@@ -283,18 +284,18 @@ TEST(ExactTimes, ALoadedBodyBeginsAtTheTimeOfItsLoad) {
   for (const double rate : kRates) {
     VisitedShow show(rate);
     Ball* ball = nullptr;
-    show.loader.files["game"] = [&](Load& load) {
+    show.loader.files["game"] = [&](LoadedScene& load) {
       addNode<Field>(load, "gravity", Vec3(0, 0, -kStandardGravity), true);
       ball = &addNode<Ball>(load, "ball", Vec3(0, 0, 5), std::vector<std::string>{"gravity"});
       addNode<Sim>(load, "sim", std::vector<std::string>{}, std::vector<std::string>{"ball"});
     };
-    show.loader.files["show"] = [&](Load& load) {
+    show.loader.files["show"] = [&](LoadedScene& load) {
       addNode<SceneNode>(load, "game", PlaceAttributes{}, "game", fromSeconds(0.1), false);
       // Somebody outside looks after the same body.
       addNode<TouchWatch>(load, "watch", std::vector<std::string>{}, std::vector<std::string>{"game/ball"});
     };
     show.scene.open("show");
-    show.tell("game", Verb::Load, {}, 0.2077);
+    show.tell("game", CommandId::Load, {}, 0.2077);
     show.playTo(1);
     ASSERT_TRUE(ball);
     const double fell = 1 - 0.3077;
@@ -310,15 +311,17 @@ TEST(ExactTimes, AnUnloadedWallIsFeltUntilItGoes) {
       VisitedShow show(rate);
       const MeshId box = show.meshes.add(cube(0.5));
       Ball* ball = nullptr;
-      show.loader.files["game"] = [&](Load& load) { addNode<Block>(load, "wall", box, Vec3(0, 1.4, 0)); };
-      show.loader.files["show"] = [&](Load& load) {
+      show.loader.files["game"] = [&](LoadedScene& load) {
+        addNode<Block>(load, "wall", box, Vec3(0, 1.4, 0));
+      };
+      show.loader.files["show"] = [&](LoadedScene& load) {
         addNode<SceneNode>(load, "game", PlaceAttributes{}, "game", Nanoseconds{0}, true);
         addNode<Field>(load, "push", Vec3(0, 200, 0), true, 0.01);
         ball = &addNode<Ball>(load, "ball", Vec3(0, 0.01, 0), std::vector<std::string>{"push"});
         addNode<Sim>(load, "sim", std::vector<std::string>{"game/wall"}, std::vector<std::string>{"ball"});
       };
       show.scene.open("show");
-      show.tell("game", Verb::Unload, {}, gone);
+      show.tell("game", CommandId::Unload, {}, gone);
       show.playTo(1);
       // 2 m/s after 0.01 s and 0.02 m: 0.8 m at 0.4 s. Half of the speed comes back from the wall.
       EXPECT_NEAR(ball->state().v.y(), gone < 0.4 ? 2 : -1, 1e-6) << rate << " Hz, gone at " << gone;
@@ -338,14 +341,14 @@ protected:
 TEST(ExactTimes, AlarmsOfAnUnloadedFileLeaveNoTraceInTheStateHash) {
   const auto hashWith = [](bool alarm) {
     VisitedShow show(60);
-    show.loader.files["game"] = [&](Load& load) {
+    show.loader.files["game"] = [&](LoadedScene& load) {
       if (alarm) addNode<AlarmNode>(load, "clock");
     };
-    show.loader.files["show"] = [&](Load& load) {
+    show.loader.files["show"] = [&](LoadedScene& load) {
       addNode<SceneNode>(load, "game", PlaceAttributes{}, "game", Nanoseconds{0}, true);
     };
     show.scene.open("show");
-    show.tell("game", Verb::Unload, {}, 0.3);
+    show.tell("game", CommandId::Unload, {}, 0.3);
     show.playTo(0.5);
     return show.scene.stateHash();
   };

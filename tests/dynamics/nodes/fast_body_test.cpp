@@ -80,7 +80,7 @@ struct Gallery : ShowFixture {
     loader.files["show"] = recipe;
     scene.open("show");
   }
-  void sense(Load& load, Names colliders, Names collidees, double releaseDistance = 0.5) {
+  void sense(LoadedScene& load, Names colliders, Names collidees, double releaseDistance = 0.5) {
     sensor =
         addNode<Sensor>(load, "sensor", std::move(colliders), std::move(collidees), releaseDistance).self();
   }
@@ -120,7 +120,7 @@ TEST(FastBody, ASensorSeesABodyOfAnySpeedAtTheExactTimeWhereverItStandsInTheFile
   for (const double rate : kTraceRates)
     for (const double speed : {3.0, 70.0, 343.0, 7900.0})
       for (const bool sensorFirst : {false, true}) {
-        Gallery g(rate, [&](Load& load) {
+        Gallery g(rate, [&](LoadedScene& load) {
           addNode<Block>(load, "target", g.wall, Vec3(0, 12.345, 0));
           if (sensorFirst) g.sense(load, {"target"}, {"shot"});
           addNode<Shot>(load, "shot", g.small, Vec3::Zero(), Vec3(0, speed, 0), Gallery::Names{});
@@ -136,7 +136,7 @@ TEST(FastBody, ASensorSeesABodyOfAnySpeedAtTheExactTimeWhereverItStandsInTheFile
 
 TEST(FastBody, ASensorFollowsTheArcOfAThrow) {
   for (const double rate : kTraceRates) {
-    Gallery g(rate, [&](Load& load) {
+    Gallery g(rate, [&](LoadedScene& load) {
       addNode<Field>(load, "gravity", Vec3(0, 0, -9.81), true);
       for (int i = 0; i < 8; ++i) {
         addNode<Block>(load, "floor" + std::to_string(i), g.wall, Vec3(0, 4 * i, -5));
@@ -156,7 +156,7 @@ TEST(FastBody, ASensorFollowsTheArcOfAThrow) {
 /// The floor of the simulation is a sensor as well: each bounce is told at its time.
 TEST(FastBody, ASensorSeesEveryBounceWithinAFrame) {
   for (const double rate : kTraceRates) {
-    Gallery g(rate, [&](Load& load) {
+    Gallery g(rate, [&](LoadedScene& load) {
       addNode<Block>(load, "left", g.wall, Vec3(0, -3, 0));
       addNode<Block>(load, "right", g.wall, Vec3(0, 3, 0));
       addNode<Shot>(load, "shot", g.small, Vec3::Zero(), Vec3(0, 50, 0), Gallery::Names{});
@@ -179,7 +179,7 @@ TEST(FastBody, ASensorSeesEveryBounceWithinAFrame) {
 
 TEST(FastBody, SeveralSensorsInOneFrameAreMetInTurn) {
   for (const double rate : kTraceRates) {
-    Gallery g(rate, [&](Load& load) {
+    Gallery g(rate, [&](LoadedScene& load) {
       Gallery::Names posts;
       for (int i = 0; i < 6; ++i) {
         posts.push_back("post" + std::to_string(i));
@@ -201,7 +201,7 @@ TEST(FastBody, SeveralSensorsInOneFrameAreMetInTurn) {
 
 TEST(FastBody, WhatABodyCarriesIsSeenAtTheExactTime) {
   for (const double rate : kTraceRates) {
-    Gallery g(rate, [&](Load& load) {
+    Gallery g(rate, [&](LoadedScene& load) {
       addNode<Block>(load, "target", g.wall, Vec3(0, 20, 0));
       const Shot& shot = addNode<Shot>(load, "shot", g.small, Vec3::Zero(), Vec3(0, 90, 0), Gallery::Names{});
       addNode<Rider>(load, "rider", g.small, shot.self(), Vec3(0, 1, 0));
@@ -216,7 +216,7 @@ TEST(FastBody, WhatABodyCarriesIsSeenAtTheExactTime) {
 TEST(FastBody, WhatAPathMovesIsNeverAJump) {
   for (const double rate : kTraceRates)
     for (const double speed : {30.0, 100.0, 500.0}) {
-      Gallery g(rate, [&](Load& load) {
+      Gallery g(rate, [&](LoadedScene& load) {
         addNode<Block>(load, "target", g.wall, Vec3(0, 20, 0));
         const Block& train = addNode<Block>(load, "train", g.small, Vec3::Zero());
         const double lasts = 100 / speed;
@@ -237,7 +237,7 @@ TEST(FastBody, AnotherDynamicsNodesBodyHitsAtTheExactTime) {
     for (const double speed : {20.0, 70.0, 400.0})
       for (const bool lookerFirst : {false, true}) {
         Shot* hit = nullptr;
-        Gallery g(rate, [&](Load& load) {
+        Gallery g(rate, [&](LoadedScene& load) {
           const auto looker = [&] {
             hit = &addNode<Shot>(load, "hit", g.small, Vec3(0, 10, 0), Vec3::Zero(), Gallery::Names{});
             addNode<Sim>(load, "second", Gallery::Names{"shot"}, Gallery::Names{"hit"});
@@ -259,14 +259,14 @@ TEST(FastBody, AnotherDynamicsNodesBodyHitsAtTheExactTime) {
 
 TEST(FastBody, AResetIsAJumpThatNothingOnItsWaySees) {
   for (const double rate : kTraceRates) {
-    Gallery g(rate, [&](Load& load) {
+    Gallery g(rate, [&](LoadedScene& load) {
       addNode<Block>(load, "target", g.wall, Vec3(0, 5, 0));
       const Shot& shot =
           addNode<Shot>(load, "shot", g.small, Vec3(0, 20, 0), Vec3(0, 10, 0), Gallery::Names{});
       addNode<Sim>(load, "sim", Gallery::Names{}, Gallery::Names{"shot"});
       g.sense(load, {"target"}, {"shot"});
       addNode<SpeakingNode>(load, "clock", std::vector<Nanoseconds>{333'333'333})
-          .addNotification(notify(Event("timesup"), "shot", Verb::Reset));
+          .addNotification(notify(Event("timesup"), "shot", CommandId::Reset));
       (void)shot;
     });
     g.play(1);
@@ -278,7 +278,7 @@ TEST(FastBody, AResetIsAJumpThatNothingOnItsWaySees) {
 TEST(FastBody, ARigThatIsDrivenFastTakesItsLoadAlongTheWay) {
   for (const double rate : kTraceRates)
     for (const bool onTracker : {false, true}) {
-      Gallery g(rate, [&](Load& load) {
+      Gallery g(rate, [&](LoadedScene& load) {
         addNode<Block>(load, "target", g.wall, Vec3(0, 20, 0));
         const RigNode& rig = addNode<RigNode>(load, "rig", PlaceAttributes{}, 1.7);
         addNode<NavigatorNode>(load, "drive", NavigatorNode::Attributes{120, 0.8, false, "wand"}, true);
@@ -286,7 +286,7 @@ TEST(FastBody, ARigThatIsDrivenFastTakesItsLoadAlongTheWay) {
         addNode<Rider>(load, "load", g.small, onTracker ? hand.self() : rig.self(), Vec3::Zero());
         g.sense(load, {"target"}, {"load"});
         addNode<SpeakingNode>(load, "clock", std::vector<Nanoseconds>{0})
-            .addNotification(notify(Event("timesup"), "hand", Verb::Attach, 0, {"all", "wand"}));
+            .addNotification(notify(Event("timesup"), "hand", CommandId::Attach, 0, {"all", "wand"}));
       });
       g.tracker("wand", Vec3::Zero());
       g.input.trackers[0].axes[1] = 1;
@@ -297,13 +297,13 @@ TEST(FastBody, ARigThatIsDrivenFastTakesItsLoadAlongTheWay) {
 }
 
 TEST(FastBody, ATrackerStillJumps) {
-  Gallery g(60, [&](Load& load) {
+  Gallery g(60, [&](LoadedScene& load) {
     addNode<Block>(load, "target", g.wall, Vec3(0, 5, 0));
     const MovingNode& hand = addNode<MovingNode>(load, "hand", PlaceAttributes{}, false);
     addNode<Rider>(load, "glove", g.small, hand.self(), Vec3::Zero());
     g.sense(load, {"target"}, {"glove"});
     addNode<SpeakingNode>(load, "clock", std::vector<Nanoseconds>{0})
-        .addNotification(notify(Event("timesup"), "hand", Verb::Attach, 0, {"all", "wand"}));
+        .addNotification(notify(Event("timesup"), "hand", CommandId::Attach, 0, {"all", "wand"}));
   });
   g.tracker("wand", Vec3(0, 0, 0));
   g.play(0.5);
@@ -315,13 +315,13 @@ TEST(FastBody, ATrackerStillJumps) {
 /// A hand at this speed, frame by frame, through a wall 4 m thick.
 std::vector<double> impactsOfHandAt(double speed) {
   constexpr double kRate = 60, kFrom = 0.5;
-  Gallery g(kRate, [&](Load& load) {
+  Gallery g(kRate, [&](LoadedScene& load) {
     addNode<Block>(load, "target", g.wall, Vec3(0, 5, 0));
     const MovingNode& hand = addNode<MovingNode>(load, "hand", PlaceAttributes{}, false);
     addNode<Rider>(load, "glove", g.small, hand.self(), Vec3::Zero());
     g.sense(load, {"target"}, {"glove"});
     addNode<SpeakingNode>(load, "clock", std::vector<Nanoseconds>{0})
-        .addNotification(notify(Event("timesup"), "hand", Verb::Attach, 0, {"all", "wand"}));
+        .addNotification(notify(Event("timesup"), "hand", CommandId::Attach, 0, {"all", "wand"}));
   });
   g.tracker("wand", Vec3::Zero());
   g.play(kFrom + 1e-3);
@@ -353,13 +353,13 @@ TEST(FastBody, ATrackerJumpsFromTheSpeedInTheDocuments) {
 }
 
 TEST(FastBody, APairThatATrackerLeavesByAJumpIsReleasedAtOnce) {
-  Gallery g(60, [&](Load& load) {
+  Gallery g(60, [&](LoadedScene& load) {
     addNode<Block>(load, "target", g.wall, Vec3(0, 5, 0));
     const MovingNode& hand = addNode<MovingNode>(load, "hand", PlaceAttributes{}, false);
     addNode<Rider>(load, "glove", g.small, hand.self(), Vec3::Zero());
     g.sense(load, {"target"}, {"glove"});
     addNode<SpeakingNode>(load, "clock", std::vector<Nanoseconds>{0})
-        .addNotification(notify(Event("timesup"), "hand", Verb::Attach, 0, {"all", "wand"}));
+        .addNotification(notify(Event("timesup"), "hand", CommandId::Attach, 0, {"all", "wand"}));
   });
   g.tracker("wand", Vec3(0, 2.5, 0));
   g.play(0.5);
@@ -377,13 +377,13 @@ TEST(FastBody, APairThatATrackerLeavesByAJumpIsReleasedAtOnce) {
 /// A ball comes to rest in a sensor and is put elsewhere: it leaves in that moment.
 TEST(FastBody, WhatIsPutElsewhereIsReleasedAtOnce) {
   for (const double rate : kTraceRates) {
-    Gallery g(rate, [&](Load& load) {
+    Gallery g(rate, [&](LoadedScene& load) {
       addNode<Block>(load, "target", g.wall, Vec3(0, 5, 0));
       addNode<Shot>(load, "shot", g.small, Vec3(0, -20, 0), Vec3(0, 50, 0), Gallery::Names{});
       addNode<Sim>(load, "sim", Gallery::Names{}, Gallery::Names{"shot"});
       g.sense(load, {"target"}, {"shot"});
       addNode<SpeakingNode>(load, "clock", std::vector<Nanoseconds>{500'000'000})
-          .addNotification(notify(Event("timesup"), "shot", Verb::Reset));
+          .addNotification(notify(Event("timesup"), "shot", CommandId::Reset));
     });
     g.play(0.85);
     expectTimes(g.impacts, {(23 - kRadius) / 50}, std::to_string(rate));
@@ -396,7 +396,7 @@ TEST(FastBody, WhatIsPutElsewhereIsReleasedAtOnce) {
 /// What rides on a body that is reset jumps with it.
 TEST(FastBody, WhatHangsOnABodyThatIsResetDoesNotSweepOverWhatLiesBetween) {
   for (const double rate : kTraceRates) {
-    Gallery g(rate, [&](Load& load) {
+    Gallery g(rate, [&](LoadedScene& load) {
       addNode<Block>(load, "target", g.wall, Vec3(0, 5, 0));
       const Shot& shot =
           addNode<Shot>(load, "shot", g.small, Vec3(0, 20, 0), Vec3(0, 10, 0), Gallery::Names{});
@@ -404,7 +404,7 @@ TEST(FastBody, WhatHangsOnABodyThatIsResetDoesNotSweepOverWhatLiesBetween) {
       addNode<Sim>(load, "sim", Gallery::Names{}, Gallery::Names{"shot"});
       g.sense(load, {"target"}, {"rider"});
       addNode<SpeakingNode>(load, "clock", std::vector<Nanoseconds>{1'000'000'000, 1'333'333'333})
-          .addNotification(notify(Event("timesup"), "shot", Verb::Reset));
+          .addNotification(notify(Event("timesup"), "shot", CommandId::Reset));
     });
     g.play(1.6);
     EXPECT_TRUE(g.impacts.empty()) << rate;
@@ -441,7 +441,7 @@ TEST(FastBody, WhatIsDashedBackHasNotParted) {
 TEST(FastBody, EachPassThroughASensorIsToldOnce) {
   for (const double speed : {3.0, 11.0, 20.0, 37.0})
     for (int shift = 0; shift < 8; ++shift) {
-      Gallery g(5, [&](Load& load) {
+      Gallery g(5, [&](LoadedScene& load) {
         addNode<Block>(load, "target", g.wall, Vec3(0, 6 + 0.31 * shift, 0));
         addNode<Shot>(load, "shot", g.small, Vec3::Zero(), Vec3(0, speed, 0), Gallery::Names{});
         addNode<Sim>(load, "sim", Gallery::Names{}, Gallery::Names{"shot"});

@@ -20,7 +20,7 @@ struct FieldShow : ShowFixture {
 
   FieldShow(double hertz, bool on, double duration, bool hooked = true) {
     rate = hertz;
-    loader.files["show"] = [=, this](Load& load) {
+    loader.files["show"] = [=, this](LoadedScene& load) {
       addNode<Field>(load, "push", Vec3(10, 0, 0), on, duration);
       ball = &addNode<Ball>(load, "ball", Vec3::Zero(),
                             hooked ? std::vector<std::string>{"push"} : std::vector<std::string>{});
@@ -28,9 +28,9 @@ struct FieldShow : ShowFixture {
     };
     scene.open("show");
   }
-  void command(const std::string& target, Verb verb, double seconds,
+  void command(const std::string& target, CommandId command, double seconds,
                std::vector<std::string> arguments = {}) {
-    ASSERT_TRUE(scene.command(target, verb, std::move(arguments), fromSeconds(seconds)));
+    ASSERT_TRUE(scene.command(target, command, std::move(arguments), fromSeconds(seconds)));
   }
   void playTo(double seconds) {
     while (signatureAt(next, rate).time <= fromSeconds(seconds)) {
@@ -50,14 +50,14 @@ TEST(FieldEvents, CarryTheExactTimeAtEveryFrameRate) {
       {"enabled", 1'103'700'000}, {"expired", 1'353'700'000}};  // the command comes as it expires
   for (const double rate : kFieldRates) {
     FieldShow show(rate, false, 0.25);
-    show.command("push", Verb::Enable, 0.1037);
-    show.command("push", Verb::Enable, 0.5011);
-    show.command("push", Verb::Enable, 0.6022);
-    show.command("push", Verb::Disable, 0.7033);
-    show.command("push", Verb::Toggle, 0.8044);
-    show.command("push", Verb::Reset, 0.9);
-    show.command("push", Verb::Enable, 1.1037);
-    show.command("push", Verb::Disable, 1.3537);
+    show.command("push", CommandId::Enable, 0.1037);
+    show.command("push", CommandId::Enable, 0.5011);
+    show.command("push", CommandId::Enable, 0.6022);
+    show.command("push", CommandId::Disable, 0.7033);
+    show.command("push", CommandId::Toggle, 0.8044);
+    show.command("push", CommandId::Reset, 0.9);
+    show.command("push", CommandId::Enable, 1.1037);
+    show.command("push", CommandId::Disable, 1.3537);
     show.playTo(2);
     EXPECT_EQ(show.told, right) << rate;
     const double acted = 0.25 + (0.7033 - 0.5011) + (0.9 - 0.8044) + 0.25;
@@ -78,7 +78,7 @@ TEST(FieldEvents, OneThatIsEnabledAtTheStartExpiresAndPostsNothingElse) {
 TEST(FieldEvents, ABodyThatIsHookedLaterFeelsTheRestOfTheActivation) {
   for (const double rate : kFieldRates) {
     FieldShow show(rate, true, 0.5, false);
-    show.command("ball", Verb::Hook, 0.3, {"push"});
+    show.command("ball", CommandId::Hook, 0.3, {"push"});
     show.playTo(1);
     ASSERT_EQ(show.told.size(), 1U) << rate;
     EXPECT_NEAR(show.ball->state().v.x(), 2, 1e-9) << rate;

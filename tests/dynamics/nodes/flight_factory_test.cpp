@@ -3,6 +3,7 @@
 #include "dynamics/nodes/flight_factory.h"
 #include "engine/script/script.h"
 #include "tests/dynamics/world/scenes.h"
+#include "tests/fresh_folder.h"
 #include "tests/node_types.h"
 
 #include <gtest/gtest.h>
@@ -36,12 +37,12 @@ Mesh spear() {
                     {3, 7, 5}});
 }
 
-struct Made {
+struct MadeFlight {
   std::string why;  ///< empty if it could be made and nothing is odd
   Flight flight;
 };
 
-Made made(const std::string& words, const Mesh& mesh = spear(), const AssetRoots* roots = nullptr) {
+MadeFlight made(const std::string& words, const Mesh& mesh = spear(), const AssetRoots* roots = nullptr) {
   Diagnostics findings;
   const Document document =
       parseScript(SourceText::make("a.evs", "dynobject( name=a, file=a.obj" + words + " )\n").value(),
@@ -107,9 +108,7 @@ TEST(FlightFactory, ABallHasNoBiasWhateverTheScriptSays) {
 }
 
 TEST(FlightFactory, ATableIsReadAndItsMistakesAreToldWithFileAndLine) {
-  const auto folder =
-      std::filesystem::temp_directory_path() / ("stadion-flight-test-" + std::to_string(::getpid()));
-  std::filesystem::create_directories(folder);
+  const auto folder = makeFreshFolder();
   std::ofstream(folder / "good.csv")
       << "# area = 0.01\n# length = 0.2\nalpha_deg,CD,CL,CM\n0,0.1,0,0\n45,0.5,0.6,0.1\n"
          "90,1,0,0\n";
@@ -117,7 +116,7 @@ TEST(FlightFactory, ATableIsReadAndItsMistakesAreToldWithFileAndLine) {
       << "# area = 0.01\nalpha_deg,CD,CL,CM\n0,0.1,0,0\n45,much,0.6,0.1\n90,1,0,0\n";
   AssetRoots roots;
   ASSERT_TRUE(roots.add(folder));
-  const Made good = made(", flight=table, flighttable=good.csv", spear(), &roots);
+  const MadeFlight good = made(", flight=table, flighttable=good.csv", spear(), &roots);
   ASSERT_EQ(good.why, "");
   EXPECT_FALSE(std::get<TableFlight>(good.flight->model).pieces.empty());
   const std::string bad = made(", flight=table, flighttable=bad.csv", spear(), &roots).why;
@@ -135,9 +134,7 @@ TEST(FlightFactory, AModelForPlainlyAnotherFormIsWarnedOf) {
           .why.starts_with("a.evs:1:39: warning: flight=plate is for flat bodies; \"a\" is long (2.2 x "))
       << made(", flight=plate").why;
   EXPECT_EQ(made(", flight=plate", ballMesh(0.1, 24, 48)).why, "") << "neither long nor flat";
-  const auto folder =
-      std::filesystem::temp_directory_path() / ("stadion-flight-axis-" + std::to_string(::getpid()));
-  std::filesystem::create_directories(folder);
+  const auto folder = makeFreshFolder();
   std::ofstream(folder / "z.csv")
       << "# area = 0.01\n# length = 0.2\n# axis = z\nalpha_deg,CD,CL,CM\n0,0.1,0,0\n"
          "45,0.5,0.6,0.1\n90,1,0,0\n";

@@ -72,7 +72,7 @@ BodyState thrown(double rate, Way x, const Vec3& push = Vec3::Zero()) {
   ShowFixture show;
   show.rate = rate;
   Ball* ball = nullptr;
-  show.loader.files["show"] = [&](Load& load) {
+  show.loader.files["show"] = [&](LoadedScene& load) {
     addNode<Field>(load, "wind", push, true);
     ball = &addNode<Ball>(load, "ball", Vec3(0, 0, 1), std::vector<std::string>{"wind"});
     addNode<Sim>(load, "sim", std::vector<std::string>{}, std::vector<std::string>{"ball"});
@@ -85,9 +85,9 @@ BodyState thrown(double rate, Way x, const Vec3& push = Vec3::Zero()) {
     }
   };
   until(0.2);
-  show.scene.command("ball", Verb::Grab, {"wand"}, show.input.time);
+  show.scene.command("ball", CommandId::Grab, {"wand"}, show.input.time);
   until(0.8);
-  show.scene.command("ball", Verb::Release, {}, show.input.time);
+  show.scene.command("ball", CommandId::Release, {}, show.input.time);
   until(1);
   return ball->state();
 }

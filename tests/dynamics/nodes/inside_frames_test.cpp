@@ -23,7 +23,7 @@ struct Lift : ShowFixture {
   Lift(double framesPerSecond, std::vector<Keyframe> keys, bool smooth) {
     rate = framesPerSecond;
     const MeshId mesh = meshes.add(cube(1));
-    loader.files["show"] = [=, this](Load& load) {
+    loader.files["show"] = [=, this](LoadedScene& load) {
       Block& platform = addNode<Block>(load, "platform", mesh, Vec3(0, 0, 0));
       addNode<PathNode>(load, "drive", PlaceAttributes{}, platform.self(), keys, false, smooth, true);
       addNode<Field>(load, "gravity", Vec3(0, 0, -9.81), true);
@@ -75,7 +75,7 @@ TEST(InsideFrames, AFieldOnABodyOfTheSameWorldDoesNotLag) {
     ShowFixture show;
     show.rate = rate;
     Ball* other = nullptr;
-    show.loader.files["show"] = [&](Load& load) {
+    show.loader.files["show"] = [&](LoadedScene& load) {
       Ball& a = addNode<Ball>(load, "a", Vec3::Zero(), std::vector<std::string>{"push"});
       addNode<Field>(load, "push", Vec3(4.9, 0, 0), true, 1);
       addNode<Shield>(load, "shield", a.self());

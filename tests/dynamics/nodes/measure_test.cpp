@@ -1,5 +1,5 @@
-#include "engine/nodes/measure_node.h"
 #include "engine/nodes/text_node.h"
+#include "engine/nodes/throw_measure_node.h"
 #include "tests/dynamics/nodes/show_nodes.h"
 
 #include <gtest/gtest.h>
@@ -11,13 +11,13 @@ namespace {
 
 using namespace show_nodes;
 
-constexpr double kRadius = 0.1;  // of a Ball
+constexpr double kShotRadius = 0.1;  // of a Ball
 
 /// A field with two balls, which fall where the test puts them, and a measure for each.
 struct Field2 : ShowFixture {
-  MeasureNode *visitor = nullptr, *athlete = nullptr;
+  ThrowMeasureNode *visitor = nullptr, *athlete = nullptr;
   TextNode* board = nullptr;
-  MeasureAttributes ours, theirs;
+  ThrowMeasureAttributes ours, theirs;
   PlaceAttributes line;
   Vec3 first{1, 43.017, 2}, second{0, 41.2, 3};
   std::vector<EventRecord> told;
@@ -28,13 +28,13 @@ struct Field2 : ShowFixture {
   }
   void open() {
     const MeshId box = meshes.add(cube(100));
-    loader.files["show"] = [this, box](Load& load) {
+    loader.files["show"] = [this, box](LoadedScene& load) {
       addNode<Field>(load, "gravity", Vec3(0, 0, -kStandardGravity), true);
       addNode<Block>(load, "floor", box, Vec3(0, 0, -100));
       addNode<Ball>(load, "ball", first, std::vector<std::string>{"gravity"});
       addNode<Ball>(load, "stone", second, std::vector<std::string>{"gravity"});
-      visitor = &addNode<MeasureNode>(load, "tape", line, ours);
-      athlete = &addNode<MeasureNode>(load, "other-tape", PlaceAttributes{}, theirs);
+      visitor = &addNode<ThrowMeasureNode>(load, "tape", line, ours);
+      athlete = &addNode<ThrowMeasureNode>(load, "other-tape", PlaceAttributes{}, theirs);
       board = &addNode<TextNode>(load, "board", PlaceAttributes{}, "", TextStyle{});
       addNode<Sim>(load, "sim", std::vector<std::string>{"floor"}, std::vector<std::string>{"ball", "stone"});
     };
@@ -42,7 +42,7 @@ struct Field2 : ShowFixture {
     frame();
     loader.files.erase("show");  // it refers to what ends here
   }
-  void start(const std::string& name) { scene.command(name, Verb::Start, {}, input.time); }
+  void start(const std::string& name) { scene.command(name, CommandId::Start, {}, input.time); }
   void play(double seconds) {
     for (auto n = static_cast<int>(seconds * rate); n > 0; --n) {
       frame();
@@ -50,7 +50,7 @@ struct Field2 : ShowFixture {
         if (e.event != Event("onimpact") && e.event != Event("onrelease")) told.push_back(e);
     }
   }
-  std::vector<Event> events(const MeasureNode* of) const {
+  std::vector<Event> events(const ThrowMeasureNode* of) const {
     std::vector<Event> out;
     for (const EventRecord& e : told)
       if (e.node == of->self()) out.push_back(e.event);
@@ -68,7 +68,8 @@ TEST(Measure, TakesTheDistanceSquareFromTheLineAtTheTimeOfTheFirstTouchAtAnyFram
     ASSERT_EQ(show.told.size(), 1u) << rate;
     EXPECT_EQ(show.told[0].event, Event("measured"));
     EXPECT_NEAR(show.told[0].figure.value_or(0), 43.017, 1e-9) << rate;
-    EXPECT_NEAR(toSeconds(show.told[0].when), std::sqrt(2 * (2 - kRadius) / kStandardGravity), 1e-8) << rate;
+    EXPECT_NEAR(toSeconds(show.told[0].when), std::sqrt(2 * (2 - kShotRadius) / kStandardGravity), 1e-8)
+        << rate;
     EXPECT_EQ(show.board->words(), "Visitor 43.01 m") << "whole centimetres, rounded down";
   }
 }
@@ -145,7 +146,7 @@ TEST(Measure, TheFartherThrowWinsOnceBothAreMeasuredWhicheverComesLast) {
     show.play(2);
     EXPECT_EQ(show.events(show.visitor), (std::vector<Event>{Event("measured"), Event("won")}))
         << ourselvesLast;
-    EXPECT_NEAR(toSeconds(show.told.back().when), std::sqrt(2 * (3 - kRadius) / kStandardGravity), 1e-8)
+    EXPECT_NEAR(toSeconds(show.told.back().when), std::sqrt(2 * (3 - kShotRadius) / kStandardGravity), 1e-8)
         << "told for the time of the later touch";
     EXPECT_EQ(show.board->words(), "Visitor 43.01 m\nAthlete 41.20 m\nVisitor wins by 1.81 m");
   }
@@ -168,7 +169,7 @@ TEST(Measure, TheSameCentimetreIsADrawAndAFoulLosesToAnyDistance) {
   EXPECT_EQ(verdict(-2, -1), Event("drawn"));
 }
 
-TEST(Measure, ANewStartMeasuresAnewAndResetForgets) {
+TEST(Measure, AnotherStartMeasuresAgainAndResetForgets) {
   Field2 show;
   show.open();
   show.start("tape");
@@ -177,11 +178,11 @@ TEST(Measure, ANewStartMeasuresAnewAndResetForgets) {
   remembers.open();
   remembers.start("tape");
   remembers.play(2);
-  show.scene.command("tape", Verb::Reset, {}, show.input.time);
+  show.scene.command("tape", CommandId::Reset, {}, show.input.time);
   show.play(1);
   EXPECT_FALSE(show.visitor->result());
   EXPECT_NE(show.scene.stateHash(), remembers.scene.stateHash()) << "the result is state";
-  show.scene.command("ball", Verb::Reset, {}, show.input.time);
+  show.scene.command("ball", CommandId::Reset, {}, show.input.time);
   show.start("tape");
   show.play(2);
   ASSERT_TRUE(show.visitor->result());
@@ -207,8 +208,8 @@ TEST(Measure, WhatTouchesInTheVeryFrameOfTheStartCounts) {
     Field2 show;
     show.rate = rate;
     show.open();
-    const double lands = std::sqrt(2 * (2 - kRadius) / kStandardGravity);
-    show.scene.command("tape", Verb::Start, {}, fromSeconds(lands - 0.002));
+    const double lands = std::sqrt(2 * (2 - kShotRadius) / kStandardGravity);
+    show.scene.command("tape", CommandId::Start, {}, fromSeconds(lands - 0.002));
     show.play(2);
     ASSERT_TRUE(show.visitor->result()) << rate;
     EXPECT_NEAR(toSeconds(show.visitor->result()->when), lands, 1e-8) << rate << ": not the next bounce";
@@ -230,7 +231,7 @@ private:
   static BodyAttributes body() {
     BodyAttributes b;
     b.hooks = {"gravity"};
-    b.nose = -Vec3::UnitZ(), b.sticks = 1, b.stickDepth = 0.05;
+    b.nose = -Vec3::UnitZ(), b.sticks = 1, b.tipDepth = 0.05;
     return b;
   }
 };
@@ -238,24 +239,24 @@ private:
 TEST(Measure, WhatSticksHasTouchedBeforeItEndsWhateverTheNanosecond) {
   for (int i = 0; i < 24; ++i) {
     ShowFixture show;
-    auto tiny = cube(kRadius);
+    auto tiny = cube(kShotRadius);
     tiny->hash = 8;
     const MeshId box = show.meshes.add(cube(100)), small = show.meshes.add(std::move(tiny));
-    MeasureNode* tape = nullptr;
-    show.loader.files["show"] = [&](Load& load) {
+    ThrowMeasureNode* tape = nullptr;
+    show.loader.files["show"] = [&](LoadedScene& load) {
       addNode<Field>(load, "gravity", Vec3(0, 0, -kStandardGravity), true);
       addNode<Block>(load, "floor", box, Vec3(0, 0, -100));
       const Ball& like = addNode<Ball>(load, "ball", Vec3(5, 0, 9), std::vector<std::string>{});
       addNode<Dart>(load, "dart", like, small, Vec3(0, 20, 1 + 0.0137 * i));
-      MeasureAttributes of;
+      ThrowMeasureAttributes of;
       of.body = "dart";
-      tape = &addNode<MeasureNode>(load, "tape", PlaceAttributes{}, of);
+      tape = &addNode<ThrowMeasureNode>(load, "tape", PlaceAttributes{}, of);
       addNode<Sim>(load, "sim", std::vector<std::string>{"floor"}, std::vector<std::string>{"dart"});
     };
     show.scene.open("show");
     show.frame();
     show.loader.files.erase("show");  // it refers to what ends here
-    show.scene.command("tape", Verb::Start, {}, show.input.time);
+    show.scene.command("tape", CommandId::Start, {}, show.input.time);
     for (int n = 0; n < 60; ++n) show.frame();
     ASSERT_TRUE(tape->result()) << i;
     EXPECT_FALSE(tape->result()->foul) << i;

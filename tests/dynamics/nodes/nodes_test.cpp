@@ -13,10 +13,10 @@ TEST(DynamicsNode, AFieldSwitchedByMessageActsForExactlyItsTimeAtAnyFrameRate) {
     ShowFixture show;
     show.rate = rate;
     Ball* ball = nullptr;
-    show.loader.files["show"] = [&](Load& load) {
+    show.loader.files["show"] = [&](LoadedScene& load) {
       auto& clock = addNode<SpeakingNode>(load, "clock", std::vector<Nanoseconds>{fromSeconds(0.0123)});
-      clock.addNotification(notify(Event("timesup"), "push", Verb::Enable, 0.3));
-      clock.addNotification(notify(Event("timesup"), "push", Verb::Disable, 0.5111));
+      clock.addNotification(notify(Event("timesup"), "push", CommandId::Enable, 0.3));
+      clock.addNotification(notify(Event("timesup"), "push", CommandId::Disable, 0.5111));
       addNode<Field>(load, "push", Vec3(0, 10, 0), false);
       ball = &addNode<Ball>(load, "ball", Vec3(0, 0, 0), std::vector<std::string>{"push"});
       addNode<Sim>(load, "sim", std::vector<std::string>{}, std::vector<std::string>{"ball"});
@@ -32,7 +32,7 @@ TEST(DynamicsNode, AFieldSwitchedByMessageActsForExactlyItsTimeAtAnyFrameRate) {
 TEST(DynamicsNode, ADurationEndsAnActivationInsideAFrame) {
   ShowFixture show;
   Ball* ball = nullptr;
-  show.loader.files["show"] = [&](Load& load) {
+  show.loader.files["show"] = [&](LoadedScene& load) {
     addNode<Field>(load, "push", Vec3(0, 0, 7), true, 0.1234);
     ball = &addNode<Ball>(load, "ball", Vec3(0, 0, 0), std::vector<std::string>{"push"});
     addNode<Sim>(load, "sim", std::vector<std::string>{}, std::vector<std::string>{"ball"});
@@ -45,9 +45,9 @@ TEST(DynamicsNode, ADurationEndsAnActivationInsideAFrame) {
 TEST(DynamicsNode, UnhookedABodyNoLongerFeelsTheField) {
   ShowFixture show;
   Ball* ball = nullptr;
-  show.loader.files["show"] = [&](Load& load) {
+  show.loader.files["show"] = [&](LoadedScene& load) {
     addNode<SpeakingNode>(load, "clock", std::vector<Nanoseconds>{1})
-        .addNotification(notify(Event("timesup"), "ball", Verb::Unhook, 0.25, {"gravity"}));
+        .addNotification(notify(Event("timesup"), "ball", CommandId::Unhook, 0.25, {"gravity"}));
     addNode<Field>(load, "gravity", Vec3(0, 0, -kStandardGravity), true);
     ball = &addNode<Ball>(load, "ball", Vec3(0, 0, 0), std::vector<std::string>{"gravity"});
     addNode<Sim>(load, "sim", std::vector<std::string>{}, std::vector<std::string>{"ball"});
@@ -60,7 +60,7 @@ TEST(DynamicsNode, UnhookedABodyNoLongerFeelsTheField) {
 TEST(DynamicsNode, AFieldTurnsWithWhatCarriesIt) {
   ShowFixture show;
   Ball* ball = nullptr;
-  show.loader.files["show"] = [&](Load& load) {
+  show.loader.files["show"] = [&](LoadedScene& load) {
     PlaceAttributes turned;
     turned.X_PN.linear() = Eigen::AngleAxisd(1.5707963267948966, Vec3::UnitZ()).toRotationMatrix() * 2.0;
     addNode<MovingNode>(load, "leg", turned, false);
@@ -80,7 +80,7 @@ TEST(DynamicsNode, IsNotVisitedWhileItsBodiesRestAndWakesWhenAColliderMoves) {
   ShowFixture show;
   const MeshId box = show.meshes.add(cube(1));
   Ball* ball = nullptr;
-  show.loader.files["show"] = [&](Load& load) {
+  show.loader.files["show"] = [&](LoadedScene& load) {
     addNode<Field>(load, "gravity", Vec3(0, 0, -kStandardGravity), true);
     addNode<Block>(load, "floor", box, Vec3(0, 0, -1));
     addNode<Block>(load, "foot", box, Vec3(0, -5, 1.05));
@@ -93,7 +93,7 @@ TEST(DynamicsNode, IsNotVisitedWhileItsBodiesRestAndWakesWhenAColliderMoves) {
   EXPECT_EQ(show.scene.counters().nodesVisited, 0u);
   EXPECT_EQ(show.scene.events().size(), 0u);
   EXPECT_EQ(ball->state().p, Vec3(0, 0, 0.1));
-  show.scene.command("foot", Verb::Attach, {"all", "foot"}, show.input.time);
+  show.scene.command("foot", CommandId::Attach, {"all", "foot"}, show.input.time);
   std::size_t impacts = 0;
   for (int n = 0; n < 120; ++n) {  // at 4 m/s; the near face reaches the ball after 3.9 m
     show.tracker("foot", {0, std::min(-5 + 4 * n / 60.0, -0.5), 1.05});
@@ -107,14 +107,14 @@ TEST(DynamicsNode, IsNotVisitedWhileItsBodiesRestAndWakesWhenAColliderMoves) {
 /// A show in which the wand, a metre up, has just grabbed the only ball.
 Ball& grabbedBall(ShowFixture& show) {
   Ball* ball = nullptr;
-  show.loader.files["show"] = [&](Load& load) {
+  show.loader.files["show"] = [&](LoadedScene& load) {
     ball = &addNode<Ball>(load, "ball", Vec3(0, 0, 1), std::vector<std::string>{});
     addNode<Sim>(load, "sim", std::vector<std::string>{}, std::vector<std::string>{"ball"});
   };
   show.scene.open("show");
   show.tracker("wand", {0, 0, 1});
   show.frames(2);
-  show.scene.command("ball", Verb::Grab, {"wand"}, show.input.time);
+  show.scene.command("ball", CommandId::Grab, {"wand"}, show.input.time);
   show.frame();
   show.loader.files.erase("show");  // it refers to what ends here
   return *ball;
@@ -128,10 +128,10 @@ TEST(DynamicsNode, AGrabbedBodyFollowsTheHandAndKeepsItsVelocityWhenReleased) {
     show.frame();
   }
   EXPECT_NEAR(ball.state().pose.p.y(), 1.5, 1e-9);
-  show.scene.command("ball", Verb::Release, {}, show.input.time);
+  show.scene.command("ball", CommandId::Release, {}, show.input.time);
   show.frames(60);
   EXPECT_NEAR(ball.state().v.y(), 3.0, 1e-3);
-  show.scene.command("ball", Verb::Reset, {}, show.input.time);
+  show.scene.command("ball", CommandId::Reset, {}, show.input.time);
   show.frames(2);
   EXPECT_EQ(ball.state().p, Vec3(0, 0, 1));
   EXPECT_EQ(ball.state().v, Vec3(0, 0, 0));
@@ -142,11 +142,11 @@ TEST(DynamicsNode, ABodyThatLeavesAllBoundsIsToldOfByEventAndByName) {
     ShowFixture show;
     show.rate = rate;
     Ball* ball = nullptr;
-    show.loader.files["show"] = [&, pull = pull](Load& load) {
+    show.loader.files["show"] = [&, pull = pull](LoadedScene& load) {
       addNode<Field>(load, "storm", Vec3(pull, 0, 0), true);
       addNode<Field>(load, "other", Vec3(0, 0, 0), false);
       ball = &addNode<Ball>(load, "doomed", Vec3(0, 0, 1), std::vector<std::string>{"storm"});
-      ball->addNotification({Event("onquarantine"), "other", Verb::Enable, {}, 0});
+      ball->addNotification({Event("onquarantine"), "other", CommandId::Enable, {}, 0});
       addNode<Sim>(load, "sim", std::vector<std::string>{}, std::vector<std::string>{"doomed"});
     };
     show.scene.open("show");
@@ -171,7 +171,7 @@ TEST(DynamicsNode, ABodyThatLeavesAllBoundsIsToldOfByEventAndByName) {
     EXPECT_NEAR(toSeconds(told[0].when), atOnce ? 0 : std::sqrt(20), 1e-6)
         << "10^12 m at 10^11 m/s2, at any rate";
     EXPECT_NEAR(ball->state().pose.p.x(), atOnce ? 0 : 1e12, 1e6);
-    show.scene.command("doomed", Verb::Reset, {}, show.input.time);
+    show.scene.command("doomed", CommandId::Reset, {}, show.input.time);
     play(static_cast<std::size_t>(5 * rate));
     EXPECT_EQ(told.size(), 2u) << "it is in the same storm again";
   }
@@ -185,7 +185,7 @@ TEST(DynamicsNode, AHandThatJumpsThrowsNothingAndItIsSaid) {
       show.tracker("wand", {0, speed * n / 60.0, 1});
       show.frame();
     }
-    show.scene.command("ball", Verb::Release, {}, show.input.time);
+    show.scene.command("ball", CommandId::Release, {}, show.input.time);
     show.frames(2);
     EXPECT_NEAR(ball.state().v.y(), speed < 60 ? speed : 0, 1e-3);
     EXPECT_EQ(show.loader.reported.size(), speed < 60 ? 0u : 1u);
@@ -196,7 +196,7 @@ TEST(CollisionNode, TellsWhenObjectsThatOthersMoveTouchAndComeApart) {
   ShowFixture show;
   const MeshId box = show.meshes.add(cube(0.5));
   std::vector<EventRecord> events;
-  show.loader.files["show"] = [&](Load& load) {
+  show.loader.files["show"] = [&](LoadedScene& load) {
     addNode<Block>(load, "wall", box, Vec3(0, 0, 0));
     addNode<Block>(load, "hand", box, Vec3(0, -3, 0));
     addNode<TouchWatch>(load, "watch", std::vector<std::string>{"wall"}, std::vector<std::string>{"hand"});
@@ -204,7 +204,7 @@ TEST(CollisionNode, TellsWhenObjectsThatOthersMoveTouchAndComeApart) {
   show.scene.open("show");
   show.tracker("hand", {0, -3, 0});
   show.frames(2);
-  show.scene.command("hand", Verb::Attach, {"all", "hand"}, show.input.time);
+  show.scene.command("hand", CommandId::Attach, {"all", "hand"}, show.input.time);
   for (int n = 0; n < 240; ++n) {  // forward 2.1 m at 2 m/s, and back
     const double s = n / 60.0 * 2;
     show.tracker("hand", {0, -3 + (s < 2.1 ? s : std::max(4.2 - s, -1.0)), 0});
@@ -225,8 +225,8 @@ TEST(DynamicsNode, ASleeperFallsWhateverTheShowDoesToWhatHoldsItUp) {
     const char* carrier;
     std::function<void(ShowFixture&)> happens;
   };
-  const auto tell = [](const char* node, Verb verb) {
-    return [=](ShowFixture& show) { show.scene.command(node, verb, {}, show.input.time); };
+  const auto tell = [](const char* node, CommandId command) {
+    return [=](ShowFixture& show) { show.scene.command(node, command, {}, show.input.time); };
   };
   const auto turn = [](ShowFixture& show) {
     show.input.trackers[0].X_RT.q = Quat(Eigen::AngleAxisd(M_PI, Vec3::UnitX()));
@@ -238,18 +238,18 @@ TEST(DynamicsNode, ASleeperFallsWhateverTheShowDoesToWhatHoldsItUp) {
        }},
       {"it is detached and reset", "shelf",
        [&](ShowFixture& show) {
-         tell("shelf", Verb::Detach)(show), show.frames(30);
-         tell("shelf", Verb::Reset)(show);
+         tell("shelf", CommandId::Detach)(show), show.frames(30);
+         tell("shelf", CommandId::Reset)(show);
        }},
       {"it goes while the simulation is off", "shelf",
        [&](ShowFixture& show) {
-         tell("sim", Verb::Disable)(show), show.frames(30);
+         tell("sim", CommandId::Disable)(show), show.frames(30);
          show.tracker("hand", {3, 0, 1}), show.frames(30);
-         tell("sim", Verb::Enable)(show);
+         tell("sim", CommandId::Enable)(show);
        }},
-      {"its file is unloaded", "game", tell("game", Verb::Unload)},
-      {"it is let go", "held", tell("held", Verb::Release)},
-      {"it is reset", "held", tell("held", Verb::Reset)},
+      {"its file is unloaded", "game", tell("game", CommandId::Unload)},
+      {"it is let go", "held", tell("held", CommandId::Release)},
+      {"it is reset", "held", tell("held", CommandId::Reset)},
       {"the hand goes", "held",
        [](ShowFixture& show) {
          show.tracker("hand", {3, 0, 1});
@@ -262,8 +262,8 @@ TEST(DynamicsNode, ASleeperFallsWhateverTheShowDoesToWhatHoldsItUp) {
     const MeshId box = show.meshes.add(cube(0.5));
     const std::string on = cause.carrier;
     Ball* ball = nullptr;
-    show.loader.files["game"] = [&](Load& load) { addNode<Block>(load, "plate", box, Vec3(0, 0, 1)); };
-    show.loader.files["show"] = [&](Load& load) {
+    show.loader.files["game"] = [&](LoadedScene& load) { addNode<Block>(load, "plate", box, Vec3(0, 0, 1)); };
+    show.loader.files["show"] = [&](LoadedScene& load) {
       addNode<MovingNode>(load, "leg", PlaceAttributes{}, false);
       PlaceAttributes carried;
       carried.parent = {load.number, 0};
@@ -280,10 +280,10 @@ TEST(DynamicsNode, ASleeperFallsWhateverTheShowDoesToWhatHoldsItUp) {
     show.tracker("hand", on == "held" ? Vec3(5, 0, 3) : Vec3(0, 0, 1));
     show.scene.open("show");
     show.frame();
-    if (on == "shelf") show.scene.command("shelf", Verb::Attach, {"all", "hand"}, show.input.time);
-    if (on == "held") show.scene.command("held", Verb::Grab, {"hand"}, show.input.time);
+    if (on == "shelf") show.scene.command("shelf", CommandId::Attach, {"all", "hand"}, show.input.time);
+    if (on == "held") show.scene.command("held", CommandId::Grab, {"hand"}, show.input.time);
     if (cause.name == std::string("gravity is turned over"))
-      show.scene.command("leg", Verb::Attach, {"orientation", "hand"}, show.input.time);
+      show.scene.command("leg", CommandId::Attach, {"orientation", "hand"}, show.input.time);
     show.frames(2);
     if (on == "held") show.tracker("hand", {0, 0, 1});
     show.frames(300);

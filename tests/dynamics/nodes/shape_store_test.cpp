@@ -32,7 +32,7 @@ TEST(DynamicsNode, ABodyCollidesAtTheSizeThatItsParentGivesIt) {
   ShapeStore store;
   const Appearance look{mesh, true, "box"};
   DynObjectNode* body = nullptr;
-  show.loader.files["show"] = [&](Load& load) {
+  show.loader.files["show"] = [&](LoadedScene& load) {
     PlaceAttributes larger;
     larger.X_PN.linear() *= 2;
     addNode<MovingNode>(load, "larger", larger, false);

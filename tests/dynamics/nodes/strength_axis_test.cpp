@@ -28,7 +28,7 @@ struct Joypad : ShowFixture {
       : pad(std::move(said)) {
     rate = framesPerSecond;
     const MeshId mesh = meshes.add(cube(5));
-    loader.files["show"] = [=, this](Load& load) {
+    loader.files["show"] = [=, this](LoadedScene& load) {
       fan = &addNode<Field>(load, "fan", push, on, 0, PlaceAttributes{}, StrengthAxis{"pad", 3});
       addNode<Field>(load, "gravity", Vec3(0, 0, floor ? -9.81 : 0), true);
       addNode<Block>(load, "floor", mesh, Vec3(0, 0, -5.1));
@@ -90,9 +90,9 @@ TEST(StrengthAxis, ADeviceThatIsLostOrMissingGivesNothing) {
 TEST(StrengthAxis, AFieldThatIsSwitchedOnStartsWithWhatTheAxisSaysThen) {
   for (const double rate : {30., 144.}) {
     Joypad show(rate, {0, 0, 1}, false, pulls(), false);
-    show.scene.command("fan", Verb::Enable, {}, fromSeconds(1.25));
+    show.scene.command("fan", CommandId::Enable, {}, fromSeconds(1.25));
     EXPECT_NEAR(show.after(1.5).v.z(), 0.25, 1e-9);
-    show.scene.command("fan", Verb::Disable, {}, fromSeconds(1.75));
+    show.scene.command("fan", CommandId::Disable, {}, fromSeconds(1.75));
     EXPECT_NEAR(show.after(2).v.z(), 0.125, 1e-8);
   }
 }

@@ -28,7 +28,7 @@ TEST(MovingCollider, AWallThatMovesKicksARestingBallByItsOwnSpeed) {
       w.moveCollider(wall, {{-1 + 2 * toSeconds(s.time), 0, 1.1}, Quat::Identity()});
       w.advance(s.time - s.step, s.time);
       for (const ContactEvent& e : w.events())
-        if (e.kind == ContactEvent::Kind::Impact && e.other == Party{false, wall})
+        if (e.kind == ContactEvent::Kind::Impact && e.other == ContactSide{false, wall})
           hitSpeed = e.speed, when = toSeconds(e.time);
     }
     EXPECT_NEAR(hitSpeed, 2, 1e-9);
@@ -62,7 +62,7 @@ TEST(MovingCollider, AFootKicksTheBallOffTheGroundOnceAndReleasesIt) {
     w.moveCollider(foot, {{0, y, 0.12}, q});
     w.advance(s.time - s.step, s.time);
     for (const ContactEvent& e : w.events()) {
-      if (e.other != Party{false, foot}) continue;
+      if (e.other != ContactSide{false, foot}) continue;
       if (e.kind == ContactEvent::Kind::Impact) ++impacts, hit = e.time, speed = w.state(b).v.norm();
       if (e.kind == ContactEvent::Kind::Release) ++releases, free = e.time;
     }

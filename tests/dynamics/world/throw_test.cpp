@@ -42,7 +42,7 @@ struct Throwing : ShowFixture {
   explicit Throwing(double framesPerSecond, BodyAttributes body, PlaceAttributes place = {}) {
     rate = framesPerSecond;
     body.hooks = {"gravity", "thrust"};
-    loader.files["show"] = [=, this](Load& load) {
+    loader.files["show"] = [=, this](LoadedScene& load) {
       addNode<Field>(load, "gravity", Vec3(0, 0, -9.81), true);
       auto& parent = addNode<MovingNode>(load, "parent", turned(), false);
       PlaceAttributes below = place;
@@ -65,22 +65,22 @@ struct Throwing : ShowFixture {
   void until(double seconds) {
     while (toSeconds(signatureAt(next, rate).time) <= seconds + 1e-9) frame();
   }
-  void say(const std::string& node, Verb verb, std::vector<std::string> arguments = {}) {
-    scene.command(node, verb, std::move(arguments), input.time);
+  void say(const std::string& node, CommandId command, std::vector<std::string> arguments = {}) {
+    scene.command(node, command, std::move(arguments), input.time);
   }
   /// Held from 0.2 s on, pushed from 0.4 s to 0.7 s, let go at 0.8 s while the hand stands still, turned by
   /// `turn`.
   BodyState thrown(const Vec3& turn = Vec3::Zero()) {
     until(0.2);
-    say("hand", Verb::Attach, {"all", "wand"}), say("rod", Verb::Grab, {"wand"});
+    say("hand", CommandId::Attach, {"all", "wand"}), say("rod", CommandId::Grab, {"wand"});
     until(0.4);
-    say("thrust", Verb::Enable);
+    say("thrust", CommandId::Enable);
     until(0.7);
-    say("thrust", Verb::Disable);
+    say("thrust", CommandId::Disable);
     until(0.71);
     input.trackers.front().X_RT.q = det::expRotation(turn);
     until(0.8);
-    say("rod", Verb::Release);
+    say("rod", CommandId::Release);
     frame();
     return rod->state();
   }
@@ -98,7 +98,7 @@ TEST(Throw, ABodyStartsWithItsVelocitiesAlongItsParentsAxesAndSoAfterReset) {
   };
   starts(0);
   show.until(0.5);
-  show.say("rod", Verb::Reset);
+  show.say("rod", CommandId::Reset);
   show.frame();
   starts(1 / 60.0);
 }
@@ -138,11 +138,11 @@ TEST(Throw, AHandAloneOrAFieldAloneOrBoth) {
       }
     };
     until(0.2);
-    show.say("hand", Verb::Attach, {"all", "wand"}), show.say("rod", Verb::Grab, {"wand"});
+    show.say("hand", CommandId::Attach, {"all", "wand"}), show.say("rod", CommandId::Grab, {"wand"});
     until(0.4);
-    show.say("thrust", Verb::Enable);
+    show.say("thrust", CommandId::Enable);
     until(0.7);
-    show.say("thrust", Verb::Disable), show.say("rod", Verb::Release);
+    show.say("thrust", CommandId::Disable), show.say("rod", CommandId::Release);
     show.frame();
     EXPECT_LT((show.rod->state().v - v - Vec3(0, 0, -0.0981)).norm(), 1e-6);
   }
@@ -155,7 +155,7 @@ TEST(Throw, AFieldThatHangsOnTheHeldBodyIsInTheHandToo) {
     ShowFixture show;
     show.rate = rate;
     ThrownRod* rod = nullptr;
-    show.loader.files["show"] = [&](Load& load) {
+    show.loader.files["show"] = [&](LoadedScene& load) {
       rod = &addNode<ThrownRod>(load, "rod", body, PlaceAttributes{});
       PlaceAttributes onRod;
       onRod.parent = rod->self();
@@ -165,9 +165,9 @@ TEST(Throw, AFieldThatHangsOnTheHeldBodyIsInTheHandToo) {
     show.tracker("wand", Vec3::Zero());
     show.scene.open("show");
     show.frame();
-    show.scene.command("rod", Verb::Grab, {"wand"}, show.input.time);
+    show.scene.command("rod", CommandId::Grab, {"wand"}, show.input.time);
     while (toSeconds(signatureAt(show.next, rate).time) <= 1 + 1e-9) show.frame();
-    show.scene.command("rod", Verb::Release, {}, show.input.time);
+    show.scene.command("rod", CommandId::Release, {}, show.input.time);
     show.frame();
     // 0.5 s bound the push; in the first frame, the rod was not held yet.
     EXPECT_NEAR(rod->state().v.x(), 20 * 0.5, 20 / rate + 1e-9) << rate;
@@ -201,7 +201,7 @@ TEST(Throw, TheAxisOfSymmetryIsTheOneWhoseMomentStandsAlone) {
 
 TEST(Throw, TheTipIsTheForemostPointAndATwentiethBehindIt) {
   const Mesh box = scenes::boxMesh({0.05, 1, 0.05});
-  const Stick s = stickAlong(-Vec3::UnitY(), 60 * kDegree, 0.08, box);
+  const TipEmbedding s = tipEmbeddingAlong(-Vec3::UnitY(), 60 * kDegree, 0.08, box);
   EXPECT_NEAR(s.tip, 1, 1e-7);
   EXPECT_NEAR(s.reach, 0.1, 1e-7);
   EXPECT_NEAR(s.cosine, 0.5, 1e-12);
@@ -231,7 +231,7 @@ struct Spear {
     d.mass = massOfBox({}, {1, 0.02, 0.02}, 1).withMass(0.8);
     d.pose = {{0, 0, 3}, det::expRotation({0, (noseDown ? 90 - tilt : tilt - 90) * kDegree, 0})};
     d.v = {0, 0, -speed};
-    d.stick = stickAlong(Vec3::UnitX(), 60 * kDegree, kDeep, mesh);
+    d.embedding = tipEmbeddingAlong(Vec3::UnitX(), 60 * kDegree, kDeep, mesh);
     id = w.addBody(d);
     w.hook(id, gravity, 0);
   }
@@ -266,7 +266,7 @@ TEST(Throw, ATipGoesInTheWayItComesAndTheTouchStaysWhereItWas) {
     d.mass = massOfBox({}, {1, 0.02, 0.02}, 1).withMass(0.8);
     d.pose = {{0, 5, 3}, det::expRotation({0, 50 * kDegree, 0})};
     d.v = {12, 0, -16};
-    d.stick = Stick{Vec3::UnitX(), 1, 0.1, 0.5, depth};
+    d.embedding = TipEmbedding{Vec3::UnitX(), 1, 0.1, 0.5, depth};
     s.w.removeBody(s.id);
     const BodyId id = s.w.addBody(d);  // nothing pulls at it: it goes straight
     Vec3 touch = Vec3::Zero();
@@ -359,9 +359,9 @@ TEST(Throw, AStickThatIsNoNumberIsRefused) {
   World w;
   BodyDef d;
   d.shape = w.addShape(BallShape{Vec3::Zero(), 0.1});
-  d.stick = Stick{};
+  d.embedding = TipEmbedding{};
   EXPECT_NE(w.addBody(d), 0U);
-  d.stick->nose = Vec3::Constant(std::nan(""));
+  d.embedding->nose = Vec3::Constant(std::nan(""));
   EXPECT_EQ(w.addBody(d), 0U);
 }
 

@@ -38,7 +38,7 @@ struct Bedroom {
   World w;
   FieldId gravity = 0, lift = 0;
   Carrier carrier;
-  Party shelf;
+  ContactSide shelf;
   Pose shelfPose;
   std::vector<BodyId> sleepers;
   std::vector<Vec3> beds;  ///< where they slept

@@ -75,7 +75,7 @@ TEST(World, ImpactsFireOncePerTouchAndReleasesOnceEach) {
   play(w, 20, 60, [&](double) {
     bool fired = false;
     for (const ContactEvent& e : w.events()) {
-      EXPECT_EQ(e.other, (Party{false, floor}));
+      EXPECT_EQ(e.other, (ContactSide{false, floor}));
       EXPECT_EQ(e.body, b);
       if (e.kind == ContactEvent::Kind::Impact) {
         ++impacts, due = fired = true;

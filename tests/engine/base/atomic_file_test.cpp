@@ -1,6 +1,7 @@
 /// A file is there complete or not at all, also where links lead to it.
 
 #include "engine/base/atomic_file.h"
+#include "tests/fresh_folder.h"
 
 #include <cstdlib>
 #include <filesystem>
@@ -17,10 +18,6 @@ namespace fs = std::filesystem;
 
 class AtomicFiles : public testing::Test {
 protected:
-  AtomicFiles() {
-    std::string name = fs::temp_directory_path() / "stadion-atomic-XXXXXX";
-    folder = mkdtemp(name.data());
-  }
   ~AtomicFiles() override { fs::remove_all(folder); }
 
   static std::string content(const fs::path& file) {
@@ -32,7 +29,7 @@ protected:
     return static_cast<std::size_t>(std::distance(fs::directory_iterator(folder), {}));
   }
 
-  fs::path folder;
+  fs::path folder = makeFreshFolder();
 };
 
 TEST_F(AtomicFiles, OfWritersThatAreGoneAreFoundAndOthersAreNot) {

@@ -7,10 +7,11 @@
 #include "engine/nodes/group_node.h"
 #include "engine/nodes/lod_node.h"
 #include "engine/nodes/model_node.h"
+#include "engine/nodes/oscillation_node.h"
 #include "engine/nodes/path_node.h"
 #include "engine/nodes/scene_node.h"
-#include "engine/nodes/sway_node.h"
 #include "tests/engine/scene/show_fixture.h"
+#include "tests/fresh_folder.h"
 
 #include <cmath>
 #include <filesystem>
@@ -53,7 +54,7 @@ struct LoadFixture : ShowFixture {
   static constexpr NodeRef kGroup{1, 0}, kObject{1, 1}, kRunning{1, 2}, kLod{1, 3};
 
   LoadFixture() {
-    loader.files["show"] = [this](Load& load) {
+    loader.files["show"] = [this](LoadedScene& load) {
       addNode<MovingNode>(load, "group", PlaceAttributes{}, false);
       PlaceAttributes below;
       below.parent = kGroup;
@@ -67,13 +68,13 @@ struct LoadFixture : ShowFixture {
       ofLod.parent = kLod;
       addObject(load, "near", ofLod);
       addObject(load, "far", ofLod);
-      load.terms[kGroup.position] = {1, {Concession::Lod, Concession::Hide}, 1};
-      load.terms[kRunning.position] = {1, {Concession::Half, Concession::Rest}, 1};
+      load.terms[kGroup.position] = {1, {DegradationStep::Lod, DegradationStep::Hide}, 1};
+      load.terms[kRunning.position] = {1, {DegradationStep::Half, DegradationStep::Rest}, 1};
     };
     EXPECT_TRUE(scene.open("show"));
     head(Vec3(0, 0, 0));
   }
-  void addObject(Load& load, const std::string& name, const PlaceAttributes& place) {
+  void addObject(LoadedScene& load, const std::string& name, const PlaceAttributes& place) {
     const auto position = static_cast<std::uint32_t>(load.nodes.size());
     load.nodes.push_back(std::make_unique<ObjectNode>(kObjectType, NodeRef{1, position}, name, place,
                                                       Appearance{mesh, true, "", 0.02}));
@@ -119,7 +120,7 @@ TEST(LoadControl, MessagesReachWhatRunsMoreSeldomAtOnce) {
   f.frame({{1, 2, 3}});
   f.frames(5);
   const std::size_t before = f.running->cycles.size();
-  f.scene.command("running", Verb::Reset, {}, 0);
+  f.scene.command("running", CommandId::Reset, {}, 0);
   f.frame();
   ASSERT_EQ(f.running->heard.size(), 1U);
   EXPECT_EQ(f.running->heard[0], 10U);
@@ -154,12 +155,12 @@ TEST(LoadControl, WhatIsHiddenIsNotDrawnWithAllBelowItUntilItComesBack) {
 TEST(LoadControl, TheAuthorsOwnHidingIsNotUndone) {
   LoadFixture f;
   f.frames(2);
-  f.scene.command("object", Verb::Hide, {}, 0);
+  f.scene.command("object", CommandId::Hide, {}, 0);
   f.frame({{1, 0, 4}});
   f.frames(2);
   f.frame({{1, 0, 0}});
   EXPECT_FALSE(f.shown(1));
-  f.scene.command("object", Verb::Show, {}, 0);
+  f.scene.command("object", CommandId::Show, {}, 0);
   f.frame();
   EXPECT_TRUE(f.shown(1));
 }
@@ -169,7 +170,7 @@ TEST(LoadControl, LessDetailIsInTheRecordsOfAllBelow) {
   f.frames(2);
   f.frame({{1, 0, 2}});
   EXPECT_DOUBLE_EQ(f.scene.degradation().of(LoadFixture::kObject).lod, 2.25);
-  EXPECT_EQ(f.scene.degradation().of(LoadFixture::kRunning), Relief{});
+  EXPECT_EQ(f.scene.degradation().of(LoadFixture::kRunning), NodeDegradation{});
 }
 
 TEST(LoadControl, DecisionsAboutNoNodeAreIgnored) {
@@ -178,7 +179,7 @@ TEST(LoadControl, DecisionsAboutNoNodeAreIgnored) {
   f.frame({{7, 3, 2}, {1, 1, 1}, {1, 999, 1}});
   f.frame({{1, 2, 99}});  // a level that the ladder does not have
   f.frames(2);
-  EXPECT_EQ(f.scene.degradation().of(LoadFixture::kObject), Relief{});
+  EXPECT_EQ(f.scene.degradation().of(LoadFixture::kObject), NodeDegradation{});
   EXPECT_TRUE(f.scene.degradation().of(LoadFixture::kRunning).rests);
 }
 
@@ -223,29 +224,29 @@ private:
   Pose before_;
 };
 
-/// A scene, whose file holds a path that runs along x at 1 m/s and begins again after two metres, a sway
+/// A scene, whose file holds a path that runs along x at 1 m/s and restarts after two metres, a sway
 /// along y, and a node that watches the path.
 struct StandsFixture : ShowFixture {
   static constexpr NodeRef kScene{1, 0}, kPath{2, 0};
   static constexpr std::uint32_t kHalf = 1, kQuarter = 2, kRest = 3;
   PathNode* path = nullptr;
-  SwayNode* sway = nullptr;
+  OscillationNode* sway = nullptr;
   LookingNode* looking = nullptr;
 
   StandsFixture() {
-    loader.files["show"] = [](Load& load) {
+    loader.files["show"] = [](LoadedScene& load) {
       addNode<SceneNode>(load, "stands", PlaceAttributes{}, "stands", Nanoseconds{0}, true);
-      load.terms[kScene.position] = {1, {Concession::Half, Concession::Rest}, 1};
+      load.terms[kScene.position] = {1, {DegradationStep::Half, DegradationStep::Rest}, 1};
     };
-    loader.files["stands"] = [this](Load& load) {
+    loader.files["stands"] = [this](LoadedScene& load) {
       const std::vector<Keyframe> keys{{0, {Vec3::Zero(), Quat::Identity()}},
                                        {2, {Vec3(2, 0, 0), Quat::Identity()}}};
       path = &addNode<PathNode>(load, "path", PlaceAttributes{}, NodeRef{}, keys, true, false, true);
-      SwayAttributes swell;
+      OscillationAttributes swell;
       swell.amplitude = Vec3(0, 1, 0), swell.frequency = Vec3(0, 0.25, 0);
-      sway = &addNode<SwayNode>(load, "sway", PlaceAttributes{}, swell, true);
+      sway = &addNode<OscillationNode>(load, "sway", PlaceAttributes{}, swell, true);
       looking = &addNode<LookingNode>(load, "looking", *path);
-      load.terms[kPath.position] = {1, {Concession::Half, Concession::Rest}, 1};
+      load.terms[kPath.position] = {1, {DegradationStep::Half, DegradationStep::Rest}, 1};
     };
     EXPECT_TRUE(scene.open("show"));
     frames(4);
@@ -312,7 +313,7 @@ TEST(LoadControl, APathGivesUpItsPaceByItself) {
 TEST(LoadControl, WhatAPathHasMissedIsAWayThroughTheFrameInWhichItRuns) {
   StandsFixture f;
   f.decide(StandsFixture::kScene, StandsFixture::kQuarter);
-  bool beganAgain = false;
+  bool restarted = false;
   for (int i = 0; i < 300; ++i) {
     const double before = f.x();
     const Nanoseconds start = f.scene.now();
@@ -325,20 +326,20 @@ TEST(LoadControl, WhatAPathHasMissedIsAWayThroughTheFrameInWhichItRuns) {
     EXPECT_EQ(way[1].time, f.scene.now());
     EXPECT_NEAR(way[1].X.p.x(), f.x(), 1e-9);
     EXPECT_EQ(way[1].jump, f.x() < before);
-    beganAgain |= way[1].jump;
+    restarted |= way[1].jump;
   }
-  EXPECT_TRUE(beganAgain);
+  EXPECT_TRUE(restarted);
 }
 
 TEST(LoadControl, ThoseThatRunNowAndThenTakeTurnsWhereverTheyStandInTheirFile) {
   constexpr std::uint32_t kPaths = 200;
   for (const std::uint32_t apart : {1U, 2U, 3U, 4U}) {
     ShowFixture f;
-    f.loader.files["show"] = [](Load& load) {
+    f.loader.files["show"] = [](LoadedScene& load) {
       addNode<SceneNode>(load, "stands", PlaceAttributes{}, "stands", Nanoseconds{0}, true);
-      load.terms[0] = {1, {Concession::Half, Concession::Rest}, 1};
+      load.terms[0] = {1, {DegradationStep::Half, DegradationStep::Rest}, 1};
     };
-    f.loader.files["stands"] = [&](Load& load) {
+    f.loader.files["stands"] = [&](LoadedScene& load) {
       for (std::uint32_t i = 0; i < apart * kPaths; ++i) {
         if (i % apart != 0) {
           addNode<ListeningNode>(load, "");
@@ -363,7 +364,7 @@ TEST(LoadControl, ThoseThatRunNowAndThenTakeTurnsWhereverTheyStandInTheirFile) {
 TEST(LoadControl, WhatIsInAHandGoesAlongThoughItsSceneRests) {
   StandsFixture f;
   f.tracker("wand", Vec3(5, 0, 0));
-  f.scene.command("stands/path", Verb::Attach, {"all", "wand"}, 0);
+  f.scene.command("stands/path", CommandId::Attach, {"all", "wand"}, 0);
   f.frames(2);
   f.decide(StandsFixture::kScene, StandsFixture::kRest);
   f.tracker("wand", Vec3(6, 0, 0));
@@ -431,21 +432,21 @@ TEST(LodNode, TheChoiceIsNoPartOfTheStateHash) {
   EXPECT_EQ(near.scene.stateHash(), far.scene.stateHash());
 }
 
-TEST(ReliefInLogs, IsReadAsItWasWritten) {
+TEST(DegradationInLogs, IsReadAsItWasWritten) {
   InputLog log;
   log.decisions.rate = 60;
-  log.decisions.relief = {{7, {1, 14, 2}}, {7, {0, 0, 3}}, {90, {1, 14, 0}}};
+  log.decisions.degradation = {{7, {1, 14, 2}}, {7, {0, 0, 3}}, {90, {1, 14, 0}}};
   Diagnostics findings;
   const std::string text = formatInputLog(log);
   const auto again = parseInputLog(text, "t.input", findings);
   ASSERT_TRUE(again);
-  EXPECT_EQ(again->decisions.relief, log.decisions.relief);
+  EXPECT_EQ(again->decisions.degradation, log.decisions.degradation);
   EXPECT_EQ(formatInputLog(*again), text);
 }
 
-TEST(ReliefInLogs, TheRecorderWritesWhatTheSignaturesSay) {
-  const std::string file =
-      (std::filesystem::temp_directory_path() / ("relief-" + std::to_string(getpid()) + ".input")).string();
+TEST(DegradationInLogs, TheRecorderWritesWhatTheSignaturesSay) {
+  const FreshFolder folder;
+  const std::string file = folder / "relief.input";
   InputRecorder recorder(file, 60);
   for (std::uint64_t n = 0; n < 10; ++n) {
     TimeSignature now = signatureAt(n, 60);
@@ -457,10 +458,10 @@ TEST(ReliefInLogs, TheRecorderWritesWhatTheSignaturesSay) {
   const auto log = loadInputLog(file, findings);
   std::filesystem::remove(file);
   ASSERT_TRUE(log);
-  EXPECT_EQ(log->decisions.relief, (LoadDecisions{{4, {1, 2, 3}}, {4, {0, 0, 5}}}));
+  EXPECT_EQ(log->decisions.degradation, (LoadDecisions{{4, {1, 2, 3}}, {4, {0, 0, 5}}}));
 }
 
-TEST(ReliefInLogs, MistakesAreToldWithTheirPlace) {
+TEST(DegradationInLogs, MistakesAreToldWithTheirPlace) {
   const auto first = [](const std::string& records) {
     Diagnostics out;
     EXPECT_FALSE(parseInputLog("stadion-input 2\nrate 60\n" + records, "t.input", out));

@@ -45,7 +45,7 @@ TEST(NodeRegistry, AnAddedTypeBelongsToTheLanguage) {
   ASSERT_EQ(d.size(), 1U);
   EXPECT_EQ(d[0].number("pull"), 2);
   EXPECT_EQ(d[0].vec3("position"), Vec3(1, 2, 3));
-  EXPECT_EQ(d[0].eventMessages()[0].verb, verbNamed("tug"));
+  EXPECT_EQ(d[0].eventMessages()[0].commandId, commandNamed("tug"));
   EXPECT_EQ(d[0].eventMessages()[0].event, Event("snapped"));
 }
 
@@ -84,7 +84,7 @@ TEST(NodeRegistry, ASnapshotNamesThePlugins) {
   const auto saved = [](const std::string& plugins) {
     PluginLoader loader;
     loader.words = plugins;
-    loader.files["show"] = [](Load&) {};
+    loader.files["show"] = [](LoadedScene&) {};
     MeshStore meshes;
     Scene scene(loader, meshes);
     scene.open("show");
@@ -93,7 +93,7 @@ TEST(NodeRegistry, ASnapshotNamesThePlugins) {
   const auto restored = [](const std::vector<std::uint8_t>& state, const std::string& plugins) {
     PluginLoader loader;
     loader.words = plugins;
-    loader.files["show"] = [](Load&) {};
+    loader.files["show"] = [](LoadedScene&) {};
     MeshStore meshes;
     Scene scene(loader, meshes);
     return SceneSnapshot(scene).restore(state, "show").value_or("");

@@ -2,6 +2,7 @@
 #include "engine/display/wall_file.h"
 #include "engine/display/wall_lint.h"
 #include "engine/plain_text/text_line.h"
+#include "tests/fresh_folder.h"
 #include "tests/mutations.h"
 
 #include <gtest/gtest.h>
@@ -131,7 +132,7 @@ TEST(Walls, ThatAreWrongGetTheListedFindings) {
     const std::string found = listing(findingsIn(textOf(entry.path())));
     fs::path golden = entry.path();
     golden.replace_extension(".expected");
-    // STADION_WRITE_EXPECTED=1 writes the listings anew; read them before they are committed.
+    // STADION_WRITE_EXPECTED=1 updates the listings; read them before they are committed.
     if (std::getenv("STADION_WRITE_EXPECTED")) std::ofstream(golden) << found;
     EXPECT_EQ(found, textOf(golden)) << entry.path();
     EXPECT_FALSE(found.empty()) << entry.path();
@@ -206,8 +207,7 @@ TEST(Walls, InAFolderOrDeviceInsteadOfAFileAreRefused) {
 }
 
 TEST(Walls, InAFolderThatMayNotBeReadAreAnError) {
-  const fs::path folder = fs::temp_directory_path() / ("stadion-walls-" + std::to_string(getpid()));
-  fs::create_directories(folder);
+  const fs::path folder = makeFreshFolder();
   std::ofstream(folder / "a.walls") << "unit m\n";
   chmod(folder.c_str(), 0);
   Diagnostics out;

@@ -1,5 +1,6 @@
 #include "engine/input/input_log.h"
 #include "engine/input/input_recorder.h"
+#include "tests/fresh_folder.h"
 
 #include <gtest/gtest.h>
 
@@ -48,7 +49,8 @@ TEST(InputControls, ARecordingKeepsWhatHappenedWithinFramesToTheBit) {
                              "key wand 0.123 0.1 0.2 1 turn 10 20 30 axes 1 -0.25 buttons 1 smooth\n"
                              "key wand 0.131 0.1 0.2 1 buttons 5\n"
                              "key wand 0.4 0.5 0.2 1 turn 0 0 90 axes 0.125\n");
-  const std::string path = "/tmp/stadion-controls-" + std::to_string(getpid()) + ".input";
+  const FreshFolder folder;
+  const std::string path = folder / "controls.input";
   std::vector<InputSample> first;
   {
     InputRecorder recorder(path);

@@ -4,6 +4,7 @@
 #include "engine/input/scripted_input.h"
 #include "engine/maths/functions.h"
 #include "engine/plain_text/text_line.h"
+#include "tests/fresh_folder.h"
 #include "tests/mutations.h"
 
 #include <gtest/gtest.h>
@@ -21,8 +22,7 @@ namespace {
 namespace fs = std::filesystem;
 
 struct Scratch {
-  fs::path folder = fs::temp_directory_path() / ("stadion-input-" + std::to_string(getpid()));
-  Scratch() { fs::create_directories(folder); }
+  fs::path folder = makeFreshFolder();
   ~Scratch() { fs::remove_all(folder); }
   std::string file(const char* name) const { return (folder / name).string(); }
 };

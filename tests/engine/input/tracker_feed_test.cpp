@@ -12,10 +12,10 @@
 namespace stadion {
 namespace {
 
-constexpr Nanoseconds kMs = 1'000'000;
+constexpr Nanoseconds kFeedMs = 1'000'000;
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
-RigFile bareRig() {
+RigFile bareFeedRig() {
   RigFile rig = standardRig();
   rig.cutoff = rig.beta = 0;
   return rig;
@@ -27,7 +27,7 @@ Pose poseAt(double x, double y, double z) {
 
 /// A feed whose clock runs with show time.
 struct Room {
-  explicit Room(const RigFile& rig = bareRig()) : feed(rig) {}
+  explicit Room(const RigFile& rig = bareFeedRig()) : feed(rig) {}
   TrackerFeed feed;
   InputSample sample;
   std::uint64_t next = 0;
@@ -46,18 +46,18 @@ TEST(TrackerFeed, TheRigsTrackersAreThereFromTheFirstFrameLostUntilTheyAreHeardO
   room.frame();
   ASSERT_EQ(room.sample.trackers.size(), 2u);
   EXPECT_FALSE(room.sample.find("head")->valid);
-  room.head(10 * kMs, poseAt(0.1, 0.2, 1.6));
+  room.head(10 * kFeedMs, poseAt(0.1, 0.2, 1.6));
   room.frame();
   EXPECT_TRUE(room.sample.find("head")->valid);
   EXPECT_FALSE(room.sample.find("wand")->valid);
 }
 
 TEST(TrackerFeed, APoseIsCarriedOnToTheFramesEndButNotFarther) {
-  RigFile rig = bareRig();
+  RigFile rig = bareFeedRig();
   rig.ease = 0, rig.predict = 0.02;
   Room room(rig);
   // 1 m/s to the right, for so long that the smoothed speed has arrived.
-  for (int i = 0; i <= 300; ++i) room.head(i * 5 * kMs, poseAt(i * 0.005, 0, 1.7));
+  for (int i = 0; i <= 300; ++i) room.head(i * 5 * kFeedMs, poseAt(i * 0.005, 0, 1.7));
   room.next = 91;  // 1516.67 ms, 16.67 ms after the last measurement
   EXPECT_NEAR(room.frame().find("head")->X_RT.p.x(), 1.5 + 0.016667, 1e-4);
   room.next = 95;  // 83 ms after it
@@ -66,7 +66,7 @@ TEST(TrackerFeed, APoseIsCarriedOnToTheFramesEndButNotFarther) {
 
 TEST(TrackerFeed, ASilentHeadHoldsThenEasesToItsSafePoseThenIsLost) {
   Room room;
-  for (int i = 0; i <= 200; ++i) room.head(i * 5 * kMs, poseAt(1, 0, 1.2));
+  for (int i = 0; i <= 200; ++i) room.head(i * 5 * kFeedMs, poseAt(1, 0, 1.2));
   room.next = 60;
   EXPECT_EQ(room.frame().find("head")->X_RT.p, Vec3(1, 0, 1.2));
   room.next = 66;  // 1.1 s: at the end of hold
@@ -95,27 +95,27 @@ TEST(TrackerFeed, ASilenceAndItsEndAreReportedButNotOfTrackersThatComeAndGo) {
     return told;
   };
   EXPECT_EQ(heardAt(0), "");  // no tracker has been heard of yet
-  room.head(10 * kMs, poseAt(0, 0, 1.7));
-  EXPECT_EQ(heardAt(50 * kMs), "");
-  EXPECT_EQ(heardAt(1010 * kMs), "head silent 10;");
-  EXPECT_EQ(heardAt(1020 * kMs), "");
-  room.head(2010 * kMs, poseAt(0, 0, 1.7));
-  EXPECT_EQ(heardAt(2020 * kMs), "head heard 20;");
-  EXPECT_EQ(heardAt(4000 * kMs), "");  // again, within ten seconds
-  room.head(12'000 * kMs, poseAt(0, 0, 1.7));
-  EXPECT_EQ(heardAt(12'010 * kMs), "");
-  EXPECT_EQ(heardAt(13'000 * kMs), "head silent 10;");
+  room.head(10 * kFeedMs, poseAt(0, 0, 1.7));
+  EXPECT_EQ(heardAt(50 * kFeedMs), "");
+  EXPECT_EQ(heardAt(1010 * kFeedMs), "head silent 10;");
+  EXPECT_EQ(heardAt(1020 * kFeedMs), "");
+  room.head(2010 * kFeedMs, poseAt(0, 0, 1.7));
+  EXPECT_EQ(heardAt(2020 * kFeedMs), "head heard 20;");
+  EXPECT_EQ(heardAt(4000 * kFeedMs), "");  // again, within ten seconds
+  room.head(12'000 * kFeedMs, poseAt(0, 0, 1.7));
+  EXPECT_EQ(heardAt(12'010 * kFeedMs), "");
+  EXPECT_EQ(heardAt(13'000 * kFeedMs), "head silent 10;");
 }
 
 TEST(TrackerFeed, HeardOfAgainTheHeadEasesBack) {
   Room room;
-  for (int i = 0; i <= 200; ++i) room.head(i * 5 * kMs, poseAt(1, 0, 1.2));
+  for (int i = 0; i <= 200; ++i) room.head(i * 5 * kFeedMs, poseAt(1, 0, 1.2));
   room.next = 121;
-  for (int i = 400; i <= 600; ++i) room.head(i * 5 * kMs, poseAt(-1, 0, 1.2));
+  for (int i = 400; i <= 600; ++i) room.head(i * 5 * kFeedMs, poseAt(-1, 0, 1.2));
   // Heard again at 2 s; halfway back at 2.25 s, there at 2.5 s.
   Room later;
-  for (int i = 0; i <= 200; ++i) later.head(i * 5 * kMs, poseAt(1, 0, 1.2));
-  for (int i = 400; i <= 449; ++i) later.head(i * 5 * kMs, poseAt(-1, 0, 1.2));
+  for (int i = 0; i <= 200; ++i) later.head(i * 5 * kFeedMs, poseAt(1, 0, 1.2));
+  for (int i = 400; i <= 449; ++i) later.head(i * 5 * kFeedMs, poseAt(-1, 0, 1.2));
   later.next = 135;
   EXPECT_NEAR((later.frame().find("head")->X_RT.p - Vec3(-0.5, 0, 1.45)).norm(), 0, 0.02);
   room.next = 150;
@@ -137,7 +137,7 @@ TEST(TrackerFeed, ASilentWandIsLostAndLetsGoOfEverything) {
   EXPECT_EQ(room.sample.find("wand")->X_RT.p, Vec3(0, 1, 1));
   // Heard of again it holds nothing: the button may have been released meanwhile.
   room.next = 25;
-  room.feed.pose("wand", 1'000'000'000 + 400 * kMs, poseAt(0, 1, 1));
+  room.feed.pose("wand", 1'000'000'000 + 400 * kFeedMs, poseAt(0, 1, 1));
   EXPECT_TRUE(room.frame().find("wand")->valid);
   EXPECT_EQ(room.sample.find("wand")->buttons, 0u);
   EXPECT_EQ(room.sample.find("wand")->axes[1], 0.0f);
@@ -147,8 +147,8 @@ TEST(TrackerFeed, AButtonPressedAndReleasedBetweenTwoFramesIsNotMissed) {
   Room room;
   room.feed.pose("wand", 1'000'000'000, poseAt(0, 1, 1));
   room.frame();
-  room.feed.button("wand", 1'000'000'000 + 5 * kMs, 2, true);
-  room.feed.button("wand", 1'000'000'000 + 9 * kMs, 2, false);
+  room.feed.button("wand", 1'000'000'000 + 5 * kFeedMs, 2, true);
+  room.feed.button("wand", 1'000'000'000 + 9 * kFeedMs, 2, false);
   const TrackerSample& wand = *room.frame().find("wand");
   ASSERT_EQ(wand.controls.size(), 3u);
   EXPECT_EQ(wand.controls[1].buttons, 2u);
@@ -164,7 +164,7 @@ TEST(TrackerFeed, WhatCannotBeIsRefusedCountedAndNeverInASample) {
   for (const Pose& X :
        {poseAt(kNaN, 0, 0), poseAt(inf, 0, 0), poseAt(huge, 0, 0), Pose{Vec3::Zero(), Quat(0, 0, 0, 0)},
         Pose{Vec3::Zero(), Quat(kNaN, 0, 0, 1)}, Pose{Vec3::Zero(), Quat(huge, 0, 0, 1)}})
-    EXPECT_FALSE(room.feed.pose("wand", 1'000'000'000 + kMs, X));
+    EXPECT_FALSE(room.feed.pose("wand", 1'000'000'000 + kFeedMs, X));
   EXPECT_FALSE(room.feed.button("wand", 0, 0, true));
   EXPECT_FALSE(room.feed.button("wand", 0, 33, true));
   EXPECT_FALSE(room.feed.axis("wand", 0, 8, 0.5));
@@ -193,13 +193,13 @@ TEST(TrackerFeed, AFloodOfChangesInOneFrameIsCut) {
 /// A rig with a gamepad, which may send what it holds again and again.
 struct PadRoom : Room {
   static RigFile rig() {
-    RigFile rig = bareRig();
+    RigFile rig = bareFeedRig();
     rig.trackers.push_back({"pad", {}, {}});
     return rig;
   }
   PadRoom() : Room(rig()) {}
   const TrackerSample& pad() { return *frame().find("pad"); }
-  Nanoseconds now() const { return 1'000'000'000 + signatureAt(next, 60).time - kMs; }
+  Nanoseconds now() const { return 1'000'000'000 + signatureAt(next, 60).time - kFeedMs; }
 };
 
 TEST(TrackerFeed, ADeviceOfAxesAndButtonsOnlyIsThereWithoutAPose) {
@@ -255,10 +255,11 @@ TEST(TrackerFeed, APadThatSendsChangesOnlyHoldsThemForTenSeconds) {
 }
 
 TEST(TrackerFeed, APressOfAPadWithinOneFrameIsNotMissed) {
-  for (const Nanoseconds off : {0 * kMs, -40 * kMs, 40 * kMs}) {  // measured before, in and after the frame
+  for (const Nanoseconds off :
+       {0 * kFeedMs, -40 * kFeedMs, 40 * kFeedMs}) {  // measured before, in and after the frame
     PadRoom room;
     room.pad(), room.pad();
-    room.feed.button("pad", room.now() + off - 2 * kMs, 2, true);
+    room.feed.button("pad", room.now() + off - 2 * kFeedMs, 2, true);
     room.feed.button("pad", room.now() + off, 2, false);
     const auto controls = room.pad().controls;
     EXPECT_TRUE(std::ranges::any_of(controls, [](const ControlKnot& c) { return c.buttons == 2; })) << off;
@@ -311,7 +312,7 @@ TEST(TrackerFeed, TheRecordOfAWildVisitGivesTheVerySameSamples) {
     Nanoseconds clock = 1'000'000'000;
     for (std::uint64_t n = 0; n < 300; ++n) {
       const TimeSignature now = signatureAt(n, 60);
-      const Nanoseconds frameEnd = clock + 16 * kMs + static_cast<Nanoseconds>(random() * 3e6);
+      const Nanoseconds frameEnd = clock + 16 * kFeedMs + static_cast<Nanoseconds>(random() * 3e6);
       for (Nanoseconds t = clock; t < frameEnd; t += 1 + static_cast<Nanoseconds>(random() * 8e6)) {
         const char* name = random() < 0.5 ? "head" : "wand";
         const bool padComes = n > 20 + static_cast<unsigned>(visit);
@@ -319,7 +320,7 @@ TEST(TrackerFeed, TheRecordOfAWildVisitGivesTheVerySameSamples) {
         if (padComes && random() < 0.2)
           feed.button("pad", t, 1 + static_cast<int>(2 * random()), random() < 0.5);
         if (n == 280 && visit % 2 == 0) feed.pose("pad", t, poseAt(0, 1, 1));
-        if (random() < 0.02) t += 700 * kMs;             // silence
+        if (random() < 0.02) t += 700 * kFeedMs;         // silence
         const double wild = random() < 0.03 ? 3 : 0.02;  // what cannot have moved there
         if (random() < 0.7)
           feed.pose(name, t,
@@ -346,7 +347,7 @@ TEST(TrackerFeed, TheRecordOfAWildVisitGivesTheVerySameSamples) {
 
 TEST(TrackerFeed, ANewGroupBeginsAtTimeZeroWithWhatIsKnown) {
   Room room;
-  room.head(10 * kMs, poseAt(0.1, 0.2, 1.6));
+  room.head(10 * kFeedMs, poseAt(0.1, 0.2, 1.6));
   room.frame(), room.frame(), room.frame();
   room.feed.restart();
   room.next = 0;

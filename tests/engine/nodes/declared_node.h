@@ -2,7 +2,7 @@
 /// A node as a script declares it, for tests of a node type that has no header.
 
 #include "engine/build/node_request.h"
-#include "engine/scene/load.h"
+#include "engine/scene/loaded_scene.h"
 #include "engine/script/script.h"
 #include "tests/node_types.h"
 
@@ -11,7 +11,7 @@
 namespace stadion {
 
 /// Adds the node of a script with this one declaration, which may refer to no other.
-inline Node& addDeclared(Load& load, const std::string& name, const std::string& script) {
+inline Node& addDeclared(LoadedScene& load, const std::string& name, const std::string& script) {
   Diagnostics findings;
   const Document document = parseScript(SourceText::make("a.evs", script).value(), testTypes(), findings);
   for (const Diagnostic& d : findings.all()) ADD_FAILURE() << format(d);

@@ -14,11 +14,13 @@ struct LateShow : ShowFixture {
 
   explicit LateShow(bool initially) {
     rate = 10;
-    loader.files["inner"] = [this](Load& load) { ears[load.number] = &addNode<ListeningNode>(load, "ear"); };
-    loader.files["show"] = [initially](Load& load) {
+    loader.files["inner"] = [this](LoadedScene& load) {
+      ears[load.number] = &addNode<ListeningNode>(load, "ear");
+    };
+    loader.files["show"] = [initially](LoadedScene& load) {
       addNode<SceneNode>(load, "inner", PlaceAttributes{}, "inner", Nanoseconds{0}, initially);
       addNode<SpeakingNode>(load, "speaker", std::vector<Nanoseconds>{fromSeconds(0.5)})
-          .addNotification(notify(Event("timesup"), "inner/ear", Verb::Enable, 1));
+          .addNotification(notify(Event("timesup"), "inner/ear", CommandId::Enable, 1));
     };
     scene.open("show");
   }
@@ -34,7 +36,7 @@ struct LateShow : ShowFixture {
 TEST(LateNames, ADelayedMessageFindsWhatWasLoadedMeanwhile) {
   LateShow show(false);
   show.until(0.8);
-  show.scene.command("inner", Verb::Load, {}, fromSeconds(1));
+  show.scene.command("inner", CommandId::Load, {}, fromSeconds(1));
   show.until(2);
   ASSERT_EQ(show.ears.size(), 1u);
   ASSERT_EQ(show.ears.begin()->second->heard.size(), 1u);
@@ -45,7 +47,7 @@ TEST(LateNames, ADelayedMessageFindsWhatWasLoadedMeanwhile) {
 TEST(LateNames, ADelayedMessageToWhatHasGoneMeanwhileIsLost) {
   LateShow show(true);
   show.until(0.8);
-  show.scene.command("inner", Verb::Unload, {}, fromSeconds(1));
+  show.scene.command("inner", CommandId::Unload, {}, fromSeconds(1));
   show.until(2);
   EXPECT_EQ(show.lost, 1u);
   EXPECT_EQ(show.delivered, 1u) << "the unload alone";
@@ -54,8 +56,8 @@ TEST(LateNames, ADelayedMessageToWhatHasGoneMeanwhileIsLost) {
 TEST(LateNames, ADelayedMessageGoesToTheFileThatIsThereWhenItIsDue) {
   LateShow show(true);
   show.until(0.8);
-  show.scene.command("inner", Verb::Unload, {}, fromSeconds(0.9));
-  show.scene.command("inner", Verb::Load, {}, fromSeconds(1.1));
+  show.scene.command("inner", CommandId::Unload, {}, fromSeconds(0.9));
+  show.scene.command("inner", CommandId::Load, {}, fromSeconds(1.1));
   show.until(2);
   ASSERT_EQ(show.ears.size(), 2u);
   EXPECT_EQ(show.ears.rbegin()->second->heard.size(), 1u);
@@ -65,20 +67,20 @@ TEST(LateNames, ADelayedMessageGoesToTheFileThatIsThereWhenItIsDue) {
 TEST(LateNames, AMessageOutlivesTheFileOfItsSenderButNotTheFileItNames) {
   ShowFixture show;
   ListeningNode* outer = nullptr;
-  show.loader.files["inner"] = [](Load& load) {
+  show.loader.files["inner"] = [](LoadedScene& load) {
     auto& speaker = addNode<SpeakingNode>(load, "speaker", std::vector<Nanoseconds>{fromSeconds(0.1)});
-    speaker.addNotification(notify(Event("timesup"), "outer", Verb::Enable, 1));
-    speaker.addNotification(notify(Event("timesup"), "both", Verb::Enable, 1));
+    speaker.addNotification(notify(Event("timesup"), "outer", CommandId::Enable, 1));
+    speaker.addNotification(notify(Event("timesup"), "both", CommandId::Enable, 1));
     addNode<ListeningNode>(load, "both");
   };
   ListeningNode* both = nullptr;
-  show.loader.files["show"] = [&](Load& load) {
+  show.loader.files["show"] = [&](LoadedScene& load) {
     outer = &addNode<ListeningNode>(load, "outer");
     both = &addNode<ListeningNode>(load, "both");
     addNode<SceneNode>(load, "inner", PlaceAttributes{}, "inner", Nanoseconds{0}, true);
   };
   show.scene.open("show");
-  show.scene.command("inner", Verb::Unload, {}, fromSeconds(0.5));
+  show.scene.command("inner", CommandId::Unload, {}, fromSeconds(0.5));
   show.frames(120);
   EXPECT_EQ(show.scene.tree().loads().size(), 1u);
   EXPECT_EQ(outer->heard.size(), 1u);

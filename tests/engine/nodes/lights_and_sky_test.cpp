@@ -24,58 +24,58 @@ LightRecord lamp(float brightness, double x = 0) {
 
 TEST(Sky, TheSkyOfASubSceneGivesWayToTheOneBeforeWhenItIsUnloaded) {
   ShowFixture show;
-  show.loader.files["inner"] = [](Load& load) { addNode<SkyNode>(load, "night", skyOf(0.9f)); };
-  show.loader.files["show"] = [](Load& load) {
+  show.loader.files["inner"] = [](LoadedScene& load) { addNode<SkyNode>(load, "night", skyOf(0.9f)); };
+  show.loader.files["show"] = [](LoadedScene& load) {
     addNode<SkyNode>(load, "day", skyOf(0.1f));
     addNode<SceneNode>(load, "inner", PlaceAttributes{}, "inner", Nanoseconds{0}, true);
   };
   show.scene.open("show");
   show.frame();
   EXPECT_EQ(show.changes.sky.zenith[0], 0.9f);
-  show.scene.command("inner", Verb::Unload, {}, 0);
+  show.scene.command("inner", CommandId::Unload, {}, 0);
   show.frames(3);
   EXPECT_EQ(show.changes.sky.zenith[0], 0.1f);
 }
 
 TEST(Sky, TheLastSkyToComeIsSeenWhicheverGoesFirst) {
   ShowFixture show;
-  show.loader.files["a"] = [](Load& load) { addNode<SkyNode>(load, "", skyOf(0.2f)); };
-  show.loader.files["b"] = [](Load& load) { addNode<SkyNode>(load, "", skyOf(0.3f)); };
-  show.loader.files["show"] = [](Load& load) {
+  show.loader.files["a"] = [](LoadedScene& load) { addNode<SkyNode>(load, "", skyOf(0.2f)); };
+  show.loader.files["b"] = [](LoadedScene& load) { addNode<SkyNode>(load, "", skyOf(0.3f)); };
+  show.loader.files["show"] = [](LoadedScene& load) {
     addNode<SceneNode>(load, "a", PlaceAttributes{}, "a", Nanoseconds{0}, true);
     addNode<SceneNode>(load, "b", PlaceAttributes{}, "b", Nanoseconds{0}, true);
   };
   show.scene.open("show");
   show.frame();
   EXPECT_EQ(show.changes.sky.zenith[0], 0.3f);
-  show.scene.command("a", Verb::Unload, {}, 0);
+  show.scene.command("a", CommandId::Unload, {}, 0);
   show.frames(3);
   EXPECT_EQ(show.changes.sky.zenith[0], 0.3f);
-  show.scene.command("b", Verb::Unload, {}, 0);
+  show.scene.command("b", CommandId::Unload, {}, 0);
   show.frames(3);
   EXPECT_EQ(show.changes.sky.zenith[0], SkyRecord{}.zenith[0]) << "back to what a show without sky has";
 }
 
 TEST(Light, HideMakesItDarkAndShowBrightAgain) {
   ShowFixture show;
-  show.loader.files["show"] = [](Load& load) {
+  show.loader.files["show"] = [](LoadedScene& load) {
     addNode<LightNode>(load, "lamp", PlaceAttributes{}, lamp(1), true);
   };
   show.scene.open("show");
   show.frame();
   ASSERT_EQ(show.changes.lights.size(), 1u);
-  show.scene.command("lamp", Verb::Hide, {}, 0);
+  show.scene.command("lamp", CommandId::Hide, {}, 0);
   show.frame();
   EXPECT_TRUE(show.changes.lightsChanged);
   EXPECT_TRUE(show.changes.lights.empty()) << "neither the lamp nor the sun of a show without light";
-  show.scene.command("lamp", Verb::Show, {}, 0);
+  show.scene.command("lamp", CommandId::Show, {}, 0);
   show.frame();
   EXPECT_EQ(show.changes.lights.size(), 1u);
 }
 
 TEST(Light, HidingTheGroupAboveDarkensIt) {
   ShowFixture show;
-  show.loader.files["show"] = [](Load& load) {
+  show.loader.files["show"] = [](LoadedScene& load) {
     addNode<MovingNode>(load, "group", PlaceAttributes{}, false);
     PlaceAttributes below;
     below.parent = {load.number, 0};
@@ -83,7 +83,7 @@ TEST(Light, HidingTheGroupAboveDarkensIt) {
   };
   show.scene.open("show");
   show.frame();
-  show.scene.command("group", Verb::Hide, {}, 0);
+  show.scene.command("group", CommandId::Hide, {}, 0);
   show.frame();
   EXPECT_TRUE(show.changes.lightsChanged);
   EXPECT_TRUE(show.changes.lights.empty());
@@ -92,7 +92,7 @@ TEST(Light, HidingTheGroupAboveDarkensIt) {
 /// Lights along x, one a metre, brighter from one to the next.
 struct ManyLights : ShowFixture {
   explicit ManyLights(std::size_t count) {
-    loader.files["show"] = [count](Load& load) {
+    loader.files["show"] = [count](LoadedScene& load) {
       load.file = "many.evs";
       for (std::size_t i = 0; i < count; ++i) {
         LightRecord light = lamp(1, 100 * static_cast<double>(i));

@@ -22,14 +22,14 @@ void say(ScriptedInput& input, double seconds, float turn, float forward, const 
 
 /// Where the rig is after `seconds`.
 Pose driven(ScriptedInput input, double rate, double seconds, double speed = 2, double turnRate = 1,
-            const std::vector<std::pair<Verb, double>>& commands = {}) {
+            const std::vector<std::pair<CommandId, double>>& commands = {}) {
   ShowFixture show;
   show.rate = rate;
-  show.loader.files["show"] = [&](Load& load) {
+  show.loader.files["show"] = [&](LoadedScene& load) {
     addNode<NavigatorNode>(load, "nav", NavigatorNode::Attributes{speed, turnRate, false, "wand"}, true);
   };
   show.scene.open("show");
-  for (const auto& [verb, when] : commands) show.scene.command("nav", verb, {}, fromSeconds(when));
+  for (const auto& [command, when] : commands) show.scene.command("nav", command, {}, fromSeconds(when));
   for (TimeSignature now = signatureAt(show.next, rate); now.time <= fromSeconds(seconds);
        now = signatureAt(show.next, rate)) {
     input.sampleFrame(now.time - now.step, now.time, show.input);
@@ -88,8 +88,9 @@ TEST(Navigator, CommandsTakeEffectAtTheirTimeWithinAFrame) {
   say(input, 0, 0, 1);
   say(input, 10, 0, 1);
   for (const double rate : {30.0, 60.0, 240.0}) {
-    const Pose X = driven(input, rate, 3, 2, 1,
-                          {{Verb::Disable, 0.70001}, {Verb::Enable, 1.20002}, {Verb::Toggle, 2.00003}});
+    const Pose X =
+        driven(input, rate, 3, 2, 1,
+               {{CommandId::Disable, 0.70001}, {CommandId::Enable, 1.20002}, {CommandId::Toggle, 2.00003}});
     EXPECT_NEAR(X.p.y(), 2 * (0.70001 + 0.80001), 1e-8) << rate;
   }
 }

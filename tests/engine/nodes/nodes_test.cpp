@@ -24,9 +24,9 @@ Region sphereAt(const Vec3& centre, double radius) {
 TEST(UserTrigger, AVisitorInsideAtTheFirstFrameEntersThen) {
   ShowFixture show;
   ListeningNode* listener = nullptr;
-  show.loader.files["show"] = [&](Load& load) {
+  show.loader.files["show"] = [&](LoadedScene& load) {
     addNode<HeadTrigger>(load, "zone", sphereAt({0, 0, 0}, 100))
-        .addNotification(notify(Event("enter"), "listener", Verb::Enable));
+        .addNotification(notify(Event("enter"), "listener", CommandId::Enable));
     listener = &addNode<ListeningNode>(load, "listener");
   };
   show.scene.open("show");
@@ -38,10 +38,10 @@ TEST(UserTrigger, AVisitorInsideAtTheFirstFrameEntersThen) {
 TEST(UserTrigger, EventsCarryTheExactTimeOfTheCrossing) {
   ShowFixture show;
   ListeningNode* listener = nullptr;
-  show.loader.files["show"] = [&](Load& load) {
+  show.loader.files["show"] = [&](LoadedScene& load) {
     auto& zone = addNode<HeadTrigger>(load, "zone", sphereAt({0, 0, 0}, 1));
-    zone.addNotification(notify(Event("enter"), "listener", Verb::Enable, 1));
-    zone.addNotification(notify(Event("exit"), "listener", Verb::Disable, 1));
+    zone.addNotification(notify(Event("enter"), "listener", CommandId::Enable, 1));
+    zone.addNotification(notify(Event("exit"), "listener", CommandId::Disable, 1));
     listener = &addNode<ListeningNode>(load, "listener");
   };
   show.scene.open("show");
@@ -74,10 +74,10 @@ TEST(Path, MovesItsTargetAlongTheKeysAndTellsWhenItIsDone) {
   ShowFixture show;
   PlacedNode* target = nullptr;
   ListeningNode* listener = nullptr;
-  show.loader.files["show"] = [&](Load& load) {
+  show.loader.files["show"] = [&](LoadedScene& load) {
     target = &addNode<MovingNode>(load, "target", PlaceAttributes{}, false);
     addNode<PathNode>(load, "path", PlaceAttributes{}, NodeRef{load.number, 0}, square(), false, false, true)
-        .addNotification(notify(Event("finished"), "listener", Verb::Enable, 1));
+        .addNotification(notify(Event("finished"), "listener", CommandId::Enable, 1));
     listener = &addNode<ListeningNode>(load, "listener");
   };
   show.scene.open("show");

@@ -13,12 +13,12 @@ struct PathShow : ShowFixture {
 
   explicit PathShow(bool loop, double framesPerSecond = 60) {
     rate = framesPerSecond;
-    loader.files["show"] = [this, loop](Load& load) {
+    loader.files["show"] = [this, loop](LoadedScene& load) {
       target = &addNode<MovingNode>(load, "target", PlaceAttributes{}, false);
       const std::vector<Keyframe> keys{{0, {Vec3(0, 0, 0), Quat::Identity()}},
                                        {2, {Vec3(2, 0, 0), Quat::Identity()}}};
       addNode<PathNode>(load, "path", PlaceAttributes{}, NodeRef{load.number, 0}, keys, loop, false, true)
-          .addNotification(notify(Event("finished"), "listener", Verb::Toggle, 0.5));
+          .addNotification(notify(Event("finished"), "listener", CommandId::Toggle, 0.5));
       listener = &addNode<ListeningNode>(load, "listener");
     };
     scene.open("show");
@@ -33,7 +33,7 @@ TEST(PathCommands, DisableLeavesTheTargetWhereItIsAtTheCommandsTimeAtAnyRate) {
   for (const double rate : {30.0, 50.0, 60.0, 240.0}) {
     PathShow show(false, rate);
     show.until(0.9);
-    show.scene.command("path", Verb::Disable, {}, fromSeconds(1.2345));
+    show.scene.command("path", CommandId::Disable, {}, fromSeconds(1.2345));
     show.until(2.5);
     EXPECT_NEAR(show.x(), 1.2345, 1e-9) << rate;
     EXPECT_TRUE(show.listener->heard.empty());
@@ -42,8 +42,8 @@ TEST(PathCommands, DisableLeavesTheTargetWhereItIsAtTheCommandsTimeAtAnyRate) {
 
 TEST(PathCommands, EnableGoesOnWhereDisableStopped) {
   PathShow show(false);
-  show.scene.command("path", Verb::Disable, {}, fromSeconds(0.5));
-  show.scene.command("path", Verb::Enable, {}, fromSeconds(1.005));
+  show.scene.command("path", CommandId::Disable, {}, fromSeconds(0.5));
+  show.scene.command("path", CommandId::Enable, {}, fromSeconds(1.005));
   show.until(1.5);
   EXPECT_NEAR(show.x(), 0.995, 1e-9);
   show.until(4);
@@ -55,7 +55,7 @@ TEST(PathCommands, EnableAfterTheEndPlaysItAgainFromTheFirstKey) {
   PathShow show(false);
   show.until(3);
   EXPECT_NEAR(show.x(), 2, 1e-12);
-  show.scene.command("path", Verb::Enable, {}, fromSeconds(3.01));
+  show.scene.command("path", CommandId::Enable, {}, fromSeconds(3.01));
   show.until(4);
   EXPECT_NEAR(show.x(), 0.99, 1e-9);
   show.until(6);
@@ -65,7 +65,7 @@ TEST(PathCommands, EnableAfterTheEndPlaysItAgainFromTheFirstKey) {
 
 TEST(PathCommands, ACommandThatComesAfterTheEndInTheSameFrameFindsTheTargetAtTheEnd) {
   PathShow show(false, 2);
-  show.scene.command("path", Verb::Show, {}, fromSeconds(2.2));
+  show.scene.command("path", CommandId::Show, {}, fromSeconds(2.2));
   show.until(3);
   EXPECT_NEAR(show.x(), 2, 1e-12);
   EXPECT_EQ(show.scene.events().size(), 0u);

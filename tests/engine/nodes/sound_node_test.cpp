@@ -10,16 +10,16 @@ constexpr Nanoseconds kLength = 430'000'000;
 
 struct HeardShow : ShowFixture {
   explicit HeardShow(bool loop = false, bool on = false, std::vector<Nanoseconds> told = {},
-                     Verb verb = Verb::Enable) {
-    loader.files["show"] = [=, this](Load& load) {
+                     CommandId command = CommandId::Enable) {
+    loader.files["show"] = [=, this](LoadedScene& load) {
       SoundNode::Attributes a;
       a.file = "cheer.wav", a.length = kLength, a.loop = loop, a.gain = 0.5, a.range = 20;
       PlaceAttributes place;
       place.X_PN.translation() = Vec3(1, 2, 3);
       addNode<SoundNode>(load, "cheer", place, a, on)
-          .addNotification(notify(Event("finished"), "listener", Verb::Enable, 1));
+          .addNotification(notify(Event("finished"), "listener", CommandId::Enable, 1));
       addNode<SpeakingNode>(load, "speaker", told)
-          .addNotification(notify(Event("timesup"), "cheer", verb, 0.1));
+          .addNotification(notify(Event("timesup"), "cheer", command, 0.1));
       listener = &addNode<ListeningNode>(load, "listener");
     };
     scene.open("show");
@@ -75,7 +75,7 @@ TEST(SoundNode, EnabledAgainItPlaysFromItsStartAndEndsLater) {
 }
 
 TEST(SoundNode, StoppedItIsNeverFinished) {
-  HeardShow show(false, true, {fromSeconds(0.1)}, Verb::Disable);
+  HeardShow show(false, true, {fromSeconds(0.1)}, CommandId::Disable);
   show.frames(180);
   EXPECT_TRUE(show.finished().empty());
   EXPECT_TRUE(show.heard().sounds.empty());

@@ -1,5 +1,5 @@
 #include "engine/maths/angles.h"
-#include "engine/nodes/sway_node.h"
+#include "engine/nodes/oscillation_node.h"
 
 #include "engine/nodes/group_node.h"
 #include "tests/engine/scene/show_fixture.h"
@@ -13,8 +13,8 @@
 namespace stadion {
 namespace {
 
-SwayAttributes swell() {
-  SwayAttributes a;
+OscillationAttributes swell() {
+  OscillationAttributes a;
   a.amplitude = {2, 0.5, 1}, a.frequency = {0.2, 0.35, 0.5};
   a.phase = {0.3, -1, 2}, a.phaseStep = {0.7, 0.2, -0.4};
   a.angularVelocity = {0, 0, 0.8};
@@ -32,18 +32,19 @@ PlaceAttributes at(double x, double y, double z, double scale = 1) {
 struct SwayShow : ShowFixture {
   static constexpr std::uint32_t kBoats = 3;
   std::vector<PlacedNode*> boats;
-  SwayNode* sway = nullptr;
+  OscillationNode* sway = nullptr;
 
-  explicit SwayShow(double framesPerSecond = 60, SwayAttributes a = swell(), std::uint32_t count = kBoats) {
+  explicit SwayShow(double framesPerSecond = 60, OscillationAttributes a = swell(),
+                    std::uint32_t count = kBoats) {
     rate = framesPerSecond;
     const MeshId mesh = meshes.add(unitMesh());
-    loader.files["show"] = [this, a, mesh, count](Load& load) mutable {
+    loader.files["show"] = [this, a, mesh, count](LoadedScene& load) mutable {
       for (std::uint32_t i = 0; i < count; ++i) {
         a.targets.push_back({load.number, i});
         boats.push_back(
             &addNode<MovingNode>(load, "boat" + std::to_string(i), at(10 * i, 1, 2, 1 + i), false, mesh));
       }
-      sway = &addNode<SwayNode>(load, "sway", PlaceAttributes{}, a, true);
+      sway = &addNode<OscillationNode>(load, "sway", PlaceAttributes{}, a, true);
     };
     scene.open("show");
   }
@@ -54,7 +55,7 @@ struct SwayShow : ShowFixture {
 };
 
 Affine expected(std::size_t boat, double t) {
-  const SwayAttributes a = swell();
+  const OscillationAttributes a = swell();
   Affine X = at(10.0 * static_cast<double>(boat), 1, 2).X_PN;
   for (int i = 0; i < 3; ++i)
     X.translation()[i] += a.amplitude[i] * std::sin(2 * kPi * a.frequency[i] * t + a.phase[i] +
@@ -92,11 +93,11 @@ TEST(Sway, TurnsWhatLiesAslantAboutAnyAxis) {
   PlaceAttributes place;
   place.X_PN.linear() = Eigen::AngleAxisd(0.4, Vec3::UnitX()).toRotationMatrix() * Vec3(1, 2, 3).asDiagonal();
   const Vec3 omega(0.3, -0.2, 0.5);
-  show.loader.files["show"] = [&](Load& load) {
+  show.loader.files["show"] = [&](LoadedScene& load) {
     boat = &addNode<MovingNode>(load, "boat", place, false);
-    SwayAttributes a;
+    OscillationAttributes a;
     a.targets = {{load.number, 0}}, a.angularVelocity = omega;
-    addNode<SwayNode>(load, "sway", PlaceAttributes{}, a, true);
+    addNode<OscillationNode>(load, "sway", PlaceAttributes{}, a, true);
   };
   show.scene.open("show");
   while (show.input.time < fromSeconds(2)) show.frame();
@@ -124,7 +125,7 @@ TEST(Sway, DisableLeavesTheTargetsWhereTheyAreAtTheCommandsTime) {
   for (const double rate : {30.0, 60.0, 240.0}) {
     SwayShow show(rate);
     show.until(0.9);
-    show.scene.command("sway", Verb::Disable, {}, fromSeconds(1.2345));
+    show.scene.command("sway", CommandId::Disable, {}, fromSeconds(1.2345));
     show.until(2);
     expectAt(show, 1.2345);
     show.frame();
@@ -133,24 +134,24 @@ TEST(Sway, DisableLeavesTheTargetsWhereTheyAreAtTheCommandsTime) {
   }
 }
 
-TEST(Sway, EnableGoesOnWhereDisableStoppedAndResetBeginsAnew) {
+TEST(Sway, EnableGoesOnWhereDisableStoppedAndResetRestarts) {
   SwayShow show;
-  show.scene.command("sway", Verb::Disable, {}, fromSeconds(0.5));
-  show.scene.command("sway", Verb::Enable, {}, fromSeconds(1.25));
+  show.scene.command("sway", CommandId::Disable, {}, fromSeconds(0.5));
+  show.scene.command("sway", CommandId::Enable, {}, fromSeconds(1.25));
   show.until(2);
   expectAt(show, 1.25);
-  show.scene.command("sway", Verb::Reset, {}, fromSeconds(2.5));
+  show.scene.command("sway", CommandId::Reset, {}, fromSeconds(2.5));
   show.until(3);
   expectAt(show, 0.5);
 }
 
 TEST(Sway, TheStateFollowsFromTheTimeForWhichItWasOn) {
   SwayShow one, other;
-  one.scene.command("sway", Verb::Disable, {}, fromSeconds(0.5));
-  other.scene.command("sway", Verb::Disable, {}, fromSeconds(0.6));
+  one.scene.command("sway", CommandId::Disable, {}, fromSeconds(0.5));
+  other.scene.command("sway", CommandId::Disable, {}, fromSeconds(0.6));
   // From then on both have been on for as long.
-  other.scene.command("sway", Verb::Reset, {}, fromSeconds(1));
-  one.scene.command("sway", Verb::Reset, {}, fromSeconds(1));
+  other.scene.command("sway", CommandId::Reset, {}, fromSeconds(1));
+  one.scene.command("sway", CommandId::Reset, {}, fromSeconds(1));
   one.until(0.8), other.until(0.8);
   EXPECT_NE(one.scene.stateHash(), other.scene.stateHash());
   one.until(2), other.until(2);
@@ -160,8 +161,8 @@ TEST(Sway, TheStateFollowsFromTheTimeForWhichItWasOn) {
 TEST(Sway, WhatFollowsATrackerIsLeftAloneUntilItIsDetached) {
   SwayShow show;
   show.tracker("wand", {5, 5, 5});
-  show.scene.command("boat1", Verb::Attach, {"all", "wand"}, fromSeconds(0.5));
-  show.scene.command("boat1", Verb::Detach, {}, fromSeconds(1.5));
+  show.scene.command("boat1", CommandId::Attach, {"all", "wand"}, fromSeconds(0.5));
+  show.scene.command("boat1", CommandId::Detach, {}, fromSeconds(1.5));
   show.until(1);
   EXPECT_LT((show.placeOf(1).translation() - Vec3(5, 5, 5)).norm(), 1e-12);
   show.until(2);
@@ -171,15 +172,15 @@ TEST(Sway, WhatFollowsATrackerIsLeftAloneUntilItIsDetached) {
 TEST(Sway, WithoutTargetsItMovesWhatStandsBelowIt) {
   ShowFixture show;
   PlacedNode* below = nullptr;
-  show.loader.files["show"] = [&](Load& load) {
-    addNode<SwayNode>(load, "sway", at(0, 0, 1), swell(), true);
+  show.loader.files["show"] = [&](LoadedScene& load) {
+    addNode<OscillationNode>(load, "sway", at(0, 0, 1), swell(), true);
     PlaceAttributes place = at(3, 0, 0);
     place.parent = {load.number, 0};
     below = &addNode<MovingNode>(load, "below", place, false);
   };
   show.scene.open("show");
   while (show.input.time < fromSeconds(1)) show.frame();
-  const SwayAttributes a = swell();
+  const OscillationAttributes a = swell();
   Vec3 p = Vec3(0, 0, 1) + Eigen::AngleAxisd(0.8, Vec3::UnitZ()) * Vec3(3, 0, 0);
   for (int i = 0; i < 3; ++i) p[i] += a.amplitude[i] * std::sin(2 * kPi * a.frequency[i] + a.phase[i]);
   EXPECT_LT((show.scene.placements().world(below->placement()).translation() - p).norm(), 1e-12);
@@ -213,17 +214,17 @@ TEST(Sway, EachIsPublishedOnceWhereItIsWhateverBecomesOfIt) {
   show.tracker("wand", {5, 5, 5});
   Published published;
   std::mt19937 random(5);
-  const std::vector<std::pair<Verb, std::vector<std::string>>> commands{
-      {Verb::Hide, {}},   {Verb::Show, {}},  {Verb::Attach, {"all", "wand"}},
-      {Verb::Detach, {}}, {Verb::Reset, {}}, {Verb::Attach, {"position", "wand"}}};
+  const std::vector<std::pair<CommandId, std::vector<std::string>>> commands{
+      {CommandId::Hide, {}},   {CommandId::Show, {}},  {CommandId::Attach, {"all", "wand"}},
+      {CommandId::Detach, {}}, {CommandId::Reset, {}}, {CommandId::Attach, {"position", "wand"}}};
   for (int frame = 0; frame < 200; ++frame) {
     show.tracker("wand", Vec3(5, 5, 0.01 * frame));
-    const auto& [verb, arguments] = commands[random() % commands.size()];
+    const auto& [command, arguments] = commands[random() % commands.size()];
     const std::string target = random() % 20 == 0 ? "sway" : "boat" + std::to_string(random() % 150);
     if (target != "sway")
-      show.scene.command(target, verb, arguments, show.input.time);
+      show.scene.command(target, command, arguments, show.input.time);
     else
-      show.scene.command(target, frame % 2 ? Verb::Toggle : Verb::Reset, {}, show.input.time);
+      show.scene.command(target, frame % 2 ? CommandId::Toggle : CommandId::Reset, {}, show.input.time);
     show.frame();
     published.follow(show);
     if (HasFatalFailure()) return;
@@ -234,7 +235,7 @@ TEST(Sway, AVisitorItCarriesGoesAlongAlsoWhenHeComesLater) {
   SwayShow show;
   show.until(0.5);
   PlacedNode* rider = nullptr;
-  show.loader.files["rider"] = [&](Load& load) {
+  show.loader.files["rider"] = [&](LoadedScene& load) {
     PlaceAttributes above = at(0, 0, 1);
     above.parent = show.boats[1]->self();
     rider = &addNode<MovingNode>(load, "rider", above, false);
@@ -251,13 +252,13 @@ TEST(Sway, WhatItMovedStaysWhereItIsWhenItIsUnloaded) {
   ShowFixture show;
   PlacedNode* boat = nullptr;
   const MeshId mesh = show.meshes.add(unitMesh());
-  show.loader.files["show"] = [&](Load& load) {
+  show.loader.files["show"] = [&](LoadedScene& load) {
     boat = &addNode<MovingNode>(load, "boat", at(0, 1, 2), false, mesh);
   };
-  show.loader.files["swell"] = [&](Load& load) {
-    SwayAttributes a = swell();
+  show.loader.files["swell"] = [&](LoadedScene& load) {
+    OscillationAttributes a = swell();
     a.targets = {boat->self()};
-    addNode<SwayNode>(load, "sway", PlaceAttributes{}, a, true);
+    addNode<OscillationNode>(load, "sway", PlaceAttributes{}, a, true);
   };
   show.scene.open("show");
   const std::uint32_t swellLoad = show.scene.requestLoad("swell", {}, 0);
@@ -276,18 +277,18 @@ TEST(Sway, WhatAnotherMovesAsItBeginsIsPublishedOnce) {
   ShowFixture show;
   PlacedNode* boat = nullptr;
   const MeshId mesh = show.meshes.add(unitMesh());
-  show.loader.files["show"] = [&](Load& load) {
+  show.loader.files["show"] = [&](LoadedScene& load) {
     boat = &addNode<MovingNode>(load, "boat", at(0, 1, 2), false, mesh);
   };
-  show.loader.files["swell"] = [&](Load& load) {
-    SwayAttributes a = swell();
+  show.loader.files["swell"] = [&](LoadedScene& load) {
+    OscillationAttributes a = swell();
     a.targets = {boat->self()};
-    addNode<SwayNode>(load, "sway", PlaceAttributes{}, a, true);
+    addNode<OscillationNode>(load, "sway", PlaceAttributes{}, a, true);
   };
   show.scene.open("show");
   show.frames(3);
   show.scene.requestLoad("swell", {}, show.input.time);
-  show.scene.command("boat", Verb::Reset, {}, show.input.time);
+  show.scene.command("boat", CommandId::Reset, {}, show.input.time);
   show.frame();
   EXPECT_EQ(show.changes.instances.size(), 1u);
   EXPECT_EQ(show.changes.instances[0].record.model[3],
@@ -297,14 +298,14 @@ TEST(Sway, WhatAnotherMovesAsItBeginsIsPublishedOnce) {
 TEST(Sway, OfTwoThatMoveTheSameTheLaterOneCounts) {
   ShowFixture show;
   PlacedNode* boat = nullptr;
-  SwayAttributes other = swell();
+  OscillationAttributes other = swell();
   other.amplitude = {0, 0, 3};
-  show.loader.files["show"] = [&](Load& load) {
+  show.loader.files["show"] = [&](LoadedScene& load) {
     boat = &addNode<MovingNode>(load, "boat", at(0, 1, 2), false);
-    SwayAttributes a = swell();
+    OscillationAttributes a = swell();
     a.targets = other.targets = {boat->self()};
-    addNode<SwayNode>(load, "first", PlaceAttributes{}, a, true);
-    addNode<SwayNode>(load, "second", PlaceAttributes{}, other, true);
+    addNode<OscillationNode>(load, "first", PlaceAttributes{}, a, true);
+    addNode<OscillationNode>(load, "second", PlaceAttributes{}, other, true);
   };
   show.scene.open("show");
   while (show.input.time < fromSeconds(1)) show.frame();
@@ -343,13 +344,13 @@ TEST(Sway, ReportsTheWayInsideTheFrameToNodesThatWatch) {
   ShowFixture show;
   show.rate = 5;
   Onlooker* onlooker = nullptr;
-  show.loader.files["show"] = [&](Load& load) {
-    SwayAttributes a = swell();
+  show.loader.files["show"] = [&](LoadedScene& load) {
+    OscillationAttributes a = swell();
     for (std::uint32_t i = 0; i < 2; ++i) {
       a.targets.push_back({load.number, i});
       addNode<MovingNode>(load, "boat" + std::to_string(i), at(10 * i, 1, 2, 1 + i), false);
     }
-    addNode<SwayNode>(load, "sway", PlaceAttributes{}, a, true);
+    addNode<OscillationNode>(load, "sway", PlaceAttributes{}, a, true);
     onlooker = &addNode<Onlooker>(load, "onlooker", NodeRef{load.number, 1});
   };
   show.scene.open("show");

@@ -17,14 +17,14 @@ std::size_t trianglesOf(const std::string& text, const TextStyle& style = {}) {
 struct TextShow : ShowFixture {
   TextNode* board = nullptr;
   explicit TextShow(const std::string& words) {
-    loader.files["show"] = [this, words](Load& load) {
+    loader.files["show"] = [this, words](LoadedScene& load) {
       board = &addNode<TextNode>(load, "board", PlaceAttributes{}, words, TextStyle{});
     };
     scene.open("show");
     frame();
   }
   void say(const std::string& words) {
-    scene.command("board", Verb::Say, {words}, input.time);
+    scene.command("board", CommandId::Say, {words}, input.time);
     frame();
   }
 };
@@ -146,7 +146,7 @@ TEST(Text, ResetBringsItsFirstWordsBackAndTheSameWordsCostNothing) {
   show.say("");
   ASSERT_EQ(show.changes.instances.size(), 1u);
   EXPECT_LT(show.changes.instances[0].record.radius, 0) << "nothing is there to be drawn";
-  show.scene.command("board", Verb::Reset, {}, show.input.time);
+  show.scene.command("board", CommandId::Reset, {}, show.input.time);
   show.frame();
   EXPECT_EQ(show.board->words(), "ready");
 }

@@ -11,9 +11,9 @@ TEST(Timer, KeepsExactTimeAtAnyFrameRateAndIsNotVisitedBetween) {
     ShowFixture show;
     show.rate = rate;
     ListeningNode* listener = nullptr;
-    show.loader.files["show"] = [&](Load& load) {
+    show.loader.files["show"] = [&](LoadedScene& load) {
       addDeclared(load, "clock", "timer( period=0.123, repeat=on )")
-          .addNotification(notify(Event("timesup"), "listener", Verb::Toggle, 0.5));
+          .addNotification(notify(Event("timesup"), "listener", CommandId::Toggle, 0.5));
       listener = &addNode<ListeningNode>(load, "listener");
     };
     show.scene.open("show");

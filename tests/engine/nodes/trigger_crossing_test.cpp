@@ -30,15 +30,16 @@ Region slab(const Vec3& halfSize) {
 /// What a trigger tells when a device goes as scripted.
 std::vector<EventRecord> told(const Region& region, ScriptedInput input, double rate, double seconds,
                               const std::string& tracker = "head",
-                              const std::vector<std::pair<Verb, double>>& commands = {}, bool on = true) {
+                              const std::vector<std::pair<CommandId, double>>& commands = {},
+                              bool on = true) {
   ShowFixture show;
   show.rate = rate;
-  show.loader.files["show"] = [&](Load& load) {
+  show.loader.files["show"] = [&](LoadedScene& load) {
     const NodeType& type = tracker == "head" ? kUserTriggerType : kWandTriggerType;
     addNode<TellingTrigger>(load, "zone", type, region, tracker, PlaceAttributes{}, on);
   };
   show.scene.open("show");
-  for (const auto& [verb, when] : commands) show.scene.command("zone", verb, {}, fromSeconds(when));
+  for (const auto& [command, when] : commands) show.scene.command("zone", command, {}, fromSeconds(when));
   std::vector<EventRecord> all;
   for (TimeSignature now = signatureAt(show.next, rate); now.time <= fromSeconds(seconds);
        now = signatureAt(show.next, rate)) {
@@ -147,15 +148,16 @@ TEST(TriggerCrossing, ATriggerThatWasDisabledMeanwhileTellsNoRelease) {
   input.key("wand", 0, {0, 0, 0}).key("wand", 0.2, {0, 0, 0}, Vec3::Zero(), false, 1);
   input.key("wand", 0.8, {0, 0, 0});
   for (const double rate : {4.0, 60.0})
-    expectEvents(told(ballRegion(1), input, rate, 1, "wand", {{Verb::Disable, 0.5}, {Verb::Enable, 0.6}}),
-                 {{Event("enter"), 0}, {Event("button1"), 0.2}, {Event("enter"), 0.6}});
+    expectEvents(
+        told(ballRegion(1), input, rate, 1, "wand", {{CommandId::Disable, 0.5}, {CommandId::Enable, 0.6}}),
+        {{Event("enter"), 0}, {Event("button1"), 0.2}, {Event("enter"), 0.6}});
 }
 
 TEST(TriggerCrossing, WhetherAReleaseWillBeToldIsPartOfTheState) {
   // Pressed inside or before it came in: in the end all is the same, but for what the release will do.
   const auto hashAfter = [](const Vec3& pressedAt) {
     ShowFixture show;
-    show.loader.files["show"] = [](Load& load) {
+    show.loader.files["show"] = [](LoadedScene& load) {
       addNode<TellingTrigger>(load, "zone", kWandTriggerType, ballRegion(1), "wand");
     };
     show.scene.open("show");
@@ -178,7 +180,8 @@ TEST(TriggerCrossing, DisableEndsTheWatchAtItsTimeWithinTheFrame) {
   ScriptedInput input;
   input.key("head", 0, {-2, 0, 0}).key("head", 1, {2, 0, 0});
   for (const double rate : {4.0, 60.0})
-    expectEvents(told(ballRegion(1), input, rate, 1, "head", {{Verb::Disable, 0.6}}), {{Event("enter"), 0.25}});
+    expectEvents(told(ballRegion(1), input, rate, 1, "head", {{CommandId::Disable, 0.6}}),
+                 {{Event("enter"), 0.25}});
 }
 
 TEST(TriggerCrossing, EnableBeginsTheWatchAtItsTimeWithinTheFrame) {
@@ -188,14 +191,14 @@ TEST(TriggerCrossing, EnableBeginsTheWatchAtItsTimeWithinTheFrame) {
   for (const double rate : {5.0, 30.0, 60.0, 144.0, 1000.0})
     for (const std::string device : {"head", "wand"})
       expectEvents(told(ballRegion(0.05), device == "head" ? head : wand, rate, 1.2, device,
-                        {{Verb::Enable, 0.6017}}, false),
+                        {{CommandId::Enable, 0.6017}}, false),
                    {{Event("enter"), 0.6017}, {Event("exit"), 0.605}});
 }
 
 TEST(TriggerCrossing, ATriggerThatMovesPastAVisitorNoticesThem) {
   ShowFixture show;
   show.rate = 4;
-  show.loader.files["show"] = [&](Load& load) {
+  show.loader.files["show"] = [&](LoadedScene& load) {
     addNode<MovingNode>(load, "carrier");  // 1 m/s along x
     PlaceAttributes below;
     below.parent = {load.number, 0};

@@ -18,8 +18,8 @@ struct CountingLoader : SceneLoader {
     requested.push_back(number);
   }
   bool takesEffect(std::uint32_t, Nanoseconds) override { return !late; }
-  std::unique_ptr<Load> take(std::uint32_t) override { return nullptr; }
-  void dispose(std::unique_ptr<Load>, std::uint64_t) override {}
+  std::unique_ptr<LoadedScene> take(std::uint32_t) override { return nullptr; }
+  void dispose(std::unique_ptr<LoadedScene>, std::uint64_t) override {}
 };
 
 TimeSignature at(Nanoseconds time) {

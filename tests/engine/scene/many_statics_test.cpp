@@ -10,7 +10,8 @@ namespace stadion {
 namespace {
 
 /// Static objects with names, in one chunk.
-void addStatics(Load& load, std::uint32_t count, const std::vector<InstanceRecord>& records, ChunkId chunk) {
+void addStatics(LoadedScene& load, std::uint32_t count, const std::vector<InstanceRecord>& records,
+                ChunkId chunk) {
   load.nodes.resize(count);
   load.chunk = chunk, load.staticType = &kObjectType;
   load.chunkRecords = records;
@@ -27,7 +28,7 @@ TEST(ManyStatics, APromotedObjectKeepsItsNameHoweverManyThereAre) {
   const MeshId mesh = show.meshes.add(unitMesh());
   std::vector<InstanceRecord> records(
       kAll, makeInstance(Affine::Identity(), *show.meshes.find(mesh), mesh, true, NodeRef{}));
-  show.loader.files["show"] = [&](Load& load) { addStatics(load, kAll, records, 5); };
+  show.loader.files["show"] = [&](LoadedScene& load) { addStatics(load, kAll, records, 5); };
   show.scene.open("show");
   // Walking the table of names for each would be a thousand million steps.
   for (std::uint32_t i = 0; i < kSome; ++i) {
@@ -45,8 +46,8 @@ TEST(ManyStatics, FilesBeyondTheNumberOfChunksAreShownObjectByObject) {
   const std::vector<InstanceRecord> records(
       2, makeInstance(Affine::Identity(), *show.meshes.find(mesh), mesh, true, NodeRef{}));
   ChunkId next = 1;
-  show.loader.files["part"] = [&](Load& load) { addStatics(load, 2, records, next++); };
-  show.loader.files["show"] = [](Load& load) {
+  show.loader.files["part"] = [&](LoadedScene& load) { addStatics(load, 2, records, next++); };
+  show.loader.files["show"] = [](LoadedScene& load) {
     for (std::size_t i = 0; i < kMostChunks + 3; ++i)
       addNode<SceneNode>(load, "part" + std::to_string(i), PlaceAttributes{}, "part", Nanoseconds{0}, true);
   };
@@ -55,9 +56,9 @@ TEST(ManyStatics, FilesBeyondTheNumberOfChunksAreShownObjectByObject) {
   EXPECT_EQ(show.changes.chunks.size(), kMostChunks);
   EXPECT_EQ(show.changes.instances.size(), 6u) << "the objects of the last three files";
   // A chunk that goes makes room for the next one.
-  show.scene.command("part0", Verb::Unload, {}, 0);
+  show.scene.command("part0", CommandId::Unload, {}, 0);
   show.frames(2);
-  show.scene.command("part0", Verb::Load, {}, show.input.time);
+  show.scene.command("part0", CommandId::Load, {}, show.input.time);
   show.frames(2);
   std::size_t shown = 0;
   for (int i = 0; i < 3; ++i, show.frame())

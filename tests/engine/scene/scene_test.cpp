@@ -12,7 +12,7 @@ TEST(Scene, VisitsOnlyTheNodesThatHaveSomethingToDo) {
   ShowFixture show;
   const MeshId mesh = show.meshes.add(unitMesh());
   std::vector<InstanceRecord> records(100000);
-  show.loader.files["show"] = [&](Load& load) {
+  show.loader.files["show"] = [&](LoadedScene& load) {
     load.nodes.resize(100000);
     load.chunk = 1;
     load.chunkRecords = records;
@@ -34,10 +34,10 @@ TEST(Scene, VisitsOnlyTheNodesThatHaveSomethingToDo) {
 TEST(Scene, DeliversMessagesInTheReceiversNextCycleAndNotBefore) {
   ShowFixture show;
   ListeningNode* listener = nullptr;
-  show.loader.files["show"] = [&](Load& load) {
+  show.loader.files["show"] = [&](LoadedScene& load) {
     // The listener stands behind the speaker: in the same frame it would hear it too early.
     addNode<SpeakingNode>(load, "speaker", std::vector<Nanoseconds>{fromSeconds(0.040)})
-        .addNotification(notify(Event("timesup"), "listener", Verb::Enable));
+        .addNotification(notify(Event("timesup"), "listener", CommandId::Enable));
     listener = &addNode<ListeningNode>(load, "listener");
   };
   show.scene.open("show");
@@ -53,9 +53,9 @@ TEST(Scene, ADelayCountsFromTheEventItselfWhateverTheFrameRate) {
     ShowFixture show;
     show.rate = rate;
     ListeningNode* listener = nullptr;
-    show.loader.files["show"] = [&](Load& load) {
+    show.loader.files["show"] = [&](LoadedScene& load) {
       addNode<SpeakingNode>(load, "speaker", std::vector<Nanoseconds>{fromSeconds(0.0411)})
-          .addNotification(notify(Event("timesup"), "listener", Verb::Enable, 0.2));
+          .addNotification(notify(Event("timesup"), "listener", CommandId::Enable, 0.2));
       listener = &addNode<ListeningNode>(load, "listener");
     };
     show.scene.open("show");
@@ -68,34 +68,34 @@ TEST(Scene, ADelayCountsFromTheEventItselfWhateverTheFrameRate) {
 TEST(Scene, OrdersMessagesByTimeThenSenderThenSequence) {
   ShowFixture show;
   ListeningNode* listener = nullptr;
-  show.loader.files["show"] = [&](Load& load) {
+  show.loader.files["show"] = [&](LoadedScene& load) {
     listener = &addNode<ListeningNode>(load, "listener");
     auto& late = addNode<SpeakingNode>(load, "late", std::vector<Nanoseconds>{fromSeconds(0.012)});
-    late.addNotification(notify(Event("timesup"), "listener", Verb::Hide));
-    late.addNotification(notify(Event("timesup"), "listener", Verb::Show));
+    late.addNotification(notify(Event("timesup"), "listener", CommandId::Hide));
+    late.addNotification(notify(Event("timesup"), "listener", CommandId::Show));
     addNode<SpeakingNode>(load, "early", std::vector<Nanoseconds>{fromSeconds(0.011)})
-        .addNotification(notify(Event("timesup"), "listener", Verb::Enable));
+        .addNotification(notify(Event("timesup"), "listener", CommandId::Enable));
     addNode<SpeakingNode>(load, "same", std::vector<Nanoseconds>{fromSeconds(0.012)})
-        .addNotification(notify(Event("timesup"), "listener", Verb::Disable));
+        .addNotification(notify(Event("timesup"), "listener", CommandId::Disable));
   };
   show.scene.open("show");
   show.frames(4);
   ASSERT_EQ(listener->heard.size(), 4u);
-  EXPECT_EQ(listener->heard[0].verb, Verb::Enable);
-  EXPECT_EQ(listener->heard[1].verb, Verb::Hide);
-  EXPECT_EQ(listener->heard[2].verb, Verb::Show);
-  EXPECT_EQ(listener->heard[3].verb, Verb::Disable);
+  EXPECT_EQ(listener->heard[0].command, CommandId::Enable);
+  EXPECT_EQ(listener->heard[1].command, CommandId::Hide);
+  EXPECT_EQ(listener->heard[2].command, CommandId::Show);
+  EXPECT_EQ(listener->heard[3].command, CommandId::Disable);
 }
 
 TEST(Scene, LoadsAndUnloadsASubSceneAtAFixedShowTime) {
   ShowFixture show;
-  show.loader.files["game"] = [](Load& load) { addNode<MovingNode>(load, "ball"); };
-  show.loader.files["show"] = [](Load& load) {
+  show.loader.files["game"] = [](LoadedScene& load) { addNode<MovingNode>(load, "ball"); };
+  show.loader.files["show"] = [](LoadedScene& load) {
     addNode<SceneNode>(load, "game", PlaceAttributes{}, "game", fromSeconds(0.1), false);
   };
   show.scene.open("show");
   show.frames(2);
-  show.scene.command("game", Verb::Load, {}, signatureAt(2, 60).time);
+  show.scene.command("game", CommandId::Load, {}, signatureAt(2, 60).time);
   std::uint64_t arrived = 0;
   for (int n = 0; n < 12; ++n) {
     show.frame();
@@ -103,7 +103,7 @@ TEST(Scene, LoadsAndUnloadsASubSceneAtAFixedShowTime) {
   }
   EXPECT_EQ(arrived, 8u) << "frame 2's end (33.3 ms) + 100 ms = 133.3 ms, the end of frame 8";
   EXPECT_TRUE(show.scene.tree().resolve("game/ball", {1, 0}).valid());
-  show.scene.command("game", Verb::Unload, {}, show.input.time);
+  show.scene.command("game", CommandId::Unload, {}, show.input.time);
   show.frames(12);
   EXPECT_EQ(show.scene.tree().loads().size(), 1u);
   EXPECT_EQ(show.loader.disposed, 1u);
@@ -112,16 +112,16 @@ TEST(Scene, LoadsAndUnloadsASubSceneAtAFixedShowTime) {
 
 TEST(Scene, AFileThatComesLateTakesEffectAndIsToldWhenItWasDecided) {
   ShowFixture show;
-  show.loader.files["game"] = [](Load& load) { addNode<MovingNode>(load, "ball"); };
-  show.loader.files["show"] = [](Load& load) {
+  show.loader.files["game"] = [](LoadedScene& load) { addNode<MovingNode>(load, "ball"); };
+  show.loader.files["show"] = [](LoadedScene& load) {
     auto& game = addNode<SceneNode>(load, "game", PlaceAttributes{}, "game", fromSeconds(0.1), false);
-    game.addNotification(notify(Event("loaded"), "ear", Verb::Enable));
+    game.addNotification(notify(Event("loaded"), "ear", CommandId::Enable));
     addNode<ListeningNode>(load, "ear");
   };
   show.loader.late[2] = fromSeconds(0.2);
   show.scene.open("show");
   show.frames(1);
-  show.scene.command("game", Verb::Load, {}, signatureAt(1, 60).time);
+  show.scene.command("game", CommandId::Load, {}, signatureAt(1, 60).time);
   show.frames(11);
   EXPECT_EQ(show.scene.tree().loads().size(), 1u) << "due at 0.117 s; frame 11 is at 0.183 s";
   EXPECT_TRUE(show.scene.requests().awaits(2));
@@ -138,8 +138,8 @@ TEST(Scene, AFileThatComesLateTakesEffectAndIsToldWhenItWasDecided) {
 TEST(Scene, WithoutMemoryToDisposeOfItsFilesItGoesAllTheSame) {
   TestLoader loader;
   MeshStore meshes;
-  loader.files["game"] = [](Load& load) { addNode<MovingNode>(load, "ball"); };
-  loader.files["show"] = [](Load& load) {
+  loader.files["game"] = [](LoadedScene& load) { addNode<MovingNode>(load, "ball"); };
+  loader.files["show"] = [](LoadedScene& load) {
     addNode<SceneNode>(load, "game", PlaceAttributes{}, "game", fromSeconds(0.1), true);
   };
   {
@@ -153,16 +153,16 @@ TEST(Scene, WithoutMemoryToDisposeOfItsFilesItGoesAllTheSame) {
 
 TEST(Scene, AFileThatIsUnloadedBeforeItComesDoesNotStay) {
   ShowFixture show;
-  show.loader.files["game"] = [](Load& load) { addNode<MovingNode>(load, "ball"); };
-  show.loader.files["show"] = [](Load& load) {
+  show.loader.files["game"] = [](LoadedScene& load) { addNode<MovingNode>(load, "ball"); };
+  show.loader.files["show"] = [](LoadedScene& load) {
     addNode<SceneNode>(load, "game", PlaceAttributes{}, "game", fromSeconds(0.1), false);
   };
   show.loader.late[2] = fromSeconds(0.5);
   show.scene.open("show");
   show.frames(1);
-  show.scene.command("game", Verb::Load, {}, signatureAt(1, 60).time);
+  show.scene.command("game", CommandId::Load, {}, signatureAt(1, 60).time);
   show.frames(2);
-  show.scene.command("game", Verb::Unload, {}, show.input.time);
+  show.scene.command("game", CommandId::Unload, {}, show.input.time);
   show.frames(40);
   EXPECT_EQ(show.scene.tree().loads().size(), 1u);
   EXPECT_EQ(show.loader.disposed, 1u);
@@ -171,11 +171,11 @@ TEST(Scene, AFileThatIsUnloadedBeforeItComesDoesNotStay) {
 
 TEST(Scene, NamesResolveInTheFileThenOutwards) {
   ShowFixture show;
-  show.loader.files["game"] = [](Load& load) {
+  show.loader.files["game"] = [](LoadedScene& load) {
     addNode<MovingNode>(load, "ball");
     addNode<MovingNode>(load, "own");
   };
-  show.loader.files["show"] = [](Load& load) {
+  show.loader.files["show"] = [](LoadedScene& load) {
     addNode<MovingNode>(load, "ball");
     addNode<MovingNode>(load, "field");
     addNode<SceneNode>(load, "game", PlaceAttributes{}, "game", 0, true);
@@ -191,9 +191,9 @@ TEST(Scene, NamesResolveInTheFileThenOutwards) {
 
 TEST(Scene, MessagesToAnUnloadedNodeAreCountedAndHarmless) {
   ShowFixture show;
-  show.loader.files["show"] = [](Load& load) {
+  show.loader.files["show"] = [](LoadedScene& load) {
     addNode<SpeakingNode>(load, "speaker", std::vector<Nanoseconds>{1})
-        .addNotification(notify(Event("timesup"), "missing/node", Verb::Enable));
+        .addNotification(notify(Event("timesup"), "missing/node", CommandId::Enable));
   };
   show.scene.open("show");
   show.frame();
@@ -207,7 +207,7 @@ TEST(Scene, AStaticObjectBecomesANodeWhenItIsAddressed) {
   Affine X = Affine::Identity();
   X.translation() = Vec3(1, 2, 3);
   const std::vector<InstanceRecord> records{makeInstance(X, *show.meshes.find(mesh), mesh, true, NodeRef{})};
-  show.loader.files["show"] = [&](Load& load) {
+  show.loader.files["show"] = [&](LoadedScene& load) {
     load.nodes.resize(1);
     load.chunk = 5;
     load.chunkRecords = records;
@@ -218,7 +218,7 @@ TEST(Scene, AStaticObjectBecomesANodeWhenItIsAddressed) {
   show.scene.open("show");
   show.frame();
   EXPECT_TRUE(show.changes.instances.empty());
-  show.scene.command("stone", Verb::Hide, {}, 0);
+  show.scene.command("stone", CommandId::Hide, {}, 0);
   show.frame();
   ASSERT_EQ(show.changes.statics.size(), 1u);
   EXPECT_TRUE(show.changes.statics[0].hidden);
@@ -230,7 +230,7 @@ TEST(Scene, AStaticObjectBecomesANodeWhenItIsAddressed) {
 TEST(Scene, TheStateHashTellsStatesApartAndAgreesOnEqualOnes) {
   const auto run = [](double x, int frames) {
     ShowFixture show;
-    show.loader.files["show"] = [&](Load& load) {
+    show.loader.files["show"] = [&](LoadedScene& load) {
       PlaceAttributes place;
       place.X_PN.translation().x() = x;
       addNode<MovingNode>(load, "a", place, false);
@@ -248,21 +248,21 @@ TEST(Scene, TheStateHashTellsStatesApartAndAgreesOnEqualOnes) {
 TEST(Scene, ANodeAttachedToATrackerFollowsItThroughTheRig) {
   ShowFixture show;
   PlacedNode* leg = nullptr;
-  show.loader.files["show"] = [&](Load& load) {
+  show.loader.files["show"] = [&](LoadedScene& load) {
     leg = &addNode<MovingNode>(load, "leg", PlaceAttributes{}, false);
   };
   show.scene.open("show");
   show.tracker("foot", {1, 2, 0.5});
   show.scene.moveRig({Vec3(10, 0, 0), Quat::Identity()});
-  show.scene.command("leg", Verb::Attach, {"all"}, 0);
+  show.scene.command("leg", CommandId::Attach, {"all"}, 0);
   show.frames(2);
   EXPECT_EQ(show.scene.placements().world(leg->placement()).translation(), Vec3(11, 2, 0.5));
-  show.scene.command("leg", Verb::Detach, {}, show.input.time);
+  show.scene.command("leg", CommandId::Detach, {}, show.input.time);
   show.frame();
   show.tracker("foot", {5, 5, 5});
   show.frame();
   EXPECT_EQ(show.scene.placements().world(leg->placement()).translation(), Vec3(11, 2, 0.5));
-  show.scene.command("leg", Verb::Reset, {}, show.input.time);
+  show.scene.command("leg", CommandId::Reset, {}, show.input.time);
   show.frame();
   EXPECT_EQ(show.scene.placements().world(leg->placement()).translation(), Vec3(0, 0, 0));
 }

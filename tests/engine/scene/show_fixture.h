@@ -14,7 +14,7 @@ namespace stadion {
 /// Prepares loads in place, at once.
 class TestLoader : public SceneLoader {
 public:
-  using Recipe = std::function<void(Load&)>;
+  using Recipe = std::function<void(LoadedScene&)>;
   std::map<std::string, Recipe> files;
   std::size_t disposed = 0;
   bool lacksMemory = false;                   ///< for what is disposed of
@@ -26,29 +26,29 @@ public:
     return at == late.end() || now >= at->second;
   }
   void request(std::uint32_t number, const std::string& file, NodeRef owner, const Affine&) override {
-    auto load = std::make_unique<Load>();
+    auto load = std::make_unique<LoadedScene>();
     load->number = number, load->file = file, load->owner = owner;
     files.at(file)(*load);
     ready_[number] = std::move(load);
   }
-  std::unique_ptr<Load> take(std::uint32_t number) override {
+  std::unique_ptr<LoadedScene> take(std::uint32_t number) override {
     auto load = std::move(ready_[number]);
     ready_.erase(number);
     return load;
   }
-  void dispose(std::unique_ptr<Load>, std::uint64_t) override {
+  void dispose(std::unique_ptr<LoadedScene>, std::uint64_t) override {
     ++disposed;
     if (lacksMemory) throw std::bad_alloc();
   }
   void report(const Diagnostic& finding) override { reported.push_back(finding); }
 
 private:
-  std::map<std::uint32_t, std::unique_ptr<Load>> ready_;
+  std::map<std::uint32_t, std::unique_ptr<LoadedScene>> ready_;
 };
 
 /// Adds a node to a load under construction and returns it.
 template <class T, class... Args>
-T& addNode(Load& load, const std::string& name, Args&&... args) {
+T& addNode(LoadedScene& load, const std::string& name, Args&&... args) {
   const auto position = static_cast<std::uint32_t>(load.nodes.size());
   auto node = std::make_unique<T>(NodeRef{load.number, position}, name, std::forward<Args>(args)...);
   T& added = *node;
@@ -103,7 +103,7 @@ class ListeningNode : public Node {
 public:
   ListeningNode(NodeRef self, std::string name) : Node(kGroupType, self, std::move(name)) {}
   struct Heard {
-    Verb verb;
+    CommandId command;
     Nanoseconds effective;
     std::uint64_t frame;
     NodeRef sender;
@@ -113,7 +113,7 @@ public:
 
 protected:
   void receive(const Message& m, FrameContext& frame) override {
-    heard.push_back({m.verb, frame.effective(m), frame.now.frame, m.sender});
+    heard.push_back({m.command, frame.effective(m), frame.now.frame, m.sender});
   }
   void simulate(FrameContext&) override { ++visits; }
 };
@@ -171,9 +171,9 @@ public:
   }
 };
 
-inline Notification notify(Event event, const std::string& target, Verb verb, double delay = 0,
+inline Notification notify(Event event, const std::string& target, CommandId command, double delay = 0,
                            std::vector<std::string> arguments = {}) {
-  return {event, target, verb, std::move(arguments), fromSeconds(delay)};
+  return {event, target, command, std::move(arguments), fromSeconds(delay)};
 }
 
 }  // namespace stadion

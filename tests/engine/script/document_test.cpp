@@ -103,13 +103,13 @@ TEST(ScriptDocument, EventMessagesAreTyped) {
   const auto messages = d[0].eventMessages();
   ASSERT_EQ(messages.size(), 3U);
   EXPECT_EQ(messages[0].event, Event("enter"));
-  EXPECT_EQ(messages[0].verb, Verb::Attach);
+  EXPECT_EQ(messages[0].commandId, CommandId::Attach);
   EXPECT_EQ(messages[0].part, AttachPart::Position);
   EXPECT_EQ(messages[0].tracker, "wand");
   EXPECT_EQ(messages[0].delay, 250'000'000);
   EXPECT_EQ(messages[0].target.declaration, 1U);
   EXPECT_EQ(messages[1].event, Event("exit"));
-  EXPECT_EQ(messages[1].verb, Verb::Unhook);
+  EXPECT_EQ(messages[1].commandId, CommandId::Unhook);
   EXPECT_EQ(messages[1].field.declaration, 3U);
   EXPECT_EQ(messages[1].delay, 0);
   EXPECT_EQ(messages[1].latency, 0);

@@ -25,10 +25,10 @@ TEST(ScriptSchema, SharedCommandsHaveTheNumbersThatStatesHold) {
                                     "hide",   "reset",   "hook",   "unhook", "grab",   "release",
                                     "load",   "unload",  "say",    "start"};
   for (std::size_t i = 0; i < std::size(words); ++i) {
-    EXPECT_EQ(static_cast<std::size_t>(verbNamed(words[i])), i) << words[i];
+    EXPECT_EQ(static_cast<std::size_t>(commandNamed(words[i])), i) << words[i];
     EXPECT_NE(testTypes().command(words[i]), nullptr) << words[i];
   }
-  EXPECT_GE(static_cast<std::size_t>(verbNamed("tug")), std::size_t{1} << 23);
+  EXPECT_GE(static_cast<std::size_t>(commandNamed("tug")), std::size_t{1} << 23);
 }
 
 TEST(ScriptSchema, TypesAreListedByName) {

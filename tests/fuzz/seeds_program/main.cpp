@@ -115,7 +115,7 @@ Seed orderOf(std::uint64_t serial) {
 void writeConversations(const Folder& to) {
   using namespace cluster;
   Session waiting{};
-  waiting.number = 1, waiting.terms.script = 1, waiting.rate = 60, waiting.giver = kNoNode;
+  waiting.number = 1, waiting.compatibility.script = 1, waiting.rate = 60, waiting.giver = kNoNode;
   Session begun = waiting;
   begun.begun = true;
   Session over = begun;

@@ -24,7 +24,7 @@ TEST(ClusterHearing, TheLeaderEndsTheShowForAll) {
   f->hear(s);
   EXPECT_TRUE(f->next()) << "what was ordered before is played";
   EXPECT_FALSE(f->next());
-  EXPECT_FALSE(f->isToJoinAgain());
+  EXPECT_FALSE(f->mustRejoin());
 }
 
 /// A follower that has played some frames and shown those of which it is a member, as far as all have drawn.
@@ -89,8 +89,8 @@ TEST(ClusterHearing, AHostLeftOutOfAPauseAtTheEndHasNotMissedIt) {
 
 /// With what the follower before it has kept: that one has shown so many frames of session 1.
 std::unique_ptr<Follower> followerThatHasShown(std::uint64_t frames, std::uint64_t played = 0) {
-  auto kept = std::make_shared<KeptScene>();
-  kept->parcel.session = 1, kept->parcel.serial = frames, kept->parcel.frame = frames - 1;
+  auto kept = std::make_shared<SavedScene>();
+  kept->transfer.session = 1, kept->transfer.serial = frames, kept->transfer.frame = frames - 1;
   kept->framesShown = frames;
   return Follower::unconnected(
       {room(), 1, {1}, [](const std::string&) {}, [] { return true; }, {}, kept, played}, 7);
@@ -153,7 +153,7 @@ TEST(ClusterHearing, AnEarlierShowThatIsOverIsNoReasonToLeaveTheNextOne) {
   f->hear(next);
   ASSERT_TRUE(f->join());
   f->hear(earlier);
-  EXPECT_FALSE(f->isToJoinAgain() || f->isOver());
+  EXPECT_FALSE(f->mustRejoin() || f->isOver());
 }
 
 }  // namespace

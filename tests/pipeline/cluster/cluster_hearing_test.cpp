@@ -80,7 +80,7 @@ TEST(ClusterHearing, AfterAnOrderThatIsNoneOneIsMissing) {
   input = visitor();
   f->hear(written.write({1, 3, 3, 0}, order, &input));
   EXPECT_FALSE(f->next());
-  EXPECT_TRUE(f->isToJoinAgain());
+  EXPECT_TRUE(f->mustRejoin());
 }
 
 TEST(ClusterHearing, AStateArrivesInParts) {
@@ -199,7 +199,7 @@ TEST(ClusterHearing, OfTwoProgramsOfOneNodeOneEnds) {
   EXPECT_FALSE(f->hasDouble()) << "another node";
   f->hear(said(1, 9, 2, 1, ready, 3, true, 1));
   EXPECT_TRUE(f->hasDouble()) << "it plays, we do not yet";
-  EXPECT_FALSE(f->isToJoinAgain());
+  EXPECT_FALSE(f->mustRejoin());
   const auto earlier = follower();
   earlier->hear(said(1, 6, 1, 0, 0, 0, false, 1));
   EXPECT_TRUE(earlier->hasDouble()) << "it came before us";
@@ -235,10 +235,10 @@ TEST(ClusterHearing, ALeaderTakenForDeadThatComesBackLeadsNoMore) {
   EXPECT_FALSE(l->mayShow(order.signature)) << "another one shows on the same walls";
   Session earlier = session(60, true);
   earlier.number = 3;
-  const auto anew = lead();
-  anew->begin(60);
-  anew->hear(earlier);
-  EXPECT_FALSE(anew->hasDouble()) << "that one had not been heard of";
+  const auto another = lead();
+  another->begin(60);
+  another->hear(earlier);
+  EXPECT_FALSE(another->hasDouble()) << "that one had not been heard of";
   const auto f = follower();
   later.begun = false;
   f->hear(later);
@@ -282,7 +282,7 @@ TEST(ClusterHearing, OnlyAHostTakenIntoTheShowHasPlayed) {
   EXPECT_EQ(l->played(), 2U);
   l->left(1, 9);
   l->finish(false);
-  EXPECT_EQ(l->played(), 2U) << "it died just now, and is begun again";
+  EXPECT_EQ(l->played(), 2U) << "it crashed just now and restarts";
 }
 
 TEST(ClusterHearing, AWaitIsAnsweredOnlyAfterItsReport) {
@@ -323,7 +323,7 @@ TEST(ClusterHearing, OfAnotherClusterInTheSameNetworkItIsSaidThatThereIsOne) {
   ours.cluster = 5;
   const auto l = ClusterLeader::unconnected({room(), ours, std::chrono::seconds(0), tell, stop}, kSession);
   Session theirs = session(60, true);
-  theirs.terms.cluster = 6;
+  theirs.compatibility.cluster = 6;
   l->hear(theirs);
   EXPECT_TRUE(l->hasDouble());
   EXPECT_NE(told.find("another cluster plays in the same network"), std::string::npos) << told;
@@ -361,7 +361,7 @@ TEST(ClusterHearing, AFollowerAskedToEndAppliesNoFurtherOrder) {
   EXPECT_TRUE(f->next());
   leaves = true;
   EXPECT_FALSE(f->next());
-  EXPECT_FALSE(f->isToJoinAgain());
+  EXPECT_FALSE(f->mustRejoin());
 }
 
 TEST(ClusterHearing, AHostBesideAMemberOfItsNameIsNoneUntilItAsks) {
@@ -375,7 +375,7 @@ TEST(ClusterHearing, AHostBesideAMemberOfItsNameIsNoneUntilItAsks) {
   l->hear(said(1, 9, 2, kSession, phase(Phase::Ready), 0, true, kShow));
   EXPECT_EQ(told, std::vector<std::string>()) << "it may end at once";
   l->hear(said(1, 12, 2, kSession, phase(Phase::Asking), 0, false, kShow));
-  EXPECT_EQ(told, std::vector<std::string>{"left began anew; the others go on"});
+  EXPECT_EQ(told, std::vector<std::string>{"left restarted; the others go on"});
 }
 
 TEST(ClusterHearing, WhatMustBeAlikeIsNamedWhereItIsNot) {

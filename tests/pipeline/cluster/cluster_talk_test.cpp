@@ -170,7 +170,7 @@ private:
   /// False: there is no network.
   bool play(std::size_t node, const Disturb& disturb) {
     NumberScene scene;
-    std::shared_ptr<const KeptScene> kept;
+    std::shared_ptr<const SavedScene> kept;
     for (bool over = false; !over;) {
       auto opened = Follower::open(
           {room(), node, {1}, [](const std::string&) {}, [] { return false; }, {}, std::move(kept)});
@@ -210,8 +210,8 @@ TEST_F(ThreadsCluster, AllComeToTheSameScene) {
   lead_->begin(60);
   framesUntil("");
   expectAllAlike();
-  EXPECT_EQ(lead_->tally().leftOut, 0U) << told_.all();
-  EXPECT_EQ(lead_->tally().differed, 0U);
+  EXPECT_EQ(lead_->stats().leftOut, 0U) << told_.all();
+  EXPECT_EQ(lead_->stats().differed, 0U);
 }
 
 TEST_F(ThreadsCluster, WhereNoInterfaceIsNamedNothingIsHeardFromOtherMachines) {
@@ -263,7 +263,7 @@ TEST_F(ThreadsCluster, AnotherSceneMayEndTheShowForAll) {
   expectAllEnd();
   EXPECT_EQ(common_->ends[1], scene_.number);
   EXPECT_NE(common_->ends[2], scene_.number);
-  EXPECT_EQ(lead_->tally().stopped, 1U);
+  EXPECT_EQ(lead_->stats().stopped, 1U);
   EXPECT_TRUE(told_.has("the number is one there and another here")) << told_.all();
 }
 

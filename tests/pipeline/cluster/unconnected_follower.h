@@ -23,7 +23,7 @@ inline std::unique_ptr<Follower> follower() {
 /// The session of a leader that begins, or has begun.
 inline Session session(double rate, bool begun) {
   Session s{};
-  s.number = 1, s.terms.script = 1, s.rate = rate, s.begun = begun, s.giver = kNoNode;
+  s.number = 1, s.compatibility.script = 1, s.rate = rate, s.begun = begun, s.giver = kNoNode;
   return s;
 }
 

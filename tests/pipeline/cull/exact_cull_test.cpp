@@ -59,13 +59,13 @@ struct Solid {
   }
 };
 
-struct Tally {
+struct CullCounts {
   std::size_t touched = 0, kept = 0;
   double excess() const { return static_cast<double>(kept) / static_cast<double>(touched) - 1; }
 };
 
 /// Culls `count` spheres about the visitor for a random room; nothing that an eye can see may be missing.
-void cullOneRoom(Random& random, std::uint32_t count, const auto& radius, Tally& tally) {
+void cullOneRoom(Random& random, std::uint32_t count, const auto& radius, CullCounts& counts) {
   const double half = random.from(0.5, 3);
   std::vector<WallViews> views = test::boxRoom(half, {0.1, random.sizeFrom(10, 500)});
   for (WallViews& view : views) view.eyeSeparation = random.from(0, 0.08);
@@ -94,16 +94,16 @@ void cullOneRoom(Random& random, std::uint32_t count, const auto& radius, Tally&
       if (away < -rounded) {
         ASSERT_TRUE(isKept) << fmt::format("wall {}, radius {}, {} m inside", wall, r.radius, -away);
       }
-      tally.touched += away <= 0, tally.kept += isKept;
+      counts.touched += away <= 0, counts.kept += isKept;
     }
   }
 }
 
 TEST(ExactCull, NothingIsMissedAndHardlyAnythingKeptInVain) {
   Random random(8);
-  Tally all;
+  CullCounts all;
   for (int room = 0; room < 300; ++room) {
-    Tally one;
+    CullCounts one;
     ASSERT_NO_FATAL_FAILURE(cullOneRoom(
         random, 400, [&] { return random.sizeFrom(1e-3, 2); }, one));
     all.touched += one.touched, all.kept += one.kept;
@@ -118,7 +118,7 @@ TEST(ExactCull, NothingIsMissedAndHardlyAnythingKeptInVain) {
 TEST(ExactCull, NothingIsMissedHoweverLargeOrSmall) {
   Random random(9);
   for (int room = 0; room < 150; ++room) {
-    Tally one;
+    CullCounts one;
     ASSERT_NO_FATAL_FAILURE(cullOneRoom(
         random, 300, [&] { return random.sizeFrom(1e-6, 1e4); }, one));
   }

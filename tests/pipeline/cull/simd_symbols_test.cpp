@@ -23,7 +23,7 @@ std::string definedBy(const std::string& source) {
 
 TEST(ProgramSimdSymbols, FilesForAvx2DefineTheirTablesAlone) {
   const std::pair<const char*, const char*> files[] = {{"cull/bounds_eight.cpp", "kEightBounds"},
-                                                       {"raster/sieve_eight.cpp", "kSieveByEight"}};
+                                                       {"raster/cull_eight.cpp", "kCullByEight"}};
   for (const auto& [source, table] : files) {
     const std::string all = definedBy(source);
     EXPECT_NE(all.find(table), std::string::npos) << all;

@@ -82,10 +82,10 @@ TEST(StillCasters, AreWhatStandsStillInThatFrameWhateverComesGoesAndBeginsToMove
       c.statics = {{chunks[which], below(70), true}};
     }
     const SlotView view = f.publish(c);
-    StillCasters anew;
+    StillCasters emptyCasters;
     for (const std::size_t ring : {0u, 2u}) {
       const RingPlace at = ringAt(0, ring);
-      const RingCasters known = f.casters.at(at, view), fresh = anew.at(at, view);
+      const RingCasters known = f.casters.at(at, view), fresh = emptyCasters.at(at, view);
       ASSERT_EQ(known.key, fresh.key) << "frame " << i;
       ASSERT_EQ(known.items->size(), fresh.items->size());
       for (std::size_t k = 0; k < fresh.items->size(); ++k) {

@@ -72,7 +72,7 @@ TEST(DeskVisitor, LooksAboutWhileTheShowStandsStill) {
   EXPECT_NEAR(ahead(still, kHead).x(), std::sin(0.5), 1e-9) << "unless it is frozen";
 }
 
-TEST(DeskVisitor, IsNoLongerFrozenWhenTheShowBeginsAgain) {
+TEST(DeskVisitor, IsNoLongerFrozenWhenTheShowRestarts) {
   Desk desk;
   desk.frames(2);
   desk.visitor.freezeHead(true);

@@ -3,7 +3,7 @@
 #include "engine/asset/simplify.h"
 #include "engine/maths/srgb.h"
 #include "pipeline/draw/gpu/mask_levels.h"
-#include "pipeline/process/drawing_in_workers.h"
+#include "pipeline/process/per_wall_process_renderer.h"
 #include "tests/pipeline/draw/renderer_scene.h"
 
 #include <gtest/gtest.h>
@@ -386,11 +386,11 @@ TEST(ProgramWallWorkers, DrawHolesAndPicturesOfLightAsThisProcessDoes) {
     DrawList list = blueList();
     list.opaque = {place(meshes.add(card(masked(1, 0, 0), leftHalf()))),
                    place(meshes.add(std::move(shining)))};
-    DrawingInWorkersParts parts{.meshes = meshes, .walls = {{48, 36}}, .names = {"w"}};
+    PerWallProcessParts parts{.meshes = meshes, .walls = {{48, 36}}, .names = {"w"}};
     const RenderQuality quality = look == Look::Full ? RenderQuality{} : RenderQuality::plain();
     parts.quality = quality;
     parts.program = std::filesystem::path(STADION_BINARY_DIR) / "bin" / "stadion-wall";
-    DrawingInWorkers drawing(std::move(parts));
+    PerWallProcessRenderer drawing(std::move(parts));
     const Failure failure = drawing.open(0);
     ASSERT_FALSE(failure) << failure->message;
     ASSERT_FALSE(drawing.draw(0, list, false).failure);

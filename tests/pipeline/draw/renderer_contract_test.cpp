@@ -221,7 +221,7 @@ TEST(PictureRenderer, WhatIsNotWantedAloneTakesNoTurn) {
   EXPECT_TRUE(some.told.contains({1, 3}) && some.told.contains({1, 90}));
 }
 
-TEST(PictureRenderer, SmallThingsOfManyMeshesAreDrawnAloneTogether) {
+TEST(PictureRenderer, SmallObjectRasterizerOfManyMeshesAreDrawnAloneTogether) {
   constexpr std::uint32_t kThings = 400;
   MeshStore meshes;
   DrawList list = test::plainList();

@@ -17,7 +17,7 @@ using test::Stage;
 
 constexpr std::uint32_t kWidth = 160, kHeight = 120;
 
-Affine at(double x, double y, double z) {
+Affine placeAt(double x, double y, double z) {
   Affine X = Affine::Identity();
   X.translation() = Vec3(x, y, z);
   return X;
@@ -100,7 +100,7 @@ DrawList withoutShadows(DrawList list) {
 TEST(Shadows, AThingStandsInTheWayOfTheLightAndOfNothingElse) {
   Yard yard;
   yard.addGround();
-  yard.addCrate(at(0, 0, 2.5));
+  yard.addCrate(placeAt(0, 0, 2.5));
   const DrawList list = yard.list();
   Stage stage(yard.meshes, kWidth, kHeight);
   const auto lit = stage.draw(withoutShadows(list)), shaded = stage.draw(list);
@@ -115,7 +115,7 @@ TEST(Shadows, AThingStandsInTheWayOfTheLightAndOfNothingElse) {
 TEST(Shadows, WhatIsLitSquareOrSlantwiseDoesNotShadowItself) {
   Yard yard;
   yard.addGround(300);
-  yard.add(MeshMaker(matt(0.5f, 0.5f, 0.5f)).sphere(1.5, 48).seal(), at(1, 2, 1.5));
+  yard.add(MeshMaker(matt(0.5f, 0.5f, 0.5f)).sphere(1.5, 48).seal(), placeAt(1, 2, 1.5));
   Stage stage(yard.meshes, kWidth, kHeight);
   for (const double height : {0.15, 0.5, 1.0, 3.0}) {
     yard.sun({-0.3, 1, -height});  // from behind the eye: what it sees is lit, but for what the sphere hides
@@ -133,7 +133,7 @@ TEST(Shadows, FarThingsHaveThemToo) {
     Yard yard;
     yard.addGround(1000);
     yard.head = {0, -away, away / 2};
-    Affine crate = at(0, 0, away / 6);
+    Affine crate = placeAt(0, 0, away / 6);
     crate.linear() *= away / 10;
     yard.addCrate(crate);
     const DrawList list = yard.list();
@@ -147,12 +147,12 @@ TEST(Shadows, FarThingsHaveThemToo) {
 TEST(Shadows, WhatIsInTheMapsDoesNotDependOnWhatWasDrawnBefore) {
   Yard yard;
   yard.addGround();
-  yard.addCrate(at(-2, 1, 0.5));
-  yard.addCrate(at(0, 0, 2), true);
+  yard.addCrate(placeAt(-2, 1, 0.5));
+  yard.addCrate(placeAt(0, 0, 2), true);
   const std::size_t mover = yard.things.size() - 1;
   const MeshId mesh = yard.things[mover].mesh;
   const auto go = [&](double x) {
-    yard.things[mover] = makeInstance(at(x, 0, 2), *yard.meshes.find(mesh), mesh, true, NodeRef{});
+    yard.things[mover] = makeInstance(placeAt(x, 0, 2), *yard.meshes.find(mesh), mesh, true, NodeRef{});
     yard.things[mover].flags |= kMoves;
   };
   std::vector<DrawList> lists;
@@ -176,7 +176,7 @@ TEST(Shadows, WhatIsInTheMapsDoesNotDependOnWhatWasDrawnBefore) {
 TEST(Shadows, WhatStandsStillIsDrawnAgainOnlyWhenTheHeadHasGoneFar) {
   Yard yard;
   yard.addGround();
-  yard.addCrate(at(0, 0, 1));
+  yard.addCrate(placeAt(0, 0, 1));
   const DrawList first = yard.list();
   yard.head += Vec3(1, 0.5, 0.3);
   const DrawList near = yard.list();
@@ -191,7 +191,7 @@ TEST(Shadows, WhatStandsStillIsDrawnAgainOnlyWhenTheHeadHasGoneFar) {
 TEST(Shadows, AnotherPlaceOfACasterOrOfTheLightIsNoticed) {
   Yard yard;
   yard.addGround();
-  yard.addCrate(at(0, 0, 1));
+  yard.addCrate(placeAt(0, 0, 1));
   const std::uint64_t before = yard.list().shadows.rings[1].stillKey;
   yard.sun({0.61, 0, -0.8});
   EXPECT_NE(yard.list().shadows.rings[1].stillKey, before);
@@ -213,7 +213,7 @@ TEST(Shadows, AShowWithoutThemCarriesNothingForThem) {
 TEST(Shadows, GlassAndWhatIsHiddenCastNone) {
   Yard yard;
   yard.add(MeshMaker(matt(0.2f, 0.5f, 0.5f, 0.3f)).box({-1, -1, 1}, {1, 1, 2}).seal(), Affine::Identity());
-  yard.addCrate(at(0, 0, 1));
+  yard.addCrate(placeAt(0, 0, 1));
   yard.things.back().flags &= ~InstanceRecord::kShown;
   for (const DrawShadowRing& ring : yard.list().shadows.rings) EXPECT_TRUE(ring.still->empty());
 }
@@ -223,7 +223,7 @@ TEST(Shadows, WhatMovesIsDrawnOnlyIntoTheRingsWhereItIsLookedUp) {
     Yard yard;
     yard.head = {0, 0, 1.7};
     yard.sun({0, 0.001, -1});
-    yard.addCrate(at(0, away, 1), moves);
+    yard.addCrate(placeAt(0, away, 1), moves);
     std::string rings;
     const DrawList list = yard.list();
     for (const DrawShadowRing& ring : list.shadows.rings)
@@ -242,7 +242,7 @@ TEST(Shadows, WhatMovesHasTheSameShadowAsWhatStandsStill) {
   for (const bool moves : {false, true}) {
     Yard yard;
     yard.addGround();
-    for (int i = 0; i < 12; ++i) yard.addCrate(at(-4 + 0.7 * i, -5 + 1.1 * i, 1.5), moves);
+    for (int i = 0; i < 12; ++i) yard.addCrate(placeAt(-4 + 0.7 * i, -5 + 1.1 * i, 1.5), moves);
     const DrawList list = yard.list();
     Stage stage(yard.meshes, kWidth, kHeight);
     pictures[moves] = stage.draw(list);
@@ -253,8 +253,8 @@ TEST(Shadows, WhatMovesHasTheSameShadowAsWhatStandsStill) {
 TEST(Shadows, BothProvidersDrawThemAlike) {
   Yard yard;
   yard.addGround();
-  yard.addCrate(at(0, 0, 1));
-  yard.addCrate(at(1, 1, 2), true);
+  yard.addCrate(placeAt(0, 0, 1));
+  yard.addCrate(placeAt(1, 1, 2), true);
   const DrawList list = yard.list();
   std::vector<std::vector<std::uint8_t>> pictures;
   for (const GlProviderKind kind : {GlProviderKind::OsMesa, GlProviderKind::Egl})
@@ -283,8 +283,8 @@ void expectNothingLeftBehind(const MeshStore& meshes, const DrawList& list) {
 TEST(Shadows, ADrawingThatWasGivenUpLeavesNothingBehind) {
   Yard yard;
   yard.addGround();
-  yard.addCrate(at(0, 0, 0.5));
-  yard.addCrate(at(2, 1, 0.5), true);
+  yard.addCrate(placeAt(0, 0, 0.5));
+  yard.addCrate(placeAt(2, 1, 0.5), true);
   expectNothingLeftBehind(yard.meshes, yard.list());
   MeshStore meshes;
   expectNothingLeftBehind(meshes, test::richList(meshes, double{kWidth} / kHeight));

@@ -55,7 +55,7 @@ Pictures picturesOf(GlRenderer& renderer) {
 TEST(ThreadsListFilling, PicturesAreThoseOfTheWholeList) {
   Random random(71);
   RenderQuality byOpenGl = RenderQuality::plain();
-  byOpenGl.drawsSmallThings = false;
+  byOpenGl.drawsSmallObjects = false;
   for (const RenderQuality quality : {RenderQuality::plain(), byOpenGl, RenderQuality{}})
     for (const bool lamps : {false, true}) {
       MeshStore meshes;

@@ -1,4 +1,5 @@
 #include "pipeline/load/imported_meshes.h"
+#include "tests/fresh_folder.h"
 
 #include <fcntl.h>
 #include <filesystem>
@@ -32,7 +33,8 @@ TEST(ImportedMeshes, AreThereForTheNextShowAfterTheFirstHasGivenThemBack) {
 }
 
 TEST(ImportedMeshes, AFileThatWasEditedOrIsReadOtherwiseIsAnotherModel) {
-  const auto file = std::filesystem::temp_directory_path() / ("stadion-kept-" + std::to_string(getpid()));
+  const FreshFolder folder;
+  const auto file = folder / "kept";
   std::ofstream(file) << "one";
   const auto first = keyOf(file), same = keyOf(file);
   ASSERT_TRUE(first && same);

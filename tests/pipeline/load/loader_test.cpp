@@ -3,6 +3,7 @@
 #include "engine/base/run_stopped.h"
 #include "engine/build/builder.h"
 #include "pipeline/state/scene_state.h"
+#include "tests/fresh_folder.h"
 
 #include <filesystem>
 #include <fstream>
@@ -53,7 +54,7 @@ public:
   std::unique_ptr<Loader> loader;
 
 private:
-  fs::path folder_ = fs::temp_directory_path() / ("stadion-loader-" + std::to_string(getpid()));
+  fs::path folder_ = makeFreshFolder();
   MeshStore meshes_;
   SceneState state_;
   AssetRoots roots_;

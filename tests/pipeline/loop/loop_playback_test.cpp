@@ -1,6 +1,6 @@
 /// What an operator does to the loop: pauses, single steps, slow motion, the next group.
 
-#include "pipeline/operator/operator_desk.h"
+#include "pipeline/operator/operator_controls.h"
 #include "tests/pipeline/loop/counting_stages.h"
 
 #include <gtest/gtest.h>
@@ -116,21 +116,21 @@ TEST(ThreadsFrameLoop, APausedShowIsDrawnOnAndGoesByFramesAndSlowly) {
 
 TEST(ThreadsFrameLoop, TheNextGroupEndsTheRunInOrderAndASecondRunBegins) {
   for (const Mode mode : {Mode::Sequential, Mode::Pipelined}) {
-    OperatorDesk desk(false, 0.064);
+    OperatorControls controls(false, 0.064);
     CountingStages stages(2, 3);
     FrameLoopOptions o;
-    o.mode = mode, o.walls = 2, o.frames = 1000, o.desk = &desk, o.playback = &desk.playback();
+    o.mode = mode, o.walls = 2, o.frames = 1000, o.controls = &controls, o.playback = &controls.playback();
     const std::atomic<bool> never = false;
     FrameLoop loop(stages, o, never);
-    desk.queue().post({OperatorAction::NextGroup});
+    controls.queue().post({OperatorAction::NextGroup});
     const FrameLoopOutcome outcome = loop.run();
     EXPECT_TRUE(outcome.nextGroup);
     EXPECT_FALSE(outcome.failure);
     EXPECT_EQ(outcome.framesSimulated, 0u);
     EXPECT_EQ(stages.closed, 2);
-    desk.beginGroup();
-    EXPECT_EQ(desk.groups(), 2u);
-    desk.queue().post({OperatorAction::End});
+    controls.beginGroup();
+    EXPECT_EQ(controls.groups(), 2u);
+    controls.queue().post({OperatorAction::End});
     FrameLoop again(stages, o, never);
     EXPECT_FALSE(again.run().nextGroup);
     EXPECT_EQ(stages.shown, std::vector<std::uint64_t>{0}) << "the frame that was begun is the last one";
@@ -148,11 +148,11 @@ TEST(ThreadsFrameLoop, WhatTheOperatorSaysOfAFrameTravelsWithIt) {
     std::vector<bool> black;
   };
   for (const Mode mode : {Mode::Sequential, Mode::Pipelined}) {
-    OperatorDesk desk(false, 0.064);
-    desk.obey({{2, {OperatorAction::Black, 1, false}}, {4, {OperatorAction::Black, 0, false}}});
+    OperatorControls controls(false, 0.064);
+    controls.obey({{2, {OperatorAction::Black, 1, false}}, {4, {OperatorAction::Black, 0, false}}});
     NotingStages stages(2, 3);
     FrameLoopOptions o;
-    o.mode = mode, o.walls = 2, o.frames = 6, o.desk = &desk, o.playback = &desk.playback();
+    o.mode = mode, o.walls = 2, o.frames = 6, o.controls = &controls, o.playback = &controls.playback();
     const std::atomic<bool> never = false;
     FrameLoop(stages, o, never).run();
     EXPECT_EQ(stages.black, (std::vector<bool>{false, false, true, true, false, false}));
@@ -170,7 +170,8 @@ public:
   std::vector<FrameOrder> orders;
 };
 
-/// An operator that gives start once the show waits, pauses in frame 3, takes a single step, and ends the show.
+/// An operator that gives start once the show waits, pauses in frame 3, takes a single step, and ends the
+/// show.
 class OperatedStages final : public CountingStages {
 public:
   explicit OperatedStages(OperatorQueue& queue) : CountingStages(1, kSlots), queue_(queue) {}
@@ -191,12 +192,12 @@ private:
 
 /// A machine may take the leader's place after any of them.
 TEST(ThreadsFrameLoop, EachOrderSaysWhetherShowTimeStandsAfterIt) {
-  OperatorDesk desk(true, 0.064);
-  OperatedStages stages(desk.queue());
+  OperatorControls controls(true, 0.064);
+  OperatedStages stages(controls.queue());
   KeptOrders kept;
   FrameLoopOptions o;
   o.mode = Mode::Sequential, o.rate = 100, o.frames = 1000, o.orders = &kept;
-  o.desk = &desk, o.playback = &desk.playback();
+  o.controls = &controls, o.playback = &controls.playback();
   runFrames(stages, o);
   struct Said {
     std::uint64_t frame;

@@ -3,6 +3,7 @@
 #include "pipeline/picture/linear_light.h"
 #include "pipeline/picture/picture.h"
 #include "pipeline/picture/stereo.h"
+#include "tests/fresh_folder.h"
 
 #include <gtest/gtest.h>
 
@@ -20,8 +21,7 @@ namespace fs = std::filesystem;
 
 /// A folder of the test's own.
 struct Scratch {
-  fs::path folder = fs::temp_directory_path() / ("stadion-output-" + std::to_string(getpid()));
-  Scratch() { fs::create_directories(folder); }
+  fs::path folder = makeFreshFolder();
   ~Scratch() { fs::remove_all(folder); }
   std::string file(const char* name) const { return (folder / name).string(); }
   std::size_t count() const {

@@ -1,5 +1,6 @@
 #include "pipeline/platform/calibration_file.h"
 #include "pipeline/platform/setting_trials.h"
+#include "tests/fresh_folder.h"
 
 #include <gtest/gtest.h>
 
@@ -219,8 +220,7 @@ TEST(CalibrationFile, LiesInTheUsersConfigurationFolder) {
 
 TEST(CalibrationFile, IsWrittenIntoFoldersThatAreNotThereYet) {
   namespace fs = std::filesystem;
-  std::string pattern = fs::temp_directory_path() / "stadion-test-XXXXXX";
-  const fs::path folder = mkdtemp(pattern.data());
+  const fs::path folder = makeFreshFolder();
   const std::string file = folder / "a" / "b" / "calibration.json";
   const auto wrong = writeCalibration(file, calibration());
   EXPECT_FALSE(wrong) << format(*wrong);

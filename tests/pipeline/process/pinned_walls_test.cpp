@@ -1,6 +1,6 @@
 // Walls that are drawn on processors of their own.
-#include "pipeline/process/drawing_in_workers.h"
-#include "pipeline/wall/drawing_here.h"
+#include "pipeline/process/per_wall_process_renderer.h"
+#include "pipeline/wall/gl_wall_renderer.h"
 #include "tests/pipeline/draw/renderer_scene.h"
 #include "tests/proc.h"
 
@@ -49,13 +49,13 @@ bool ofTheCache(pid_t process, pid_t thread) {
 TEST(PinnedWalls, ProcessesRunWhereTheyAreToldToWithAllTheirThreads) {
   MeshStore meshes;
   const DrawList list = test::richList(meshes, double{kPinnedWidth} / kPinnedHeight);
-  DrawingInWorkersParts parts{.meshes = meshes, .walls = {}, .names = {}};
+  PerWallProcessParts parts{.meshes = meshes, .walls = {}, .names = {}};
   parts.walls = {{kPinnedWidth, kPinnedHeight}, {kPinnedWidth, kPinnedHeight}};
   parts.names = {"bound", "free"};
   parts.rasteriserThreads = 2;
   parts.program = std::filesystem::path(STADION_BINARY_DIR) / "bin" / "stadion-wall";
   parts.processors = {oneProcessor()};
-  DrawingInWorkers drawing(std::move(parts));
+  PerWallProcessRenderer drawing(std::move(parts));
   for (const std::size_t wall : {0, 1}) {
     const Failure opened = drawing.open(wall);
     ASSERT_FALSE(opened) << opened->message;
@@ -77,9 +77,9 @@ TEST(PinnedWalls, OnlyTheThreadThatDrawsAWallIsBoundNotTheRasterisersThatAllWall
   const ProcessorSet before = processorsOfThisThread();
   MeshStore meshes;
   const DrawList list = test::richList(meshes, double{kPinnedWidth} / kPinnedHeight);
-  DrawingHereParts parts{*test::provider(GlProviderKind::OsMesa), meshes, {{kPinnedWidth, kPinnedHeight}}};
+  GlWallRendererParts parts{*test::provider(GlProviderKind::OsMesa), meshes, {{kPinnedWidth, kPinnedHeight}}};
   parts.processors = {oneProcessor()};
-  DrawingHere drawing(std::move(parts));
+  GlWallRenderer drawing(std::move(parts));
   std::thread([&] {
     const Failure opened = drawing.open(0);
     ASSERT_FALSE(opened) << opened->message;

@@ -1,7 +1,8 @@
 // Walls drawn by processes of their own: what travels, that the pixels are the same, and what becomes of a
 // wall whose process dies or hangs.
 #include "pipeline/process/list_bytes.h"
-#include "pipeline/process/views_in_workers.h"
+#include "pipeline/process/per_view_process_renderer.h"
+#include "tests/fresh_folder.h"
 #include "tests/pipeline/draw/renderer_scene.h"
 #include "tests/proc.h"
 
@@ -29,8 +30,8 @@ std::filesystem::path spinningLibrary() {
   return program().parent_path() / "libspinning-library.so";
 }
 
-DrawingInWorkersParts partsFor(const MeshStore& meshes, std::size_t walls = 1) {
-  DrawingInWorkersParts parts{.meshes = meshes, .walls = {}, .names = {}};
+PerWallProcessParts partsFor(const MeshStore& meshes, std::size_t walls = 1) {
+  PerWallProcessParts parts{.meshes = meshes, .walls = {}, .names = {}};
   for (std::size_t i = 0; i < walls; ++i) {
     parts.walls.push_back({kWidth, kHeight});
     parts.names.push_back("w" + std::to_string(i + 1));
@@ -39,7 +40,7 @@ DrawingInWorkersParts partsFor(const MeshStore& meshes, std::size_t walls = 1) {
   return parts;
 }
 
-std::vector<std::uint8_t> pictureOf(WallDrawing& drawing, std::size_t wall, std::uint32_t eye = 0) {
+std::vector<std::uint8_t> pictureOf(WallRenderer& drawing, std::size_t wall, std::uint32_t eye = 0) {
   std::vector<std::uint8_t> rgba(kWidth * kHeight * 4);
   const Failure failure = drawing.read(wall, eye, rgba);
   EXPECT_FALSE(failure) << failure->message;
@@ -184,7 +185,7 @@ TEST(WallWorkerBytes, AMeshIsWrittenOnceAndItsPlaceIsFreeAfterItsLastUse) {
 TEST(ProgramWallWorkers, DrawTheSamePictures) {
   MeshStore meshes;
   const DrawList list = stereoList(meshes);
-  DrawingInWorkers drawing(partsFor(meshes, 2));
+  PerWallProcessRenderer drawing(partsFor(meshes, 2));
   for (std::size_t wall = 0; wall < 2; ++wall) {
     const Failure failure = drawing.open(wall);
     ASSERT_FALSE(failure) << failure->message;
@@ -197,7 +198,7 @@ TEST(ProgramWallWorkers, DrawTheSamePictures) {
       EXPECT_EQ(pictureOf(drawing, wall, eye), drawnHere(meshes, list, eye));
   EXPECT_NE(pictureOf(drawing, 0, 0), pictureOf(drawing, 0, 1));
   EXPECT_EQ(drawing.totals(0)[0].frames, 1u);
-  EXPECT_NE(drawing.glDescription(0).find("llvmpipe"), std::string::npos);
+  EXPECT_NE(drawing.drawnBy(0).find("llvmpipe"), std::string::npos);
 }
 
 TEST(ProgramWallWorkers, AProcessForEachEyeDrawsTheSamePictures) {
@@ -206,7 +207,7 @@ TEST(ProgramWallWorkers, AProcessForEachEyeDrawsTheSamePictures) {
   list.opaque.front().views = 1, list.opaque.back().views = 2;
   DrawList mono = list;
   mono.viewCount = 1;
-  ViewsInWorkers drawing(partsFor(meshes, 2), {2, 1});
+  PerViewProcessRenderer drawing(partsFor(meshes, 2), {2, 1});
   for (std::size_t wall = 0; wall < 2; ++wall) {
     const Failure failure = drawing.open(wall);
     ASSERT_FALSE(failure) << failure->message;
@@ -230,7 +231,7 @@ TEST(ProgramWallWorkers, NoWallIsDrawnOfWhichOneEyeIsMissing) {
   const DrawList list = stereoList(meshes);
   auto parts = partsFor(meshes);
   parts.everyFrame = false, parts.rate = 1;
-  ViewsInWorkers drawing(std::move(parts), {2});
+  PerViewProcessRenderer drawing(std::move(parts), {2});
   ASSERT_FALSE(drawing.open(0));
   for (int frame = 0; frame < 8; ++frame) ASSERT_TRUE(drawing.draw(0, list, false).drawn);
   for (const std::uint32_t eye : {1u, 0u}) {
@@ -252,7 +253,7 @@ TEST(ProgramWallWorkers, NoWallIsDrawnOfWhichOneEyeIsMissing) {
 TEST(ProgramWallWorkers, AFrameWhoseProcessIsStoppedIsDrawnByAnother) {
   MeshStore meshes;
   const DrawList list = stereoList(meshes);
-  DrawingInWorkers drawing(partsFor(meshes));
+  PerWallProcessRenderer drawing(partsFor(meshes));
   ASSERT_FALSE(drawing.open(0));
   ASSERT_TRUE(drawing.draw(0, list, false).drawn);
   const int before = drawing.pid(0);
@@ -266,7 +267,7 @@ TEST(ProgramWallWorkers, AnEyeWhoseProcessHasNoProgramFailsTheWall) {
   MeshStore meshes;
   auto parts = partsFor(meshes);
   parts.program = "/nowhere/stadion-wall";
-  ViewsInWorkers drawing(std::move(parts), {2});
+  PerViewProcessRenderer drawing(std::move(parts), {2});
   const Failure failure = drawing.open(0);
   ASSERT_TRUE(failure);
   EXPECT_NE(failure->message.find("left eye"), std::string::npos) << failure->message;
@@ -275,7 +276,7 @@ TEST(ProgramWallWorkers, AnEyeWhoseProcessHasNoProgramFailsTheWall) {
 TEST(ProgramWallWorkers, ForgetMeshesThatAreGoneAndDrawOthersInTheirPlace) {
   MeshStore meshes;
   DrawList list = test::plainList();
-  DrawingInWorkers drawing(partsFor(meshes));
+  PerWallProcessRenderer drawing(partsFor(meshes));
   ASSERT_FALSE(drawing.open(0));
   std::vector<std::vector<std::uint8_t>> pictures;
   for (std::uint64_t frame = 0; frame < 4; ++frame) {
@@ -301,7 +302,7 @@ TEST(ProgramWallWorkers, AFrameWhoseProcessIsKilledIsDrawnAgain) {
   auto parts = partsFor(meshes);
   std::vector<std::string> told;
   parts.tell = [&](const std::string& what) { told.push_back(what); };
-  DrawingInWorkers drawing(std::move(parts));
+  PerWallProcessRenderer drawing(std::move(parts));
   ASSERT_FALSE(drawing.open(0));
   for (int frame = 0; frame < 3; ++frame) {
     ASSERT_FALSE(drawing.draw(0, list, false).failure);
@@ -317,7 +318,7 @@ TEST(ProgramWallWorkers, AFrameWhoseProcessIsKilledIsDrawnAgain) {
 TEST(ProgramWallWorkers, AProcessThatDiesBeforeItsPictureIsTakenLosesNothing) {
   MeshStore meshes;
   const DrawList list = stereoList(meshes);
-  DrawingInWorkers drawing(partsFor(meshes));
+  PerWallProcessRenderer drawing(partsFor(meshes));
   ASSERT_FALSE(drawing.open(0));
   for (int frame = 0; frame < 3; ++frame) {
     ASSERT_FALSE(drawing.draw(0, list, true).failure);
@@ -331,7 +332,6 @@ TEST(ProgramWallWorkers, AProcessThatDiesBeforeItsPictureIsTakenLosesNothing) {
 class Exchangeable {
 public:
   Exchangeable() { become(program()); }
-  ~Exchangeable() { std::filesystem::remove(link_); }
   void become(const std::filesystem::path& program) {
     std::filesystem::remove(link_);
     std::filesystem::create_symlink(program, link_);
@@ -339,8 +339,8 @@ public:
   const std::filesystem::path& path() const { return link_; }
 
 private:
-  std::filesystem::path link_ =
-      std::filesystem::temp_directory_path() / ("stadion-wall-" + std::to_string(::getpid()));
+  FreshFolder folder_;
+  std::filesystem::path link_ = folder_ / "stadion-wall";
 };
 
 TEST(ProgramWallWorkers, ProcessesThatDieOneAfterTheOtherAreToldOfTwiceAndEndNoLiveRun) {
@@ -352,7 +352,7 @@ TEST(ProgramWallWorkers, ProcessesThatDieOneAfterTheOtherAreToldOfTwiceAndEndNoL
   parts.rate = 0.1;  // a wall that is waited for is in time
   std::vector<std::string> told;
   parts.tell = [&](const std::string& what) { told.push_back(what); };
-  DrawingInWorkers drawing(std::move(parts));
+  PerWallProcessRenderer drawing(std::move(parts));
   ASSERT_FALSE(drawing.open(0));
   for (int frame = 0; frame < 8; ++frame) ASSERT_TRUE(drawing.draw(0, list, false).drawn);
   program.become("/bin/true");
@@ -389,7 +389,7 @@ TEST(ProgramWallWorkers, AFrameThatKillsEveryProcessEndsTheRunWithItsNumberAndTh
   Exchangeable program;
   auto parts = partsFor(meshes);
   parts.program = program.path();
-  DrawingInWorkers drawing(std::move(parts));
+  PerWallProcessRenderer drawing(std::move(parts));
   ASSERT_FALSE(drawing.open(0));
   program.become("/bin/false");
   kill(drawing.pid(0), SIGKILL);
@@ -400,7 +400,7 @@ TEST(ProgramWallWorkers, AFrameThatKillsEveryProcessEndsTheRunWithItsNumberAndTh
 }
 
 /// Draws until the wall's picture is new again; how long that took.
-double secondsUntilDrawn(DrawingInWorkers& drawing, const DrawList& list, double& longestCall) {
+double secondsUntilDrawn(PerWallProcessRenderer& drawing, const DrawList& list, double& longestCall) {
   const auto began = Clock::now();
   longestCall = 0;
   for (;;) {
@@ -420,7 +420,7 @@ TEST(ProgramWallWorkers, WhereTheNewestFrameCountsNoWallWaitsForAProcessThatIsGo
   const DrawList list = stereoList(meshes);
   auto parts = partsFor(meshes);
   parts.everyFrame = false, parts.rate = 1;
-  DrawingInWorkers drawing(std::move(parts));
+  PerWallProcessRenderer drawing(std::move(parts));
   ASSERT_FALSE(drawing.open(0));
   for (int frame = 0; frame < 8; ++frame) ASSERT_TRUE(drawing.draw(0, list, false).drawn);
   for (const int signal : {SIGKILL, SIGSTOP}) {
@@ -449,7 +449,7 @@ TEST(ProgramWallWorkers, AProcessThatGoesRoundInCirclesIsReplaced) {
   const DrawList list = stereoList(meshes);
   auto parts = partsFor(meshes);
   parts.everyFrame = false, parts.rate = 1;
-  DrawingInWorkers drawing(std::move(parts));
+  PerWallProcessRenderer drawing(std::move(parts));
   setenv("LD_PRELOAD", spinningLibrary().c_str(), 1);
   const Failure failure = drawing.open(0);
   unsetenv("LD_PRELOAD");
@@ -468,7 +468,7 @@ TEST(ProgramWallWorkers, AProcessIsDeadWhenTheThreadThatDrawsIsThoughOthersLinge
   MeshStore meshes;
   auto parts = partsFor(meshes);
   parts.program = program().parent_path() / "lingering-program";
-  DrawingInWorkers drawing(std::move(parts));
+  PerWallProcessRenderer drawing(std::move(parts));
   const Failure failure = drawing.open(0);
   ASSERT_TRUE(failure);
   EXPECT_NE(failure->message.find("ended with exit code 0 before it was ready"), std::string::npos)
@@ -480,7 +480,7 @@ TEST(ProgramWallWorkers, WhereTheNewestFrameCountsNoWallWaitsForANewProcessFirst
   const DrawList list = stereoList(meshes);
   auto parts = partsFor(meshes);
   parts.everyFrame = false, parts.rate = 0.01;  // a wall that is waited for is in time
-  DrawingInWorkers drawing(std::move(parts));
+  PerWallProcessRenderer drawing(std::move(parts));
   ASSERT_FALSE(drawing.open(0));
   for (int frame = 0; frame < 8; ++frame) ASSERT_TRUE(drawing.draw(0, list, false).drawn);
   kill(drawing.pid(0), SIGKILL);
@@ -498,7 +498,7 @@ TEST(ProgramWallWorkers, WhereTheNewestFrameCountsAViewThatTakesLongerFromNowOnI
     dear.opaque.insert(dear.opaque.end(), list.opaque.begin(), list.opaque.end());
   auto parts = partsFor(meshes);
   parts.everyFrame = false, parts.rate = 1000;
-  DrawingInWorkers drawing(std::move(parts));
+  PerWallProcessRenderer drawing(std::move(parts));
   ASSERT_FALSE(drawing.open(0));
   double longestCall = 0;
   for (int frame = 0; frame < 40; ++frame) ASSERT_LT(secondsUntilDrawn(drawing, list, longestCall), 30);
@@ -511,7 +511,7 @@ TEST(ProgramWallWorkers, AProgramThatIsMissingOrEndsAtOnceIsAFailureThatNamesThe
   for (const char* name : {"/nowhere/stadion-wall", "/bin/true"}) {
     auto parts = partsFor(meshes);
     parts.program = name;
-    DrawingInWorkers drawing(std::move(parts));
+    PerWallProcessRenderer drawing(std::move(parts));
     const Failure failure = drawing.open(0);
     ASSERT_TRUE(failure) << name;
     EXPECT_NE(failure->message.find("wall w1: "), std::string::npos) << failure->message;

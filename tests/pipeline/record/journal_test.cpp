@@ -1,6 +1,7 @@
 /// A run log stays in bounds, and each line of it in one piece.
 
 #include "pipeline/record/journal.h"
+#include "tests/fresh_folder.h"
 
 #include <gtest/gtest.h>
 
@@ -22,7 +23,6 @@ namespace fs = std::filesystem;
 
 class JournalTest : public testing::Test {
 protected:
-  JournalTest() { fs::create_directories(folder_); }
   ~JournalTest() override { fs::remove_all(folder_); }
 
   static std::vector<std::string> linesOf(const std::string& file) {
@@ -37,7 +37,7 @@ protected:
     return std::move(made.value());
   }
 
-  fs::path folder_ = fs::temp_directory_path() / ("stadion-journal-" + std::to_string(getpid()));
+  fs::path folder_ = makeFreshFolder();
   std::string file_ = folder_ / "run.log";
 };
 

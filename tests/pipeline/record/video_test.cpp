@@ -1,5 +1,6 @@
 #include "pipeline/platform/child_process.h"
 #include "pipeline/record/video.h"
+#include "tests/fresh_folder.h"
 
 #include <gtest/gtest.h>
 
@@ -17,8 +18,7 @@ namespace fs = std::filesystem;
 using std::chrono::milliseconds;
 
 struct VideoScratch {
-  fs::path folder = fs::temp_directory_path() / ("stadion-video-" + std::to_string(getpid()));
-  VideoScratch() { fs::create_directories(folder); }
+  fs::path folder = makeFreshFolder();
   ~VideoScratch() { fs::remove_all(folder); }
   std::string file(const char* name) const { return (folder / name).string(); }
   std::size_t count() const {

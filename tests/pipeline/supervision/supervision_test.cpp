@@ -20,20 +20,20 @@ namespace {
 
 using Way = Recovery::Way;
 
-TEST(Recovery, FirstGoesOnAtOnceThenAfterGrowingPausesThenBeginsAgainThenGivesUp) {
+TEST(Recovery, FirstGoesOnAtOnceThenAfterGrowingPausesThenRestartsThenGivesUp) {
   Recovery recovery;
   std::vector<Way> ways;
   std::chrono::milliseconds before{-1};
   for (std::size_t n = 1; n <= Recovery::kMost; ++n) {
-    const bool begunAgain = n > Recovery::kFromScene;
-    const Recovery::Step step = recovery.died(fromSeconds(begunAgain ? 0.3 : 17), fromSeconds(0.3));
+    const bool restarted = n > Recovery::kFromScene;
+    const Recovery::Step step = recovery.died(fromSeconds(restarted ? 0.3 : 17), fromSeconds(0.3));
     ways.push_back(step.way);
     if (step.way == Way::GiveUp) break;
     EXPECT_GT(step.pause, before) << n;
     before = step.pause;
     EXPECT_EQ(step.pause.count() == 0, n == 1);
   }
-  const Way on = Way::GoOn, again = Way::BeginAgain;
+  const Way on = Way::GoOn, again = Way::Restart;
   EXPECT_EQ(ways, (std::vector{on, on, on, on, again, again, again, again, again, Way::GiveUp}));
 }
 
@@ -44,7 +44,7 @@ TEST(Recovery, APlayerBeyondThePlaceOfTheLastCrashCrashesForTheFirstTime) {
     EXPECT_EQ(recovery.died(at, Recovery::kSteady).way, Way::GoOn);
     EXPECT_EQ(recovery.deaths(), 1U) << at;
   }
-  // The show has begun again since, and been played for long.
+  // The show has restarted since, and has played for long.
   recovery.died(fromSeconds(0.3), Recovery::kLong);
   EXPECT_EQ(recovery.deaths(), 1U);
 }
@@ -53,7 +53,7 @@ TEST(Recovery, TheSamePlaceCountsHoweverLongAfterTheKeptSceneItLies) {
   Recovery recovery;
   const Nanoseconds at = fromSeconds(83), played = fromSeconds(6);
   for (int i = 0; i < 4; ++i) EXPECT_EQ(recovery.died(at, played).way, Way::GoOn);
-  EXPECT_EQ(recovery.died(at, played).way, Way::BeginAgain);
+  EXPECT_EQ(recovery.died(at, played).way, Way::Restart);
 }
 
 std::vector<std::uint8_t> sceneOf(std::uint8_t value, std::size_t bytes) {
@@ -202,7 +202,7 @@ TEST(HangWatch, APlayerThatShowsNothingHangsAndOneThatOpensMayTakeLonger) {
   EXPECT_EQ(askUntil(plays, limit + 1), kAfter);
 }
 
-TEST(HangWatch, AWatcherThatDidNotAskForASecondWasStoppedItselfAndAsksAnew) {
+TEST(HangWatch, AWatcherThatDidNotAskForASecondWasStoppedItselfAndAsksAgain) {
   auto made = SharedProgress::create();
   ASSERT_TRUE(made);
   SharedProgress& p = *made.value();

@@ -1,7 +1,8 @@
-/// An OpenGL context that is lost while walls are drawn: it is told and made anew, and the frame is drawn.
+/// If an OpenGL context is lost while walls are drawn, the renderer reports it, creates a new one and draws
+/// the frame.
 
 #include "pipeline/gl/gl_table.h"
-#include "pipeline/wall/drawing_here.h"
+#include "pipeline/wall/gl_wall_renderer.h"
 #include "tests/pipeline/draw/renderer_scene.h"
 
 #include <gtest/gtest.h>
@@ -92,7 +93,7 @@ protected:
   Losing provider_;
   DrawList list_;
   std::vector<std::string> told_;
-  DrawingHere drawing_;
+  GlWallRenderer drawing_;
 };
 
 TEST_F(ContextLost, TheFrameIsDrawnInANewOneAndThatIsTold) {
@@ -104,8 +105,9 @@ TEST_F(ContextLost, TheFrameIsDrawnInANewOneAndThatIsTold) {
     EXPECT_FALSE(f) << f->message;
   }
   EXPECT_EQ(picture(1), before);
-  const std::vector<std::string> told{"wall front, frame 7: its OpenGL context was lost; it is made anew",
-                                      "wall left, frame 7: its OpenGL context was lost; it is made anew"};
+  const std::vector<std::string> told{
+      "wall front, frame 7: its OpenGL context was lost; a new one is created",
+      "wall left, frame 7: its OpenGL context was lost; a new one is created"};
   EXPECT_EQ(told_, told);
 }
 

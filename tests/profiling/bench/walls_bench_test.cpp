@@ -7,6 +7,7 @@
 #include "profiling/bench/walls/walls_program.h"
 #include "profiling/bench/walls/walls_record.h"
 #include "profiling/bench/walls/walls_table.h"
+#include "tests/fresh_folder.h"
 
 #include <algorithm>
 #include <filesystem>
@@ -208,8 +209,8 @@ protected:
     if (read) rows_ = read.value().rows.size(), begun_ = read.value().head.begun;
     return read ? std::string() : format(read.error());
   }
-  const std::string file_ =
-      std::filesystem::temp_directory_path() / ("stadion-record-" + std::to_string(::getpid()));
+  const FreshFolder folder_;
+  const std::string file_ = folder_ / "record";
   std::size_t rows_ = 0;
   std::int64_t begun_ = 0;
 };
@@ -286,8 +287,8 @@ TEST(WallsBench, TheTableHasALineForEachCaseWithRatiosToTheBest) {
 }
 
 TEST(WallsBench, PicturesAreReadAsTheyWereWritten) {
-  const std::string file =
-      std::filesystem::temp_directory_path() / ("stadion-picture-" + std::to_string(::getpid()) + ".ppm");
+  const FreshFolder folder;
+  const std::string file = folder / "picture.ppm";
   const RgbPicture p{2, 1, {1, 2, 3, 10, 13, 30}};
   ASSERT_TRUE(writePpm(file, p));
   const auto read = readPpm(file);

@@ -13,7 +13,7 @@
 namespace stadion {
 namespace {
 
-using enum Concession;
+using enum DegradationStep;
 
 /// A show of some listening nodes with terms, whose costs a test makes up.
 struct Governed : ShowFixture {
@@ -27,7 +27,7 @@ struct Governed : ShowFixture {
   std::map<NodeRef, std::uint32_t> levels;  ///< as they have been decided; of no node: stress
 
   explicit Governed(std::vector<NodeTerms> terms, bool scalable = false, GovernorOptions options = {}) {
-    loader.files["show"] = [=](Load& load) {
+    loader.files["show"] = [=](LoadedScene& load) {
       load.lines.assign(terms.size() + 1, 1);
       for (std::size_t i = 0; i < terms.size(); ++i) {
         addNode<ListeningNode>(load, "node" + std::to_string(i));
@@ -38,7 +38,7 @@ struct Governed : ShowFixture {
       if (scalable)
         addNode<LodNode>(load, "tree", PlaceAttributes{}, std::vector<NodeRef>{}, std::vector<double>{5});
     };
-    loader.files["annex"] = [this](Load& load) {
+    loader.files["annex"] = [this](LoadedScene& load) {
       load.lines.assign(2, 1);
       addNode<ListeningNode>(load, "guest");
       if (guest) load.terms[0] = *guest;
@@ -66,8 +66,8 @@ struct Governed : ShowFixture {
     double app = 0.1;
     for (std::size_t i = 0; i < nodes.size(); ++i) {
       const NodeRef ref{1, static_cast<std::uint32_t>(i)};
-      const Load* load = scene.tree().load(1);
-      if (reliefAt(load->terms.at(ref.position).gives, levels[ref]).rests) continue;
+      const LoadedScene* load = scene.tree().load(1);
+      if (degradationAt(load->terms.at(ref.position).gives, levels[ref]).rests) continue;
       governor->take(0, span(Span::Simulate, at, nodes[i], kNoWall, ref));
       app += nodes[i];
     }
@@ -83,9 +83,9 @@ struct Governed : ShowFixture {
     governor->take(1 + wall, r);
   }
   /// The annex comes or goes.
-  void annex(Verb verb) {
+  void annex(CommandId command) {
     const std::uint64_t before = scene.tree().version();
-    scene.command("annex", verb, {}, 0);
+    scene.command("annex", command, {}, 0);
     for (int i = 0; i < 200 && scene.tree().version() == before; ++i) ShowFixture::frame();
     ASSERT_NE(scene.tree().version(), before);
     names.see(scene);
@@ -133,11 +133,11 @@ TEST(LoadGovernor, AStallIsToldThoughASmallOverrunWasToldJustBefore) {
 
 /// A node whose drawing is looked at in every 16th frame, unless it is hidden.
 struct Drawn : Governed {
-  Drawn(double budget, std::vector<Concession> gives) : Governed({{budget, std::move(gives), 1}}) {}
+  Drawn(double budget, std::vector<DegradationStep> gives) : Governed({{budget, std::move(gives), 1}}) {}
 
   void draw(std::uint64_t count, double ms) {
     for (; count > 0; --count) {
-      const bool hidden = reliefAt(scene.tree().load(1)->terms.at(0).gives, level(0)).hidden;
+      const bool hidden = degradationAt(scene.tree().load(1)->terms.at(0).gives, level(0)).hidden;
       if (at % 16 == 9 && !hidden) {
         const DrawnAlone alone{at, 0, 0, Span::Draw, ms, 0};
         governor->take(alone, {{NodeRef{1, 0}, 1}});
@@ -190,7 +190,7 @@ TEST(LoadGovernor, ThatDrawingIsDoneElsewhereIsToldOnceAndOfEachBudget) {
   options.drawnElsewhere = true;
   Governed g({{1, {}, 1}, {2, {}, 1}}, false, options);
   g.frames(10, {0, 0});
-  g.annex(Verb::Load);
+  g.annex(CommandId::Load);
   g.frames(10, {0, 0});
   ASSERT_EQ(g.told.size(), 1U);
   EXPECT_EQ(g.told[0].find("the budget of \"node0\" show:1 counts App and Cull only"), 0U) << g.told[0];
@@ -272,12 +272,12 @@ TEST(LoadGovernor, WhatComesAndGoesAllDayIsReportedOnce) {
   g.guest = NodeTerms{1, {Rest}, 1};
   std::uint32_t file = 1;  // loads are numbered as they come
   for (int visit = 0; visit < 20; ++visit) {
-    g.annex(Verb::Load), ++file;
+    g.annex(CommandId::Load), ++file;
     for (int i = 0; i < 30; ++i) {
       g.governor->take(0, Governed::span(Span::Simulate, g.at, 1.0 + visit % 4, kNoWall, {file, 0}));
       g.frame({0});
     }
-    g.annex(Verb::Unload);
+    g.annex(CommandId::Unload);
   }
   const std::vector<BudgetReport> reports = g.governor->reports();
   ASSERT_EQ(reports.size(), 2U);
@@ -296,7 +296,7 @@ TEST(LoadGovernor, WhatComesAndGoesAllDayIsReportedOnce) {
 TEST(LoadGovernor, TheSkyThatIsSeenTakesWhatTheBackgroundDoes) {
   Governed g({});
   g.dusk = NodeTerms{0.5, {}, 1};
-  g.annex(Verb::Load);
+  g.annex(CommandId::Load);
   for (int i = 0; i < 100; ++i) {
     if (g.at % 16 == 9) g.governor->take(DrawnAlone{g.at, 0, 0, Span::Sky, 2, 0}, {});
     g.frame({});
@@ -365,11 +365,11 @@ TEST(LoadGovernor, WhatIsGivenUpForTheFrameStaysSoWhateverComesOrGoes) {
   g.frames(100, {4, 4});
   g.frames(30, {12, 12});
   ASSERT_EQ(g.level(1), 3U);
-  g.annex(Verb::Load);
+  g.annex(CommandId::Load);
   g.frames(20, {12, 12});
   EXPECT_EQ(g.level(1), 3U);
   EXPECT_EQ(g.level(0), 0U);
-  g.annex(Verb::Unload);
+  g.annex(CommandId::Unload);
   g.frames(20, {12, 12});
   EXPECT_EQ(g.level(1), 3U);
   EXPECT_EQ(g.level(0), 0U);
@@ -381,7 +381,7 @@ TEST(LoadGovernor, ANewNodeOfLowerPriorityGivesUpBeforeThoseThatHaveAlready) {
   g.frames(100, {4, 4});
   g.frames(30, {12, 12});
   ASSERT_EQ(g.level(1), 3U);
-  g.annex(Verb::Load);
+  g.annex(CommandId::Load);
   g.frames(3, {12, 12});
   EXPECT_EQ((g.levels[NodeRef{2, 0}]), 1U);
   EXPECT_EQ(g.level(1), 3U);
@@ -392,7 +392,7 @@ TEST(LoadGovernor, WhatIsHiddenForItsBudgetStaysHiddenWhenSomethingElseComes) {
   Drawn g(1, {Hide});
   g.draw(120, 3);
   ASSERT_EQ(g.level(0), 1U);
-  g.annex(Verb::Load);
+  g.annex(CommandId::Load);
   const std::uint64_t before = g.governor->reports().at(0).overruns;
   g.draw(16, 3);
   EXPECT_EQ(g.level(0), 1U);

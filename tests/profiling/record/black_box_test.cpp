@@ -2,6 +2,7 @@
 
 #include "profiling/record/black_box.h"
 #include "profiling/record/black_box_folder.h"
+#include "tests/fresh_folder.h"
 
 #include <algorithm>
 #include <filesystem>
@@ -17,8 +18,7 @@ namespace {
 namespace fs = std::filesystem;
 
 struct Folder {
-  fs::path path = fs::temp_directory_path() / ("black-box-" + std::to_string(::getpid()));
-  Folder() { fs::create_directory(path); }
+  fs::path path = makeFreshFolder();
   ~Folder() { fs::remove_all(path); }
   std::string file() const { return (path / "last.frames").string(); }
 };

@@ -127,6 +127,31 @@ TEST(FrameLog, WorkIsCountedOfTheStageEyeOrNodeThatDidIt) {
   EXPECT_EQ(counted(Span::RightEye, Count::Contacts, kBallNode).count(), 2U);
 }
 
+TEST(FrameLog, AReaderMayTakeTheFirstFramesToo) {
+  struct Kept : SpanReader {
+    std::vector<std::uint64_t> spans, counts;
+    using SpanReader::take;
+    void take(std::size_t, const SpanRecord& r) override { spans.push_back(r.frame); }
+    void take(const CountRecord& c) override { counts.push_back(c.frame); }
+  };
+  struct KeptAll final : Kept {
+    bool takesFirstFrames() const override { return true; }
+  };
+  Kept later;
+  KeptAll all;
+  FrameLog log({&later, &all}, {.samples = false, .from = 2});
+  for (std::uint64_t frame = 0; frame < 4; ++frame) {
+    FrameProbe& probe = log;
+    const SpanScope stage(&log, Span::Draw, frame, 1);
+    probe.counted(Count::Instances, 10, {});
+  }
+  log.finish();
+  EXPECT_EQ(later.spans, (std::vector<std::uint64_t>{2, 3}));
+  EXPECT_EQ(later.counts, later.spans);
+  EXPECT_EQ(all.spans, (std::vector<std::uint64_t>{0, 1, 2, 3}));
+  EXPECT_EQ(all.counts, all.spans);
+}
+
 TEST(FrameLog, TellsWhatAStageAllocates) {
   if (!countsAllocations()) GTEST_SKIP() << "sanitizers allocate themselves";
   struct Kept final : SpanReader {

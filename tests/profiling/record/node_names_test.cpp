@@ -17,31 +17,31 @@ struct Annexed : ShowFixture {
   std::string guest = "guest";
 
   Annexed() {
-    loader.files["show"] = [](Load& load) {
+    loader.files["show"] = [](LoadedScene& load) {
       load.lines.assign(1, 1);
       addNode<SceneNode>(load, "annex", PlaceAttributes{}, "annex", Nanoseconds{0}, false);
     };
-    loader.files["annex"] = [this](Load& load) {
+    loader.files["annex"] = [this](LoadedScene& load) {
       load.lines.assign(2, 7);
       addNode<ListeningNode>(load, guest);
       addNode<SceneNode>(load, "cabin", PlaceAttributes{}, "cabin", Nanoseconds{0}, true);
     };
-    loader.files["cabin"] = [](Load& load) {
+    loader.files["cabin"] = [](LoadedScene& load) {
       load.lines.assign(1, 3);
       addNode<ListeningNode>(load, "bed");
     };
     EXPECT_TRUE(scene.open("show"));
     names.see(scene);
   }
-  void annex(Verb verb) {
-    scene.command("annex", verb, {}, 0);
+  void annex(CommandId command) {
+    scene.command("annex", command, {}, 0);
     frames(4);
     names.see(scene);
   }
   /// Of the load that has that file now; 0 = it is not there.
   std::uint32_t loadOf(const std::string& file) {
     std::uint32_t number = 0;
-    scene.tree().forEachLoad([&](const Load& load) {
+    scene.tree().forEachLoad([&](const LoadedScene& load) {
       if (load.file == file) number = load.number;
     });
     return number;
@@ -50,13 +50,13 @@ struct Annexed : ShowFixture {
 
 TEST(NodeNames, AFileThatComesAgainBringsTheSameNodes) {
   Annexed show;
-  show.annex(Verb::Load);
+  show.annex(CommandId::Load);
   const std::uint32_t annex = show.loadOf("annex"), cabin = show.loadOf("cabin");
   ASSERT_NE(annex, 0U);
   ASSERT_NE(cabin, 0U);
-  show.annex(Verb::Unload);
+  show.annex(CommandId::Unload);
   EXPECT_TRUE(show.names.find({cabin, 0})->unloaded);
-  show.annex(Verb::Load);
+  show.annex(CommandId::Load);
   const std::uint32_t annexAgain = show.loadOf("annex"), cabinAgain = show.loadOf("cabin");
   ASSERT_NE(annexAgain, annex);
   ASSERT_NE(cabinAgain, cabin);
@@ -69,11 +69,11 @@ TEST(NodeNames, AFileThatComesAgainBringsTheSameNodes) {
 
 TEST(NodeNames, AFileWhoseNodesHaveChangedBringsOthers) {
   Annexed show;
-  show.annex(Verb::Load);
+  show.annex(CommandId::Load);
   const std::uint32_t annex = show.loadOf("annex");
-  show.annex(Verb::Unload);
+  show.annex(CommandId::Unload);
   show.guest = "stranger";
-  show.annex(Verb::Load);
+  show.annex(CommandId::Load);
   const std::uint32_t changed = show.loadOf("annex");
   EXPECT_EQ(show.names.firstLoad(changed), changed);
   EXPECT_EQ(show.names.find({changed, 0})->path, "annex/stranger");
@@ -82,12 +82,12 @@ TEST(NodeNames, AFileWhoseNodesHaveChangedBringsOthers) {
 
 TEST(NodeNames, ThoseOfLongAgoAreForgottenByNumberButNotByName) {
   Annexed show;
-  show.annex(Verb::Load);
+  show.annex(CommandId::Load);
   const std::uint32_t first = show.loadOf("annex");
   std::uint32_t second = 0;
   for (int i = 0; i < 100; ++i) {
-    show.annex(Verb::Unload);
-    show.annex(Verb::Load);
+    show.annex(CommandId::Unload);
+    show.annex(CommandId::Load);
     if (i == 0) second = show.loadOf("annex");
   }
   EXPECT_EQ(show.names.firstLoad(second), std::nullopt);
@@ -105,11 +105,11 @@ TEST(ShowProfile, ANodeThatComesAgainIsAddedUpWithWhatItWas) {
     r.what = Span::App, r.node = {}, r.depth = 0;
     profile.take(0, r);
   };
-  show.annex(Verb::Load);
+  show.annex(CommandId::Load);
   const std::uint32_t first = show.loadOf("annex");
   works(first, 1, 1);
-  show.annex(Verb::Unload);
-  show.scene.command("annex", Verb::Load, {}, 0);
+  show.annex(CommandId::Unload);
+  show.scene.command("annex", CommandId::Load, {}, 0);
   show.frames(4);
   const std::uint32_t again = show.loadOf("annex");
   works(again, 10, 2);  // its name is not known yet

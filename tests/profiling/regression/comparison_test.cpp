@@ -203,7 +203,7 @@ TEST(RegressionTimes, ThatCannotBeComparedAreNoPass) {
   for (std::size_t i = 0; i < 3; ++i) EXPECT_EQ(checks[i].outcome, Outcome::Failed) << checks[i].said;
   EXPECT_EQ(checks[0].said,
             "the baseline's times of it cannot be compared with: the middle one is 0; --update "
-            "measures them anew");
+            "measures new ones");
   EXPECT_NE(checks[1].said.find("there are none"), std::string::npos) << checks[1].said;
   EXPECT_NE(checks[2].said.find("1 and 12 rounds are too few"), std::string::npos) << checks[2].said;
   EXPECT_EQ(checks[3].outcome, Outcome::Passed) << checks[3].said;

@@ -111,7 +111,7 @@ TEST(RegressionSuite, WithMistakesIsToldWhereAndWhatToDo) {
     const std::string found = listing(out, kCorpus.string() + "/");
     fs::path golden = entry.path();
     golden.replace_extension(".expected");
-    // STADION_WRITE_EXPECTED=1 writes the listings anew; read them before they are committed.
+    // STADION_WRITE_EXPECTED=1 updates the listings; read them before they are committed.
     if (std::getenv("STADION_WRITE_EXPECTED")) std::ofstream(golden) << found;
     EXPECT_EQ(found, content(golden)) << entry.path();
     EXPECT_FALSE(found.empty()) << entry.path();

@@ -187,7 +187,7 @@ TEST(ReportPage, WhatScriptsNameThemselvesNeverBecomesMarkup) {
 TEST(ReportPage, ANodeStandsBesideALateFrameOnlyWhereItExplainsIt) {
   MadeUpRun run;
   ShowFixture show;
-  show.loader.files["show"] = [](Load& load) {
+  show.loader.files["show"] = [](LoadedScene& load) {
     load.lines.assign(60, 1);
     for (int i = 0; i < 60; ++i) addNode<ListeningNode>(load, "node" + std::to_string(i));
   };

@@ -1,6 +1,7 @@
 #include "profiling/trace/trace_merge.h"
 
 #include "profiling/trace/trace_events.h"
+#include "tests/fresh_folder.h"
 
 #include <algorithm>
 #include <cstdlib>
@@ -19,12 +20,6 @@ using trace::Ticks;
 
 class TraceMerge : public ::testing::Test {
 protected:
-  TraceMerge()
-      : folder_(std::filesystem::temp_directory_path() / ("stadion-merge-" + std::to_string(getpid()))) {
-    std::filesystem::create_directories(folder_);
-  }
-  ~TraceMerge() override { std::filesystem::remove_all(folder_); }
-
   std::string path(const std::string& name) const { return folder_ / name; }
   /// A host's trace: each frame swaps 16 ms after the one before, by a clock that is `ahead`.
   std::string hostTrace(const std::string& name, Ticks ahead, std::uint64_t first,
@@ -47,7 +42,7 @@ protected:
   }
 
 private:
-  std::filesystem::path folder_;
+  FreshFolder folder_;
 };
 
 TEST_F(TraceMerge, AlignsClocksByTheSwapsOfCommonFrames) {

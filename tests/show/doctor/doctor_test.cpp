@@ -17,6 +17,7 @@ DoctorProbes wellMachine() {
   DoctorProbes p;
   p.hasProgram = [](const std::string&) { return true; };
   p.helper = [](const std::string& name) { return "/usr/lib/stadion/" + name; };
+  p.cpuRenderer = [] { return std::string("CPU renderer (AVX2), 2 threads"); };
   p.softwareGl = [] { return Result<std::string>(std::string("llvmpipe")); };
   p.hardwareGl = [] { return Result<std::string>(std::string("NVIDIA H100, OpenGL 4.6")); };
   p.sound = [] { return Result<std::string>(std::string("HDA Intel")); };
@@ -24,6 +25,7 @@ DoctorProbes wellMachine() {
     return Result<std::vector<std::string>>(
         std::vector<std::string>{"HDMI-1 (1920 x 1080)", "DP-1 (800 x 600)"});
   };
+  p.windowPixels = [] { return Result<std::string>(std::string("shared memory")); };
   p.swapGroups = [] { return std::optional(true); };
   p.realtime = [] { return true; };
   p.network = [] {
@@ -68,8 +70,11 @@ TEST(Doctor, NamesTheCommandThatMends) {
   sick.sound = [] {
     return Result<std::string>::failure("libopenal.so.1 is missing: apt-get install libopenal1");
   };
-  sick.monitors = [](const std::string&) {
-    return Result<std::vector<std::string>>::failure("no window system: DISPLAY is not set");
+  sick.monitors = [](const std::string& screen) {
+    using Monitors = Result<std::vector<std::string>>;
+    return screen == ":0"
+               ? Monitors(std::vector<std::string>{"DP-1 (800 x 600)"})
+               : Monitors::failure("there is no display (X11: none); set DISPLAY, such as DISPLAY=:0");
   };
   sick.swapGroups = [] { return std::optional<bool>(); };
   sick.realtime = [] { return false; };
@@ -105,6 +110,31 @@ TEST(Doctor, NamesTheCommandThatMends) {
             std::string::npos)
       << toText(asked);
   EXPECT_TRUE(canWork(examine(wellMachine(), {{"sound"}, {}})));
+}
+
+TEST(Doctor, SaysHowWindowsWithoutOpenGlGetTheirPictures) {
+  DoctorProbes p = wellMachine();
+  EXPECT_NE(of(examine(p, {}), "displays").found.find("; without OpenGL: shared memory"), std::string::npos);
+  p.windowPixels = [] { return Result<std::string>::failure("8 bits a pixel"); };
+  const auto all = examine(p, {});
+  const DoctorFinding& f = of(all, "displays");
+  EXPECT_EQ(f.health, Health::Limited);
+  EXPECT_NE(f.found.find("8 bits a pixel"), std::string::npos);
+  EXPECT_FALSE(f.lacks.empty());
+}
+
+TEST(Doctor, NamesADisplayOnlyIfItsServerAnswers) {
+  DoctorProbes sick = wellMachine();
+  sick.monitors = [](const std::string&) {
+    return Result<std::vector<std::string>>::failure(
+        "there is no display (X11: none); set DISPLAY, such as :0");
+  };
+  sick.exists = [](const std::string& path) { return path == "/tmp/.X11-unix/X0"; };
+  const auto all = examine(sick, {});
+  const DoctorFinding& f = of(all, "displays");
+  EXPECT_EQ(f.found, "there is no display (X11: none)");
+  EXPECT_EQ(f.mend.find("DISPLAY"), std::string::npos) << f.mend;
+  EXPECT_NE(f.mend.find("apt-get install xserver-xorg"), std::string::npos) << f.mend;
 }
 
 TEST(Doctor, LooksForTheMonitorsOfAWallFile) {

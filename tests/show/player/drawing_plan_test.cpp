@@ -91,5 +91,21 @@ TEST(DrawingPlan, DrawsHereWhereItMustAndSaysWhy) {
   EXPECT_TRUE(later.why().starts_with("it turned out so; ")) << later.why();
 }
 
+TEST(DrawingPlan, TheCpuRendererDrawsAllWallsWithOnePoolUnlessProcessesAreAskedFor) {
+  DrawingNeeds needs = four();
+  needs.cpuThreads = 6;
+  const DrawingPlan plan(needs, calibrated());
+  EXPECT_FALSE(plan.setting().processes) << "the calibration is OpenGL's";
+  EXPECT_EQ(plan.text(4), "6 threads of the CPU renderer for all walls");
+  EXPECT_EQ(plan.why(), "all walls share one pool of threads");
+  needs.wishes.pinned = true;
+  EXPECT_FALSE(DrawingPlan(needs, calibrated()).setting().pinned);
+  needs.wishes.processes = true;
+  const DrawingPlan apart(needs, calibrated());
+  EXPECT_TRUE(apart.setting().processes && apart.setting().pinned);
+  EXPECT_EQ(apart.text(4), "4 processes, each with 1 thread of the CPU renderer, pinned");
+  EXPECT_EQ(apart.why(), "processes were asked for");
+}
+
 }  // namespace
 }  // namespace stadion

@@ -16,7 +16,7 @@ namespace {
 
 /// Two worlds of their own: a ball that bounces for ever, and one that a carousel's arm meets; trees of
 /// levels beside them.
-constexpr const char* kReliefShow = R"(
+constexpr const char* kDegradationShow = R"(
 forcelinear( name=gravity, direction="0, 0, -1" )
 object( name=ground, file=plane.3ds )
 dynobject( name=ball, file=football.3ds, position="0, 3, 2", restitution=1, hook=gravity, levels=2 )
@@ -90,7 +90,7 @@ std::string playLive(const std::string& show, const std::string& log, Mode mode,
 TEST(ProgramLoadReplay, ARunThatGaveUpThingsReplaysToTheSameHashesInEveryMode) {
   for (const Mode mode : {Mode::Sequential, Mode::Pipelined}) {
     const TemporaryFolder folder;
-    const std::string show = folder.write("show.evs", kReliefShow), log = folder.path() / "live.input";
+    const std::string show = folder.write("show.evs", kDegradationShow), log = folder.path() / "live.input";
     const std::string live = playLive(show, log, mode, true);
     ASSERT_FALSE(live.empty());
     const std::string text = fileContent(log);
@@ -107,7 +107,7 @@ TEST(ProgramLoadReplay, ARunThatGaveUpThingsReplaysToTheSameHashesInEveryMode) {
 
 TEST(ProgramLoadReplay, TheSummaryTellsWhatWasObeyed) {
   const TemporaryFolder folder;
-  const std::string show = folder.write("show.evs", kReliefShow);
+  const std::string show = folder.write("show.evs", kDegradationShow);
   const std::string log = folder.write("a.input", "stadion-input 2\nrate 60\nframe 30 0.5\nrelief 5 1 3 3\n"
                                                   "stress 6 5\nstress 9 2\nrelief 8 1 3 1\n");
   const auto replayed = [&](const std::vector<std::string>& more) {
@@ -133,7 +133,7 @@ TEST(ProgramLoadReplay, TheSummaryTellsWhatWasObeyed) {
 
 TEST(ProgramLoadReplay, DecisionsAboutNothingAreTold) {
   const TemporaryFolder folder;
-  const std::string show = folder.write("show.evs", kReliefShow);
+  const std::string show = folder.write("show.evs", kDegradationShow);
   const std::string log = folder.write("a.input", "stadion-input 2\nrate 60\nframe 30 0.5\nrelief 5 1 3 3\n"
                                                   "relief 6 7 5 1\nrelief 7 1 99 1\nrelief 8 1 99 0\n"
                                                   "relief 9 1 0 1\n");
@@ -148,7 +148,7 @@ TEST(ProgramLoadReplay, DecisionsAboutNothingAreTold) {
 
 TEST(ProgramLoadReplay, WithoutTheDecisionsItIsAnotherRun) {
   const TemporaryFolder folder;
-  const std::string show = folder.write("show.evs", kReliefShow), log = folder.path() / "live.input";
+  const std::string show = folder.write("show.evs", kDegradationShow), log = folder.path() / "live.input";
   const std::string live = playLive(show, log, Mode::Sequential, true);
   std::string text = fileContent(log);
   for (std::size_t i = text.find("\nrelief "); i != std::string::npos; i = text.find("\nrelief "))

@@ -15,7 +15,7 @@
 namespace stadion {
 namespace {
 
-constexpr double kRate = 60;
+constexpr double kReloadRate = 60;
 constexpr std::uint64_t kFramesPerCycle = 6;  // in reload_with.evs
 
 std::uint64_t framesFor(int cycles) {
@@ -87,7 +87,7 @@ Seen playReloading(const Playing& what) {
   ShowStages stages(std::move(parts));
   running = &stages;
   FrameLoopOptions o;
-  o.mode = what.mode, o.walls = 1, o.frames = what.frames, o.pace = what.pace, o.rate = kRate;
+  o.mode = what.mode, o.walls = 1, o.frames = what.frames, o.pace = what.pace, o.rate = kReloadRate;
   const std::atomic<bool> never = false;
   FrameLoop loop(stages, o, never);
   const FrameLoopOutcome outcome = loop.run();

@@ -22,5 +22,12 @@ TEST(ThreadCount, GivesAdviceOnlyIfThreadsShareProcessors) {
             "threads: 1 App, 4 Cull, 4 Draw, 2 of the software rasteriser: 11 for 11 processors\n");
 }
 
+TEST(ThreadCount, TheCpuRendererCountsDrawAmongItsThreads) {
+  const ThreadCount threads = threadsOfCpuRenderer(2, 4);
+  EXPECT_EQ(threads.all(), 1u + 4 + 2);
+  EXPECT_EQ(textOf(threads, 8, "cave4"),
+            "threads: 1 App, 4 Cull, 2 of the CPU renderer, which draw all walls: 7 for 8 processors\n");
+}
+
 }  // namespace
 }  // namespace stadion

@@ -1,0 +1,74 @@
+#pragma once
+/// The exact solution of a small contact problem, once it is known which points push, stick and slip.
+
+#include "dynamics/contact/contact_rows.h"
+#include "dynamics/maths/envelope_matrix.h"
+
+namespace stadion {
+
+class ContactActiveSet {
+public:
+  ContactActiveSet(std::vector<SolverBody>& solverBodies, std::vector<SolverContact>& contacts,
+                   const std::vector<ContactRow>& rows);
+
+  /// Reads the choice off the present impulses, solves for it and mends it until every point agrees. False if
+  /// it does not settle within so many multiplications; everything is then as it was.
+  bool settle(double& work);
+
+private:
+  bool attempt(double& work);
+  enum class Kind : std::uint8_t { Open, Stick, Slip };
+  /// An impulse in a contact's basis, and the velocity it is to bring about: `wanted` less `soft` times the
+  /// impulse.
+  struct Unknown {
+    std::uint32_t contact;
+    Vec3 reads, direction;
+    double wanted, soft;
+    bool normal;
+    std::int32_t area = -1;    ///< whose friction it changes as well ...
+    Vec3 also = Vec3::Zero();  ///< ... by this
+  };
+  static void add(ContactAxis& sum, const ContactRow& row, const Vec3& reads, const Vec3& direction);
+  ContactAxis along(const Unknown& u) const;
+  bool leavesFriction(std::size_t contact) const {
+    return c_[contact].patch >= 0 || c_[contact].friction <= 0;
+  }
+  void listSlip(std::uint32_t contact);
+  void listArea(std::uint32_t contact);
+  void read();
+  void list();
+  bool isDense() const;
+  double measure();
+  double changeBy(std::size_t row, std::size_t column) const;
+  bool assemble();
+  void solveFor(Eigen::VectorXd& r);
+  double solve();
+  bool mend(bool singly);
+  bool mendFriction(double largest);
+  bool mendArea(std::size_t contact);
+  Vec3 areaSlipOf(std::size_t contact) const;
+  void put(std::size_t contact, const Vec3& impulse);
+  Vec2 slipOf(std::size_t contact) const;
+
+  std::vector<SolverBody>& m_;
+  std::vector<SolverContact>& c_;
+  const std::vector<ContactRow>& rows_;
+  std::vector<Kind> kind_;
+  std::vector<Unknown> unknowns_;
+  std::vector<ContactAxis> axes_;     ///< of the unknowns
+  std::vector<double> amount_;        ///< of each that has been added
+  std::vector<Vec3> flow_;            ///< of areas that slip: the slip that friction goes against
+  std::vector<std::uint32_t> order_;  ///< of the contacts, along the line of bodies that they hold together
+  std::vector<std::size_t> firsts_;   ///< where each unknown's row begins
+  EnvelopeMatrix narrow_;
+  Eigen::MatrixXd K_;
+  Eigen::PartialPivLU<Eigen::MatrixXd> lu_;
+  std::vector<double> x_;
+  Eigen::VectorXd r_;
+  std::vector<Vec2> slip_;
+  std::vector<Vec3> areaSlip_;
+  std::vector<double> speed_;  ///< of points that slip, once the direction is nearly known [m/s]
+  std::vector<double> over_;   ///< how much faster than its floor each open point parts
+};
+
+}  // namespace stadion

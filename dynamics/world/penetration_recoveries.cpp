@@ -1,0 +1,76 @@
+#include "dynamics/world/penetration_recoveries.h"
+
+#include "engine/core/state_hash.h"
+
+#include <algorithm>
+
+namespace stadion {
+
+bool comesOutOf(const RigidBody& b, ColliderId id) {
+  return std::ranges::any_of(b.grip.recoveries, [&](const PenetrationRecovery& w) { return w.of == id; });
+}
+
+/// Of the things that a body was let go in, those that it is out of.
+void forgetRecoveries(RigidBody& b, const WorldObjects& objects, double tau) {
+  std::erase_if(b.grip.recoveries, [&](const PenetrationRecovery& w) {
+    const Collider* c = objects.collider(w.of);
+    return !c || !c->enabled || !barrier(Side::of(b), Side::of(*c), tau, w);
+  });
+}
+
+/// Where held bodies have been free last: in nothing, and not through anything since.
+void PenetrationRecoveries::noteFreePlaces() {
+  for (RigidBody* b : held_.list()) {
+    if (b->mode != BodyMode::Held) continue;
+    const Side self = Side::of(*b);
+    const Vec3 middle = b->poseAt(time_.now()) * b->bound.centre;
+    Aabb box;
+    box.include(middle), box.include(b->grip.freePlace);
+    box.lo.array() -= b->bound.radius, box.hi.array() += b->bound.radius;
+    bool free = true;
+    boxes_.eachCollider(box, [&](const Collider& c) {
+      const Side thing = Side::of(c);
+      if (!free || !c.enabled || !objects_.mayTouch(self, thing)) return;
+      free = !overlaps(self, thing, time_.now()) && !wentInto(thing, time_.now(), b->grip.freePlace, middle);
+    });
+    if (free) b->grip.freePlace = middle;
+  }
+}
+
+/// A body that has been let go inside of something is to come out the way it went in.
+void PenetrationRecoveries::find(RigidBody& b) {
+  b.grip.recoveries.clear();
+  if (!b.grip.letGo) return;
+  b.grip.letGo = false;
+  const double tau = time_.from();
+  const Kinematics k = b.at(tau);
+  if (fields_.accelerationAt(b, k.p, k.v, tau).isZero(0)) return;
+  const Side self = Side::of(b);
+  Aabb box;
+  box.include(k.pose * b.bound.centre), box.include(b.grip.freePlace);
+  box.lo.array() -= b.bound.radius, box.hi.array() += b.bound.radius;
+  boxes_.eachCollider(box, [&](const Collider& c) {
+    const Side thing = Side::of(c);
+    if (!c.enabled || !objects_.mayTouch(self, thing)) return;
+    if (const auto way = penetrationRecoveryOf(self, thing, tau, b.grip.freePlace))
+      b.grip.recoveries.push_back(*way);
+  });
+  std::erase_if(comingOut_, [&](BodyId id) {
+    return id == b.id || !objects_.body(id) || objects_.body(id)->grip.recoveries.empty();
+  });
+  if (!b.grip.recoveries.empty()) comingOut_.push_back(b.id);
+}
+
+std::uint64_t PenetrationRecoveries::digest() const {
+  StateHash h;
+  for (const RigidBody* b : held_.list())
+    if (b->mode == BodyMode::Held) h.add(std::uint64_t{b->id}), h.add(b->grip.freePlace);
+  for (const BodyId id : comingOut_) {
+    const RigidBody* b = objects_.body(id);
+    for (const PenetrationRecovery& w : b ? b->grip.recoveries : std::vector<PenetrationRecovery>{})
+      h.add(std::uint64_t{id}), h.add(std::uint64_t{w.of}), h.add(w.normal), h.add(w.side);
+  }
+  return h.value();
+}
+
+}  // namespace stadion

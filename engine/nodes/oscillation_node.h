@@ -1,0 +1,115 @@
+#pragma once
+/// `sway`: moves its targets to and fro, each along a sinusoid about where the script has put it, and turns
+/// them evenly: boats, banners, a shoal.
+///
+/// Target k, from 0, is displaced along each axis by amplitude x sin(2 pi frequency t + phase + k phasestep)
+/// and turned about itself by angularvelocity x t. t is the time for which the node has been on: nothing is
+/// integrated, so that the way does not depend on the frame rate.
+///
+/// All targets are moved together, as a fleet (Placements): what the sinusoids have in common is computed
+/// once a frame and once for 64 targets that follow each other, and a target costs a few multiplications
+/// (sin(a + b) = sin a cos b + cos a sin b). Where a target is follows from this node's state; it is no part
+/// of the target's own until it is left there.
+///
+/// Commands  enable (goes on where it stopped), disable (the targets stay where they are at the command's
+///           time), toggle, reset (back to t = 0), and those of a placed node when it moves what stands below
+///           it.
+/// Times     nodes that watch a target get its way inside the frame, as chords of 2 ms on a grid of show
+///           time.
+/// Load      kept from running, it goes on where it stopped. In one of several frames, its targets are then
+///           where its own time has them; watching nodes see them go straight there within that frame.
+/// Frames    displacement and angular velocity are in the coordinates of the target's parent.
+
+#include "engine/nodes/switched.h"
+#include "engine/scene/placed_node.h"
+
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace stadion {
+
+extern const NodeType kSwayType;
+
+struct OscillationAttributes {
+  std::vector<NodeRef> targets;         ///< in the order of the script; empty = itself
+  Vec3 amplitude = Vec3::Zero();        ///< [m]
+  Vec3 frequency = Vec3::Zero();        ///< [Hz]
+  Vec3 phase = Vec3::Zero();            ///< of the first target [rad]
+  Vec3 phaseStep = Vec3::Zero();        ///< from target to target [rad]
+  Vec3 angularVelocity = Vec3::Zero();  ///< [rad/s]
+};
+
+class OscillationNode : public PlacedNode, private FleetRule {
+public:
+  OscillationNode(NodeRef self, std::string name, PlaceAttributes place, OscillationAttributes sway, bool on)
+      : PlacedNode(kSwayType, self, std::move(name), std::move(place)), sway_(std::move(sway)), switch_(on) {}
+
+  Rank rank() const override { return Rank::Motion; }
+  bool busy() const override { return switch_.on() || PlacedNode::busy(); }
+  void hash(StateHash& h) const override;
+  void state(StateFields& f) override;
+  template <class Self, class Fields>
+  static void fields(Self& self, Fields& f);
+  bool resume(Scene& scene) override;
+
+protected:
+  void onEnter(Scene& scene) override;
+  void onLeave(Scene& scene) override;
+  void receive(const Message& m, FrameContext& frame) override;
+  void simulate(FrameContext& frame) override;
+
+private:
+  static constexpr std::size_t kBlock = 64;  ///< targets that follow each other
+
+  /// One target at rest.
+  struct Swing {
+    Vec3 place;                ///< [m]
+    double along, across, up;  ///< of what stands upright, its axes: uprightAxes()
+    double widens;             ///< sphereScale()
+  };
+  struct Angles {
+    Vec3 sin, cos;
+  };
+  /// What the targets have in common at a time.
+  struct Moment {
+    Angles first;  ///< of target 0, without its phase
+    Mat3 turn;
+  };
+
+  void putMembers(std::size_t first, std::span<MemberPlace> places) const override;
+  void settleTargets(Scene& scene);
+  void findTargets(Scene& scene);
+  void settleTarget(std::size_t k, Scene& scene);
+  void settlePhases();
+  Moment momentAt(Nanoseconds elapsed) const;
+  void putAll(const Moment& m, std::size_t first, std::span<MemberPlace> places) const;
+  void put(std::size_t k, const Mat3& turn, const Angles& block, MemberPlace& place) const;
+  void restUntil(Nanoseconds time);
+  void advanceTo(Nanoseconds time, FrameContext& frame);
+  void putTargets(Scene& scene);
+  void leaveTargets(Scene& scene);
+  void trace(Nanoseconds to, FrameContext& frame);
+  void traceOne(std::size_t k, Nanoseconds to, FrameContext& frame) const;
+  void jump(Nanoseconds when, FrameContext& frame);
+
+  OscillationAttributes sway_;
+  Switched switch_;
+  Nanoseconds elapsed_ = 0;
+  Nanoseconds since_ = 0;             ///< show time up to which elapsed_ counts
+  std::optional<Nanoseconds> putAt_;  ///< when it last put its targets somewhere
+
+  Moment moment_{};  ///< of that time
+
+  // By target; found in its first cycle, when all of them are there.
+  bool settled_ = false;
+  FleetId fleet_ = kNoFleet;
+  std::vector<PlacedNode*> nodes_;  ///< null: has no place
+  std::vector<PlacementId> placements_;
+  std::vector<Swing> swings_;
+  std::vector<Mat3> axes_;  ///< rotation and scale at rest; empty while all stand upright and turn about +Z
+  std::vector<Angles> blocks_;  ///< the phase of the first of each kBlock
+  std::vector<Angles> steps_;   ///< how far the phase of the others is from that: amplitude x (sin, cos)
+};
+
+}  // namespace stadion

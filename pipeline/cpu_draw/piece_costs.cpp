@@ -1,0 +1,165 @@
+#include "pipeline/cpu_draw/piece_costs.h"
+
+#include <algorithm>
+#include <ctime>
+#include <numeric>
+
+namespace stadion {
+namespace {
+
+/// Objects that are drawn one after the other make one piece while it is no more than so large a part of all.
+constexpr float kMostJoined = 32;
+
+double threadMilliseconds() {
+  timespec t{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
+  return 1e3 * static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_nsec);
+}
+
+DrawnAlone aloneIn(const PieceCosts::View& view, Span what, double ms) {
+  DrawnAlone alone;
+  alone.frame = view.list.ticket.signature.frame, alone.wall = view.list.wall;
+  alone.eye = static_cast<std::uint32_t>(view.list.views[view.number].eye);
+  alone.what = what, alone.ms = std::max(ms, 0.0);
+  return alone;
+}
+
+}  // namespace
+
+/// Lists are sorted by mesh and level, so the triangles of the item before are often those of this one.
+float PieceCosts::workOf(const DrawItem& item, const DrawItem* before) {
+  constexpr float kOfTriangle = 8;  // as much as so many pixels
+  if (!before || before->mesh != item.mesh || before->level != item.level) {
+    triangles_ = 0;
+    if (const auto mesh = meshes_.find(item.mesh))
+      for (const CpuPart& part : mesh->partsAt(item.level)) triangles_ += part.triangles;
+  }
+  return item.pixels + kOfTriangle * static_cast<float>(triangles_);
+}
+
+void PieceCosts::findSeen(const View& view) {
+  seen_.clear(), work_.clear();
+  const auto addAll = [&](const std::vector<DrawItem>& items) {
+    for (const DrawItem& item : items)
+      if (item.views >> view.number & 1) {
+        work_.push_back(workOf(item, seen_.empty() ? nullptr : seen_.back()));
+        seen_.push_back(&item);
+      }
+  };
+  addAll(view.list.opaque);
+  opaque_ = seen_.size();
+  addAll(view.list.transparent);
+  all_ = std::accumulate(work_.begin(), work_.end(), 0.0f);
+}
+
+void PieceCosts::findPieces(FrameProbe& probe) {
+  const float most = all_ / kMostJoined;
+  float joined = 0;
+  pieces_.clear(), wanted_.clear();
+  for (std::size_t i = 0; i < seen_.size(); ++i) {
+    if (pieces_.empty() || joined + work_[i] > most) pieces_.push_back({i, 0}), joined = 0;
+    joined += work_[i], ++pieces_.back().count;
+  }
+  for (std::size_t p = 0; p < pieces_.size(); ++p) {
+    owners_.clear();
+    for (std::size_t i = 0; i < pieces_[p].count; ++i) owners_.push_back(seen_[pieces_[p].first + i]->owner);
+    if (probe.wantsAlone(owners_)) wanted_.push_back(p);
+  }
+}
+
+std::span<const NodeShare> PieceCosts::sharesOf(const Piece& piece) {
+  shares_.clear();
+  float sum = 0;
+  for (std::size_t i = piece.first; i < piece.first + piece.count; ++i)
+    shares_.push_back({seen_[i]->owner, work_[i]}), sum += work_[i];
+  for (NodeShare& share : shares_)
+    share.part = sum > 0 ? share.part / sum : 1.0f / static_cast<float>(shares_.size());
+  return shares_;
+}
+
+void PieceCosts::setUp(const View& view, const Piece& piece) {
+  setup_.begin(view.shading.setup->geometry(), view.shading.setup->samples());
+  const auto add = [&](std::size_t i, Transparency which) {
+    const DrawItem& item = *seen_[i];
+    if (const auto mesh = meshes_.find(item.mesh)) setup_.add(mesh, item.level, item.model, which);
+  };
+  for (std::size_t i = piece.first; i < piece.first + piece.count; ++i) add(i, Transparency::Opaque);
+  for (std::size_t i = std::max(piece.first, opaque_); i < piece.first + piece.count; ++i)
+    add(i, Transparency::Transparent);
+  setup_.divide();
+  for (std::size_t i = 0; i < setup_.placePieces(); ++i) setup_.place(i);
+  for (std::size_t i = 0; i < setup_.setUpPieces(); ++i) setup_.setUp(i);
+}
+
+void PieceCosts::drawBands(const View& view, std::span<const std::size_t> bands) {
+  PictureShading shading = view.shading;
+  rgba_.resize(shading.rgba.size());
+  shading.setup = &setup_, shading.rgba = rgba_;
+  for (const std::size_t band : bands) bands_.draw(shading, band);
+}
+
+/// Only bands that the piece touches are drawn, and once more without it.
+double PieceCosts::costOf(const View& view, const Piece& piece) {
+  const double began = threadMilliseconds();
+  setUp(view, piece);
+  touched_.clear();
+  for (std::size_t band = 0; band < setup_.bands(); ++band) {
+    bool touches = false;
+    for (const Transparency which : {Transparency::Opaque, Transparency::Transparent})
+      setup_.forEach(which, band, [&](const TriangleRecord&, const TriangleStretch&) { touches = true; });
+    if (touches) touched_.push_back(band);
+  }
+  drawBands(view, touched_);
+  const double drawn = threadMilliseconds();
+  setUp(view, {0, 0});
+  drawBands(view, touched_);
+  return drawn - began - (threadMilliseconds() - drawn);
+}
+
+void PieceCosts::sampleSome(const View& view, FrameProbe& probe) {
+  findSeen(view);
+  findPieces(probe);
+  touched_.resize(view.shading.setup->bands());
+  std::iota(touched_.begin(), touched_.end(), std::size_t{0});
+  const double began = threadMilliseconds();
+  setUp(view, {0, 0});
+  drawBands(view, touched_);
+  probe.drewAlone(aloneIn(view, Span::Sky, threadMilliseconds() - began), {});
+  if (wanted_.empty()) return;
+  const auto eye = static_cast<std::uint32_t>(view.list.views[view.number].eye);
+  const std::size_t at = probe.nextBatch(view.list.wall, eye, wanted_.size());
+  const std::size_t end = std::min(at + kBatchesAFrame, wanted_.size());
+  for (std::size_t i = at; i < end; ++i) {
+    const Piece& piece = pieces_[wanted_[i]];
+    const DrawnAlone alone = aloneIn(view, Span::Draw, costOf(view, piece));
+    probe.drewAlone(alone, sharesOf(piece));
+  }
+}
+
+void PieceCosts::sampleWhole(const View& view, FrameProbe& probe) {
+  findSeen(view);
+  touched_.resize(view.shading.setup->bands());
+  std::iota(touched_.begin(), touched_.end(), std::size_t{0});
+  const double began = threadMilliseconds();
+  setUp(view, {0, seen_.size()});
+  drawBands(view, touched_);
+  const bool left = view.list.views[view.number].eye == Eye::Left;
+  probe.drewAlone(aloneIn(view, left ? Span::LeftEye : Span::RightEye, threadMilliseconds() - began), {});
+}
+
+void PieceCosts::reportLargest(const DrawList& list, FrameProbe& probe) {
+  constexpr float kMuch = 0.25f;  // of all
+  NodeRef owner;
+  float most = 0, all = 0;
+  const DrawItem* before = nullptr;
+  for (const std::vector<DrawItem>* items : {&list.opaque, &list.transparent})
+    for (const DrawItem& item : *items) {
+      const float work = workOf(item, before);
+      before = &item, all += work;
+      if (work > most) most = work, owner = item.owner;
+    }
+  if (most < kMuch * all) owner = {};
+  if (most > 0) probe.counted(Count::Largest, static_cast<std::uint64_t>(most), owner);
+}
+
+}  // namespace stadion

@@ -1,0 +1,25 @@
+/// Eight triangles at a time. This file alone is compiled for AVX2 and defines nothing that other files could
+/// share.
+
+#include "pipeline/raster/cull_kernel.h"
+
+namespace stadion {
+namespace {
+
+bool project(const float* x, const float* y, const float* z, unsigned count, const PictureMatrix& matrix,
+             float* px, float* py, float* nearness, PictureBounds& bounds) {
+  return TriangleCulling<ByEight>::project(x, y, z, count, matrix, px, py, nearness, bounds);
+}
+unsigned keep(const int* a, const int* b, const int* c, unsigned count, const float* px, const float* py,
+              const float* nearness, float facing, const SeenSquares& seen, unsigned* out) {
+  return TriangleCulling<ByEight>::keep(a, b, c, count, px, py, nearness, facing, seen, out);
+}
+void squares(const float* depths, int width, int height, const NearnessOfDepth& of, float* nearness) {
+  farthestOfSquares(depths, width, height, of, nearness);
+}
+
+}  // namespace
+
+const CullKernels kCullByEight{project, keep, squares};
+
+}  // namespace stadion

@@ -1,0 +1,32 @@
+/// Where the states of two plays differ, by the fields that a baseline keeps.
+
+#include "show/regress/state_location.h"
+
+#include <gtest/gtest.h>
+
+namespace stadion {
+namespace {
+
+constexpr const char* kKept = "@ball\nplace\t1 2 3\nspin\t4\n@part\nlevel\t1\n@part\nlevel\t2\n";
+
+TEST(StateLocation, NamesTheFirstFieldThatDiffersWithItsPlaceInTheScript) {
+  EXPECT_EQ(firstDifference("@ball\ta.evs:7\nplace\t1 2 3.5\nspin\t5\n", kKept),
+            "ball (a.evs:7), place is 1 2 3.5 now, 1 2 3 before");
+  EXPECT_EQ(firstDifference(kKept, kKept), "");
+}
+
+TEST(StateLocation, TakesAFieldThatIsMissingForZero) {
+  const std::string now =
+      "@ball\ta.evs:7\nplace\t1 2 3\nmore\t9\nspin\t4\n@part\nlevel\t1\n@part\nlevel\t2\n";
+  EXPECT_EQ(firstDifference(now, kKept), "ball (a.evs:7), more is 9 now, 0 before");
+  EXPECT_EQ(firstDifference(kKept, now), "ball, more is 0 now, 9 before");
+}
+
+TEST(StateLocation, TellsNodesOfOnePathApart) {
+  EXPECT_EQ(
+      firstDifference("@ball\nplace\t1 2 3\nspin\t4\n@part\nlevel\t1\n@part\ta.evs:9\nlevel\t3\n", kKept),
+      "part #2 (a.evs:9), level is 3 now, 2 before");
+}
+
+}  // namespace
+}  // namespace stadion
