@@ -1,7 +1,7 @@
 #include "pipeline/cpu_draw/cpu_renderer.h"
 
 #include "engine/base/run_stopped.h"
-#include "pipeline/cpu_draw/cpu_material.h"
+#include "pipeline/cpu_draw/mesh/cpu_material.h"
 #include "pipeline/cpu_draw/kernels/choose_kernels.h"
 #include "pipeline/draw_list/list_filling.h"
 #include "pipeline/gl/picture_size.h"

@@ -11,7 +11,7 @@
 /// Threads    a renderer: one at a time. Several renderers of a room draw at the same time.
 /// Errors     as of a Renderer; draw() throws nothing but RunStopped.
 
-#include "pipeline/cpu_draw/cpu_mesh.h"
+#include "pipeline/cpu_draw/mesh/cpu_mesh.h"
 #include "pipeline/cpu_draw/draw_pool.h"
 #include "pipeline/cpu_draw/picture_bands.h"
 #include "pipeline/cpu_draw/picture_rung.h"

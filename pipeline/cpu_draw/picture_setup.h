@@ -6,8 +6,8 @@
 /// Order    records of a band are in the order in which instances were added.
 /// Threads  add() on one thread. Then all pieces of place(), on any; then all pieces of setUp(), on any.
 
-#include "pipeline/cpu_draw/cpu_mesh.h"
 #include "pipeline/cpu_draw/kernels/kernel_data.h"
+#include "pipeline/cpu_draw/mesh/cpu_mesh.h"
 #include "pipeline/cpu_draw/view_geometry.h"
 
 #include <array>

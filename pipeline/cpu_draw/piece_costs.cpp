@@ -106,7 +106,8 @@ double PieceCosts::costOf(const View& view, const Piece& piece) {
   for (std::size_t band = 0; band < setup_.bands(); ++band) {
     bool touches = false;
     for (const Transparency which : {Transparency::Opaque, Transparency::Transparent})
-      setup_.forEach(which, band, [&](const TriangleRecord&, const TriangleStretch&) { touches = true; });
+      setup_.forEach(which, band,
+                     [&](const TriangleRecord*, std::span<const std::uint32_t>, bool) { touches = true; });
     if (touches) touched_.push_back(band);
   }
   drawBands(view, touched_);

@@ -1,4 +1,4 @@
-#include "pipeline/cpu_draw/cpu_material.h"
+#include "pipeline/cpu_draw/mesh/cpu_material.h"
 
 #include <algorithm>
 

@@ -1,4 +1,4 @@
-#include "pipeline/cpu_draw/cpu_texture.h"
+#include "pipeline/cpu_draw/mesh/cpu_texture.h"
 
 #include "engine/maths/srgb.h"
 #include "pipeline/draw/gpu/mask_levels.h"

@@ -1,7 +1,7 @@
-#include "pipeline/cpu_draw/cpu_mesh.h"
+#include "pipeline/cpu_draw/mesh/cpu_mesh.h"
 
 #include "engine/maths/srgb.h"
-#include "pipeline/cpu_draw/cpu_material.h"
+#include "pipeline/cpu_draw/mesh/cpu_material.h"
 #include "pipeline/draw/gpu/surface_check.h"
 #include "pipeline/gl/finite.h"
 #include "pipeline/gl/problem.h"

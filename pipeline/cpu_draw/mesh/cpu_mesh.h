@@ -8,8 +8,8 @@
 
 #include "engine/asset/mesh_store.h"
 #include "engine/base/diagnostic.h"
-#include "pipeline/cpu_draw/cpu_texture.h"
 #include "pipeline/cpu_draw/kernels/kernel_data.h"
+#include "pipeline/cpu_draw/mesh/cpu_texture.h"
 
 #include <array>
 #include <memory>
