@@ -1,12 +1,12 @@
 # What `cmake --install` and the Debian packages hold. Component "runtime" plays shows; "development" has the libraries for
-# programs that embed Stadion, with the targets Stadion::engine, dynamics, pipeline, profiling and show, and Stadion::plugin for
-# plugins.
+# programs that embed Stadion, with the targets Stadion::engine, dynamics, pipeline, profiling, show and measure, and
+# Stadion::plugin for plugins.
 include(CMakePackageConfigHelpers)
 
 install(TARGETS stadion RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT runtime)
 install(TARGETS stadion-import stadion-wall RUNTIME DESTINATION lib/stadion COMPONENT runtime)
 # Where they have been built.
-install(TARGETS stadion-bench stadion-dyn-stadion RUNTIME DESTINATION lib/stadion COMPONENT runtime OPTIONAL)
+install(TARGETS stadion-measure stadion-bench stadion-dyn-stadion RUNTIME DESTINATION lib/stadion COMPONENT runtime OPTIONAL)
 install(DIRECTORY scripts walls DESTINATION ${CMAKE_INSTALL_DATADIR}/stadion COMPONENT runtime)
 install(DIRECTORY assets DESTINATION ${CMAKE_INSTALL_DATADIR}/stadion COMPONENT runtime PATTERN generator EXCLUDE)
 install(DIRECTORY docs/ DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT runtime)
@@ -15,7 +15,7 @@ install(FILES README.md CHANGELOG.md packaging/copyright DESTINATION ${CMAKE_INS
 # The programs write their man pages when they are installed.
 install(CODE "
   file(MAKE_DIRECTORY \"\$ENV{DESTDIR}\${CMAKE_INSTALL_PREFIX}/${CMAKE_INSTALL_MANDIR}/man1\")
-  foreach(program stadion stadion-bench)
+  foreach(program stadion stadion-measure stadion-bench)
     if(EXISTS \"$<TARGET_FILE_DIR:stadion>/\${program}\")
       execute_process(COMMAND \"$<TARGET_FILE_DIR:stadion>/\${program}\" manual man COMMAND_ERROR_IS_FATAL ANY
         OUTPUT_FILE \"\$ENV{DESTDIR}\${CMAKE_INSTALL_PREFIX}/${CMAKE_INSTALL_MANDIR}/man1/\${program}.1\")
@@ -28,7 +28,7 @@ install(FILES ${completion}/_stadion DESTINATION ${CMAKE_INSTALL_DATADIR}/zsh/ve
 install(FILES ${completion}/stadion.fish DESTINATION ${CMAKE_INSTALL_DATADIR}/fish/vendor_completions.d COMPONENT runtime)
 
 install(TARGETS stadion_options stadion_sanitize stadion_plugin stadion_engine stadion_wire stadion_pipeline stadion_dynamics
-  stadion_profiling stadion_show EXPORT StadionTargets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT development)
+  stadion_profiling stadion_show stadion_measure EXPORT StadionTargets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT development)
 foreach(floor engine pipeline dynamics profiling show)
   set_target_properties(stadion_${floor} PROPERTIES EXPORT_NAME ${floor})
   add_library(Stadion::${floor} ALIAS stadion_${floor})
@@ -37,8 +37,10 @@ foreach(floor engine pipeline dynamics profiling show)
 endforeach()
 install(FILES ${PROJECT_BINARY_DIR}/wire.h DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/stadion COMPONENT development)
 
-set_target_properties(stadion_plugin PROPERTIES EXPORT_NAME plugin)
-add_library(Stadion::plugin ALIAS stadion_plugin)
+foreach(target plugin measure)
+  set_target_properties(stadion_${target} PROPERTIES EXPORT_NAME ${target})
+  add_library(Stadion::${target} ALIAS stadion_${target})
+endforeach()
 
 set(package ${CMAKE_INSTALL_LIBDIR}/cmake/Stadion)
 install(EXPORT StadionTargets NAMESPACE Stadion:: DESTINATION ${package} COMPONENT development)

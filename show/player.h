@@ -8,7 +8,9 @@
 ///     const auto player = Player::create(options, findings);
 ///     if (!player) return 2;
 ///     ShowParts parts = player->parts(StereoLayout::Off);
-///     parts.provider = ...;  // openOsMesa(), openGlProvider()
+///     const auto renderer = ShowRenderer::open({});  // the processors, or OpenGL with a graphics card
+///     if (!renderer) return 2;
+///     renderer.value()->drawFor(parts);
 ///     ShowStages stages(std::move(parts));
 ///     FrameLoop loop(stages, player->loopOptions(), stop);
 ///     loop.run();
@@ -18,3 +20,4 @@
 #include "pipeline/target/rasteriser_settings.h"
 #include "pipeline/target/target.h"
 #include "show/player/player.h"
+#include "show/player/show_renderer.h"

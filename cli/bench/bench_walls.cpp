@@ -187,7 +187,7 @@ void addOneTo(CommandOptions& options, BenchWallsOptions& o) {
   add("--without", one.without);
   add("--mode", one.mode, {.words = "pipelined|sequential"});
   add("--pace", one.pace, {.words = "free|lock"});
-  add("--latency", one.latency);
+  add("--latency", one.mostInFlight);
   add("--layout", o.layout);
   add("--wall-count", one.walls, {.most = 6});
   add("--width", one.width);

@@ -162,7 +162,7 @@ Result<nlohmann::json> measureWalls(const WallsSetting& s, const std::string& fo
   ShowStages stages(std::move(parts));
   const std::atomic<bool> never = false;
   FrameLoopOptions options = player->loopOptions();
-  options.latency = s.latency;
+  options.mostInFlight = s.mostInFlight;
   options.pace = s.pace == "lock" ? Pace::Lock : Pace::Free;
   FrameLoop loop(stages, options, never);
   const FrameLoopOutcome outcome = loop.run();
@@ -204,8 +204,9 @@ Result<nlohmann::json> measureWalls(const WallsSetting& s, const std::string& fo
                         {"height", s.height},
                         {"mode", s.mode},
                         {"wall_workers", s.workers},
-                        {"frames_under_way", s.latency},
+                        {"frames_under_way", s.mostInFlight},
                         {"lp_threads", lp ? lp : "default"},
+                        {"draw_threads", renderer.value()->threads()},
                         {"pace", s.pace},
                         {"frames", s.frames},
                         {"fps", frames / took},

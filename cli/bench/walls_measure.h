@@ -16,7 +16,7 @@ struct WallsSetting {
   std::string scene = "a";      ///< a, b or c (profiling/bench/walls/wall_scene.h)
   std::string kind = "STRICT";  ///< STRICT: a draw call a node; OPEN: anything that keeps the picture
   std::string mode = "pipelined";
-  std::size_t latency = 1;         ///< frames under way at most (FrameLoopOptions)
+  std::size_t mostInFlight = 1;    ///< limit of frames in flight (FrameLoopOptions)
   std::string workers = "thread";  ///< or process
   std::string without;             ///< OPEN, SUBMIT: without this trick, "unseen" or "small"; empty: with all
   RendererSettings renderer{};

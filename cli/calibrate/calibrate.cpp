@@ -3,6 +3,7 @@
 #include "cli/commands.h"
 #include "cli/exit_code.h"
 #include "cli/options/command_options.h"
+#include "cli/options/command_programs.h"
 #include "cli/terminal.h"
 #include "pipeline/platform/calibration_file.h"
 #include "show/base/stop_signal.h"
@@ -144,8 +145,7 @@ int calibrate(const CalibrateOptions& o) {
 
 void addCalibrateCommand(CLI::App& app, int& code) {
   auto o = std::make_shared<CalibrateOptions>();
-  CLI::App* command = app.add_subcommand(
-      "calibrate", "Measure how walls are drawn fastest on this machine, and remember it (a minute)");
+  CLI::App* command = addListedCommand(app, "calibrate");
   CommandOptions options(*command);
   options.add("--walls", o->walls);
   options.add("--size", o->size);

@@ -1,5 +1,6 @@
 #include "cli/options/command_reference.h"
 
+#include "cli/options/command_programs.h"
 #include "cli/options/option_table.h"
 #include "engine/base/installed_files.h"
 #include "show/base/version.h"
@@ -58,13 +59,13 @@ std::string usesOf(const CLI::App& program) {
   return text;
 }
 
-/// Those of the program of `stadion bench`, which has been built.
-std::string usesOfBench() {
-  const std::string line = fmt::format("'{}' manual uses", helperProgram("stadion-bench").string());
-  const std::unique_ptr<std::FILE, int (*)(std::FILE*)> bench(popen(line.c_str(), "r"), pclose);
+/// Those of another program, if it has been built.
+std::string usesOfProgram(const std::string& program) {
+  const std::string line = fmt::format("'{}' manual uses", helperProgram(program).string());
+  const std::unique_ptr<std::FILE, int (*)(std::FILE*)> other(popen(line.c_str(), "r"), pclose);
   std::string text;
   char block[4096];
-  while (const std::size_t size = bench ? std::fread(block, 1, sizeof block, bench.get()) : 0)
+  while (const std::size_t size = other ? std::fread(block, 1, sizeof block, other.get()) : 0)
     text.append(block, size);
   return text;
 }
@@ -111,7 +112,8 @@ An earlier spelling is an error (exit code 2) that names the present one.
 )";
 
 std::string optionsPage(const CLI::App& program) {
-  const auto commands = commandsByOption(usesOf(program) + usesOfBench());
+  const auto commands =
+      commandsByOption(usesOf(program) + usesOfProgram("stadion-measure") + usesOfProgram("stadion-bench"));
   std::string page = kPageHead;
   std::string_view heading;
   for (const OptionRow& row : optionTable()) {
@@ -163,13 +165,21 @@ std::string manOfOptions(const std::string& uses) {
   return text;
 }
 
+std::string programOf(const NamedCommand& command) {
+  const CommandElsewhere* c = findElsewhere(command.name.substr(0, command.name.find(' ')));
+  return c ? std::string(c->program) : "stadion";
+}
+
 std::string manPage(const CLI::App& program) {
-  const bool benches = commandsOf(program).front().name.starts_with("bench ");
-  const std::string name = benches ? "stadion-bench" : "stadion";
+  const std::string name = programOf(commandsOf(program).front());
   std::string page = fmt::format(".TH {} 1 \"\" \"stadion {}\" \"User commands\"\n.SH NAME\n{} \\- {}\n",
                                  name, kVersion, inTroff(name), inTroff(program.get_description()));
   page += ".SH SYNOPSIS\nstadion COMMAND [OPTION...] [ARGUMENT...]\n.SH COMMANDS\n";
-  for (const NamedCommand& command : commandsOf(program)) page += manOfCommand(command);
+  for (const NamedCommand& command : commandsOf(program)) {
+    page += manOfCommand(command);
+    if (const std::string other = programOf(command); other != name)
+      page += fmt::format(".PP\nIts options are in {}(1).\n", inTroff(other));
+  }
   page += ".SH OPTIONS\nAn option means the same in every command.\n" + manOfOptions(usesOf(program));
   return page + ".SH EXIT STATUS\n.nf\n" + inTroff(program.get_footer()) + "\n.fi\n";
 }

@@ -1,9 +1,9 @@
 #pragma once
 /// What the program says of all its commands and options: man page, table for docs/options.md, shell completion.
 ///
-/// `stadion manual man` prints the man page, `manual options` the page of all options, also those of `stadion
-/// bench`; `manual uses` prints a line for each option of each command, with tabs between: name, command, text,
-/// and whether help shows it.
+/// `stadion manual man` prints the man page, `manual options` the page of all options, also those of the other
+/// programs (command_programs.h); `manual uses` prints a line for each option of each command, with tabs
+/// between: name, command, text, and whether help shows it.
 /// `stadion complete WORD...` prints how the last word may go on, a line each, or ":files" or ":folders".
 
 #include <optional>

@@ -75,7 +75,7 @@ void addSupervisionOptions(CLI::App& command, RunOptions& o) {
 
 void addOperatorOptions(CLI::App& command, RunOptions& o) {
   CommandOptions options(command);
-  options.add("--latency", o.settings.play.latency);
+  options.add("--latency", o.settings.play.mostInFlight);
   options.add("--cull-draw", o.cullDraw).notes(o.cullDrawGiven);
   options.add("--osc", o.settings.console.oscPort);
   options.add("--wait", o.settings.console.wait);

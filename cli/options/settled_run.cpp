@@ -84,8 +84,8 @@ void RunOptions::settleDrawing(Diagnostics& findings) {
     findings.error({}, "--display draws into windows of this program: say --wall-workers thread");
   if (wallWorkers == "process" && renderer.drawsNothing())
     findings.error({}, "--gl none draws nothing that --wall-workers process could: leave one of them out");
-  if (inTurn && (s.play.latency != 0 || cullDrawGiven))
-    findings.error({}, std::string(s.play.latency != 0 ? "--latency" : "--cull-draw") +
+  if (inTurn && (s.play.mostInFlight != 0 || cullDrawGiven))
+    findings.error({}, std::string(s.play.mostInFlight != 0 ? "--latency" : "--cull-draw") +
                            " says how stages overlap, which those of --mode sequential do not: leave one of "
                            "them out");
   if (pin == "on" && (display || (inTurn && wallWorkers != "process")))
@@ -197,8 +197,7 @@ void RunOptions::settleHead(Diagnostics& findings) {
       findings.error({}, std::string(option) + " is for live runs, whose pictures are never the same twice: "
                                                "leave out --frames, --seconds, --out and --input FILE");
     else if (asked && settings.console.trackers.device.empty())
-      findings.error({},
-                     std::string(option) + " needs a head that a live tracker tells of: --tracker osc:PORT");
+      findings.error({}, std::string(option) + " needs the head of a live tracker: --tracker osc:PORT");
   };
   needsTracker(lateLatch, "--late-latch");
   needsTracker(predict != "off", "--predict");

@@ -2,6 +2,7 @@
 
 #include "cli/commands.h"
 #include "cli/exit_code.h"
+#include "cli/options/command_programs.h"
 #include "cli/regress/regress_folder.h"
 #include "cli/terminal.h"
 #include "engine/base/atomic_file.h"
@@ -190,9 +191,7 @@ int regress(RegressOptions o) {
 
 void addRegressCommand(CLI::App& app, int& code) {
   auto o = std::make_shared<RegressOptions>();
-  CLI::App* command = app.add_subcommand(
-      "regress",
-      "Play a suite of shows and compare hashes, counts and times with a baseline or another build");
+  CLI::App* command = addListedCommand(app, "regress");
   o->addTo(*command);
   command->callback([o, &code] {
     setenv("STADION_CALIBRATION", "none", 1);  // what is played depends on no machine's calibration

@@ -2,7 +2,7 @@
 /// The folder of `regress --out DIR`: the page, results for machines, the history, and how far a suite is.
 ///
 /// Threads  one at a time.
-/// Errors   what cannot be written is told at once, on stderr.
+/// Errors   reports at once, on stderr, what it cannot write.
 
 #include "cli/regress/regress_options.h"
 #include "engine/base/atomic_file.h"

@@ -1,6 +1,7 @@
 #include "cli/regress/regress_options.h"
 
 #include "cli/options/command_options.h"
+#include "engine/base/installed_files.h"
 #include "engine/plain_text/suggestion.h"
 
 #include <CLI/CLI.hpp>
@@ -28,7 +29,7 @@ results in Google Benchmark's layout.
 Times are processor times of the typical frame, stage by stage. With --against the two builds play the same case in turns,
 frame by frame, in several rounds; a stage is slower if the ranks of the rounds say so (Wilcoxon, p <= 5 % over all
 stages of the case) and the difference exceeds the tolerance. With a baseline, times are divided by those of a
-calibration kernel run in the same minute, and compared by rank sums. A stage that is slower is told with the node in it
+calibration kernel run in the same minute, and compared by rank sums. A slower stage is reported with the node in it
 that moved. Beside the typical frame, hitches are compared by processor time and by the clock on the wall: frames that are
 long in more rounds than before, and mean, p95, p99, longest and late frames of a round. A failure of times must show
 again in as many fresh rounds. --instructions counts instead: less than the tolerance apart on any machine, however busy.
@@ -41,10 +42,10 @@ give the same state and images, whether there is a baseline or not.
 Exit codes: 0 all is equal, 1 a comparison failed, 2 bad usage, a suite or show with mistakes, no baseline (and no
 --against), or nothing that could be compared, 3 a program that was played crashed or hung.)";
 
-/// The program itself, however it was called.
+/// The program `stadion` of this copy, which plays the shows.
 std::string ownPath() {
   std::error_code none;
-  return std::filesystem::canonical("/proc/self/exe", none).string();
+  return std::filesystem::canonical(helperProgram("stadion"), none).string();
 }
 
 /// It is this file, wherever programs are looked for.

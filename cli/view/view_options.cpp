@@ -32,7 +32,7 @@ void ViewOptions::addTo(CLI::App& command) {
       keys + "\n--out DIR receives screenshots (F12). --stereo pair needs a driver with a buffer for each "
              "eye.\n\nKeyboard, mouse and gamepad stand in for head, wand and joypad, unless --input FILE "
              "plays a recorded\nvisitor. A changed script or sub-scene is read again at once: the "
-             "visitor stays where he is, the show begins\nanew, with the same sub-scenes loaded. While "
+             "visitor stays where he is, the show restarts,\nwith the same sub-scenes loaded. While "
              "the script has errors the old show goes on.\nExample:  ./stadion view scripts/kick.evs");
 }
 

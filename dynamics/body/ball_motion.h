@@ -2,7 +2,7 @@
 /// A ball on a flat face: slide, roll, rest, in closed form.
 ///
 /// Sliding, friction mu g_n slows the centre and turns the ball, so that the slip shrinks at (1 + 1/k) mu g_n
-/// with k = I / (m r^2); when it is gone the ball rolls, and rolling resistance c slows it at c g_n / (1 +
+/// with k = I / (m r^2). Without slip the ball rolls, and rolling resistance c slows it at c g_n / (1 +
 /// k). With the pull along the face parallel to the motion both are exact; else the arc is cut short enough
 /// for an error below 1e-6 m/s.
 

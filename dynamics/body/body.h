@@ -39,10 +39,10 @@ PairSurface combine(const Surface& a, const Surface& b);
 /// collider must stand still.
 struct TipEmbedding {
   Vec3 nose = Vec3::UnitX();  ///< direction of the tip, unit, in N
-  double tip = 0;             ///< of the foremost point, along the nose [m]
-  double reach = 0.01;        ///< points so far behind it still belong to the tip [m]
-  double cosine = 0.5;        ///< of the greatest angle between the nose and straight into the surface
-  double depth = 0;           ///< how far the tip goes in, along its velocity [m]
+  double tip = 0;             ///< coordinate of the foremost point along the nose [m]
+  double reach = 0.01;        ///< length of the tip, behind the foremost point [m]
+  double cosine = 0.5;        ///< cosine of the greatest angle between the nose and straight into the surface
+  double depth = 0;           ///< depth to which the tip goes in, along its velocity [m]
 };
 
 struct BodyFlight;
@@ -50,7 +50,7 @@ struct BodyFlight;
 struct BodyDef {
   ShapeId shape = 0;
   Pose pose;                  ///< X_WN
-  Vec3 v = Vec3::Zero();      ///< of the centre of mass [m/s]
+  Vec3 v = Vec3::Zero();      ///< velocity of the centre of mass [m/s]
   Vec3 omega = Vec3::Zero();  ///< in World [rad/s]
   MassProperties mass;        ///< in N
   Surface surface;
@@ -74,13 +74,13 @@ enum class BodyMode : std::uint8_t {
   Contact,      ///< advanced by the contact solver
   Rest,         ///< asleep: its state is frozen
   Held,         ///< moved from outside (grabbed)
-  Quarantined,  ///< its state would have become non-finite
-  Stuck,        ///< its tip sticks in a collider, until that moves or disappears, or a hand takes it
+  Quarantined,  ///< frozen at the last good pose: the state would have become non-finite
+  Stuck,        ///< the tip sticks in a collider until that moves or disappears, or a hand takes the body
 };
 constexpr BodyMode lastOf(BodyMode) {
   return BodyMode::Stuck;
 }
-/// Whether a body in this mode stands.
+/// Returns true if a body in this mode stands.
 constexpr bool standsStill(BodyMode mode) {
   return mode == BodyMode::Rest || mode == BodyMode::Quarantined || mode == BodyMode::Stuck;
 }
@@ -112,7 +112,7 @@ struct BodyState {
   bool asleep() const { return mode == BodyMode::Rest; }
 };
 
-/// One side of a pair; body and collider ids count separately.
+/// A side of a pair; body and collider ids count separately.
 struct ContactSide {
   bool isBody = false;
   std::uint32_t id = 0;

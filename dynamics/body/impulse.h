@@ -14,7 +14,7 @@ struct SolverBody {
   double inverseMass = 0;              ///< 0: nothing moves it
   Mat3 inverseInertia = Mat3::Zero();  ///< in World
   Vec3 p = Vec3::Zero(), v = Vec3::Zero(), omega = Vec3::Zero();
-  Quat q = Quat::Identity();  ///< of a body C to World, of a collider N to World
+  Quat q = Quat::Identity();  ///< orientation: for a body C to World, for a collider N to World
 
   Vec3 velocityAt(const Vec3& x) const { return v + omega.cross(x - p); }
   void apply(const Vec3& impulse, const Vec3& x) {

@@ -5,8 +5,8 @@
 
 #include "dynamics/body/body.h"
 #include "dynamics/motion/arc.h"
+#include "dynamics/motion/arc_track.h"
 #include "dynamics/motion/body_flight.h"
-#include "dynamics/motion/body_way.h"
 #include "dynamics/motion/drag_flight.h"
 #include "dynamics/motion/instant.h"
 #include "dynamics/shapes/shape.h"
@@ -18,18 +18,18 @@
 
 namespace stadion {
 
-/// Events on a known way are found a little beyond the end of its part: what closes there counts to it [s].
-constexpr double kTurnsLate = 1e-10;
+/// Events on known arcs are found up to this time beyond the end of an arc: a touch there belongs to it [s].
+constexpr double kTurnTolerance = 1e-10;
 
-/// A straight move with constant angular velocity through the frame, or a way that is known exactly.
+/// A straight move with constant angular velocity through the frame, or a path of known arcs.
 struct GuidedMotion {
   Pose start, end;
   Vec3 v = Vec3::Zero(), omega = Vec3::Zero();
   double begin = 0;  ///< tau of `start`
   double rate = 0;   ///< 1 / frame length [1/s]
   bool moving = false;
-  BodyWay way;           ///< instead of all that, in this frame
-  std::size_t part = 0;  ///< of it, at the last turn
+  ArcTrack way;          ///< in this frame: the known arcs, which replace the straight move
+  std::size_t part = 0;  ///< piece of `way` at the last turn
 
   void set(const Pose& from, const Pose& to, double tau, double seconds) {
     start = from, end = to, begin = tau;
@@ -38,7 +38,7 @@ struct GuidedMotion {
     v = moving ? Vec3((to.p - from.p) * rate) : Vec3::Zero();
     omega = moving ? Vec3(from.q * det::logRotation(from.q.conjugate() * to.q) * rate) : Vec3::Zero();
   }
-  /// Instead of what has been set it follows `way` from tau to `until`; a window began at `origin`.
+  /// Follows `way` from tau to `until` instead of the straight move. `origin`: start of the window.
   void follow(const Instant& origin, double tau, double until) {
     if (way.empty()) return;
     rebase(origin);
@@ -48,7 +48,7 @@ struct GuidedMotion {
     if (!moving) way.clear(), v.setZero(), omega.setZero();
   }
   void rebase(const Instant& origin) {
-    for (WayPart& p : way) p.tau = p.from.since(origin);
+    for (ArcPiece& p : way) p.tau = p.from.since(origin);
   }
   bool guided() const { return !way.empty(); }
   Kinematics at(double tau) const {
@@ -56,22 +56,22 @@ struct GuidedMotion {
     const Pose X = moving ? det::interpolate(start, end, (tau - begin) * rate) : end;
     return {X, X.p, v, omega};
   }
-  /// Of what does not reach beyond one part of the way.
+  /// Returns a bound of the motion over times that lie in one piece of the way.
   MotionBound boundOver(double from, double to) const {
     if (guided()) return way[partAt(from)].boundOver(from, to);
     return {v.norm(), 0, omega.norm(), 0};
   }
-  /// When its way goes on otherwise [s].
+  /// Returns the time at which the next piece of the way begins [s]; infinity if there is none.
   double nextTurn() const {
     return part + 1 < way.size() ? way[part + 1].tau : std::numeric_limits<double>::infinity();
   }
-  /// Both sides of a turn are seen from the part that has been reached.
+  /// Returns the piece of `way` that holds at tau. At a turn, this is the piece that has been reached.
   std::size_t partAt(double tau) const {
-    if (way[part].tau <= tau && !(tau > nextTurn() + kTurnsLate)) return part;
+    if (way[part].tau <= tau && !(tau > nextTurn() + kTurnTolerance)) return part;
     return partAfter(tau);
   }
   std::size_t partAfter(double tau) const {
-    const auto next = std::ranges::upper_bound(way, tau, {}, &WayPart::tau);
+    const auto next = std::ranges::upper_bound(way, tau, {}, &ArcPiece::tau);
     return next == way.begin() ? 0 : static_cast<std::size_t>(next - way.begin()) - 1;
   }
 };
@@ -79,7 +79,7 @@ struct GuidedMotion {
 /// A flat face that a ball slides or rolls on.
 struct Support {
   ContactSide on;              ///< collider, or none
-  std::int32_t triangle = -1;  ///< of a mesh
+  std::int32_t triangle = -1;  ///< triangle of a mesh; -1: the support is no mesh
   Vec3 point = Vec3::Zero();   ///< the plane that the ball's surface touches
   Vec3 normal = Vec3::UnitZ();
   int edges = 0;  ///< the face ends where n . x < d for one of these
@@ -87,7 +87,7 @@ struct Support {
   std::array<double, 4> edgeOffset{};
   double friction = 0, rolling = 0, restitution = 0;
 
-  /// Whether a ball at p that moves with v has come to the face's end.
+  /// Returns true if a ball at p that moves with v has come to the face's end.
   bool ends(const Vec3& p, const Vec3& v) const {
     constexpr double kAtEdge = 1e-9;  // [m]
     for (std::size_t i = 0; i < static_cast<std::size_t>(edges); ++i)
@@ -96,11 +96,11 @@ struct Support {
   }
 };
 
-/// A contact point of the last step of the solver, as a guess for the next.
-struct Pressed {
+/// The force at a contact point in the solver's last step, with which the next step starts.
+struct WarmStart {
   std::uint64_t key = 0;
   Vec3 force = Vec3::Zero();  ///< on the body [N]
-  double step = 0;            ///< how long that was, so that a blow is no guess for a long push [s]
+  double step = 0;            ///< duration of that step: a short blow is no guess for a long push [s]
 };
 
 struct Hook {
@@ -110,31 +110,31 @@ struct Hook {
 /// Records how the velocity of a body that hardly moves changes. A body that accelerates does not fall
 /// asleep.
 struct SleepCandidate {
-  Vec3 v = Vec3::Zero(), omega = Vec3::Zero();  ///< when the present look began
-  double since = 0;                             ///< its quiet time then [s]
-  double span = 0;                              ///< how long this look takes [s]
-  bool balanced = false;                        ///< what the last one said
+  Vec3 v = Vec3::Zero(), omega = Vec3::Zero();  ///< velocity when the present look began
+  double since = 0;                             ///< quiet time of the body when the present look began [s]
+  double span = 0;                              ///< duration of the present look [s]
+  bool balanced = false;                        ///< result of the last look
 };
 
-/// What is asked of every body in flight, in one piece that begins with a cache line: where many fly, most of
-/// the cost is to fetch it.
+/// The members that the world reads for every body in flight. They are together and begin with a cache line,
+/// because most of the cost of many bodies in flight is to fetch them.
 struct alignas(64) RigidMotion {
   BodyId id = 0;
   BodyMode mode = BodyMode::Flight;
   bool enabled = true, fresh = true;
   bool active = false, marked = false;  ///< in the world's lists of these names
-  bool stirred = false;                 ///< and of this
+  bool stirred = false;                 ///< the body is in the world's list of stirred bodies
   bool aligned = false;                 ///< X_NC is the identity
-  bool alone = false;                   ///< nothing is near what it sweeps, but `only`
-  bool lazy = false;          ///< nothing at all, whatever its next arcs: they are made when asked for
-  std::uint32_t version = 0;  ///< counts arcs: older predictions are void
-  Instant since;              ///< when the present arc began
-  double age0 = 0;            ///< its age at the start of the window [s]
-  double until = 0;           ///< greatest valid tau; infinity if unlimited
-  double validAge = 0;        ///< the same as an age
-  double pathAge = 0;         ///< the same for the path alone: the spin may wear out earlier
-  double spinStart = 0;       ///< the arc's age at which the spin's own began
-  Pose pose;                  ///< X_WN at the end of the last frame, sampled from the arc
+  bool atMostOneNear = false;           ///< at most `nearCollider` is near the swept space
+  bool lazy = false;                    ///< nothing is near, and arcs are made on request (Foresight)
+  std::uint32_t version = 0;            ///< counts arcs: older predictions are void
+  Instant since;                        ///< when the present arc began
+  double age0 = 0;                      ///< age of the arc at the start of the window [s]
+  double until = 0;                     ///< greatest valid tau; infinity if unlimited
+  double validAge = 0;                  ///< `until` as an age [s]
+  double pathAge = 0;                   ///< age up to which the path is valid [s]; the spin may end earlier
+  double spinStart = 0;                 ///< the arc's age at which the spin's own began
+  Pose pose;                            ///< X_WN at the end of the last frame, sampled from the arc
   Path path;
   Spin spin;
 };
@@ -146,11 +146,11 @@ struct PenetrationRecovery {
   double side = 1;              ///< 1: out of the front of its faces, -1: out of their back
 };
 
-/// What does not change while a body lives: its shape, mass, surface and air.
+/// Properties that are constant while a body lives: shape, mass, surface and air.
 struct BodyMatter {
   ShapeId shapeId = 0;
   const Shape* shape = nullptr;
-  Sphere bound;          ///< of the shape, centre in N
+  Sphere bound;          ///< bounding sphere of the shape, centre in N
   double reach = 0;      ///< greatest distance of a surface point from the centre of mass [m]
   bool centred = false;  ///< a ball that rotates about its own centre: it has closed forms
   Surface surface;
@@ -168,40 +168,41 @@ struct BodyMatter {
 /// A body in lasting contact. Much of it outlasts the mode: a sleeping body keeps its neighbours and forces,
 /// and wakes with them.
 struct BodyContact {
-  std::vector<ContactSide> touching;  ///< what the body leans on, or nearly; also of a body at rest
-  std::vector<ContactSide> leaning;   ///< those of them that the memory of pairs calls touching
-  std::vector<Pressed> presses;       ///< forces of the last step on the points of this body
+  std::vector<ContactSide> touching;  ///< sides that the body leans on, or nearly; also for a body at rest
+  std::vector<ContactSide> leaning;   ///< sides in `touching` that ContactMemory calls touching
+  std::vector<WarmStart> warmStarts;  ///< forces of the last step on the points of this body
   Vec3 endL = Vec3::Zero();  ///< angular momentum at the end of the step, except for Driven spins [kg m2/s]
   double dueAge = 0;         ///< age at which the solver continues; 0: at once [s]
   bool inPile = false;       ///< a member of a pile, advanced together with the others
   bool sleepsNext = false;   ///< in a pile: it falls asleep when the present step is over
   bool restsInPile = false;  ///< at rest: it fell asleep as a member of a pile
   bool wedged = false;       ///< in an island: external motion presses it against something fixed
-  bool restless = false;     ///< in an island: the last step had no exact solution, or not soon
-  double quiet = 0;          ///< how long it has hardly moved [s]
-  SleepCandidate sleepCandidate;                    ///< in an island
-  Vec3 drift = Vec3::Zero(), twist = Vec3::Zero();  ///< since it is quiet, or since the last look [m], [rad]
-  std::uint32_t slot = 0;                           ///< scratch of the contact solver
+  bool unsolved = false;     ///< in an island: the last step had no exact solution, or took too long
+  double quietTime = 0;      ///< time for which the body has hardly moved [s]
+  SleepCandidate sleepCandidate;  ///< in an island
+  Vec3 drift = Vec3::Zero(),
+       twist = Vec3::Zero();  ///< moved and turned in `quietTime`, or since the last look [m], [rad]
+  std::uint32_t slot = 0;     ///< scratch of the contact solver
 };
 
-/// A body in a hand, and what it keeps of that until it is free.
+/// The part of a body that a hand holds or has just released.
 struct BodyGrip {
   GuidedMotion held;
-  BodyWay nextWay;                ///< in the coming part of a frame, if it is known
+  ArcTrack nextArcs;              ///< arcs in the coming part of a frame, if they are known
   std::vector<FieldId> carried;   ///< fields in the same hand
-  Vec3 wound = Vec3::Zero();      ///< the velocity that their pushes have added up to, in N [m/s]
-  Instant woundTo;                ///< until when
-  Vec3 freePlace = Vec3::Zero();  ///< the last place of the middle of its bound where it was in nothing
-  bool letGo = false;             ///< a hand has released it at this moment
-  std::vector<PenetrationRecovery> recoveries;  ///< out of the colliders in which it was released
+  Vec3 wound = Vec3::Zero();      ///< velocity from the pushes of these fields, added up, in N [m/s]
+  Instant woundTo;                ///< time up to which `wound` is added up
+  Vec3 freePlace = Vec3::Zero();  ///< last middle of `bound` outside of all colliders
+  bool letGo = false;             ///< a hand has released the body at this moment
+  std::vector<PenetrationRecovery> recoveries;  ///< ways out of the colliders in which the body was released
 };
 
 /// The record of a body's path within a frame (state/body_traces.h).
 struct BodyTrace {
-  bool traced = false;   ///< for others
-  bool awaited = false;  ///< because it may part from something
-  bool put = false;      ///< it has been put where it is
-  BodyWay way;
+  bool traced = false;   ///< the path is recorded for other nodes
+  bool awaited = false;  ///< the path is recorded because a pair may part
+  bool put = false;      ///< the body has been placed from outside
+  ArcTrack way;
 };
 
 /// The whole state of a body.
@@ -222,7 +223,7 @@ struct RigidBody : RigidMotion, BodyMatter {
   std::string trouble;               ///< why it is quarantined
   Aabb swept;                        ///< in the rest of the window, as far as it is known
   std::uint32_t place = 0xffffffff;  ///< in the broad phase
-  ColliderId only = 0;               ///< the one thing near what it sweeps, if it is alone
+  ColliderId nearCollider = 0;       ///< collider near the swept space, if `atMostOneNear`; 0: none
 
   bool isBall() const { return std::holds_alternative<BallShape>(*shape); }
   /// How far the ball's centre is from the centre of mass [m].
@@ -283,11 +284,12 @@ struct Collider {
   Sphere bound;  ///< in N
   bool enabled = true;
   Pose now;                  ///< X_WN at the start of the coming frame
-  std::optional<Pose> next;  ///< where it will be at its end
-  BodyWay nextWay;           ///< how it gets there, if that is known
+  std::optional<Pose> next;  ///< pose at the end of the coming frame
+  ArcTrack nextArcs;         ///< arcs to that pose, if they are known
   GuidedMotion motion;
-  Vec3 planePoint = Vec3::Zero(), planeNormal = Vec3::UnitZ();  ///< of a PlaneShape, at the motion's end
-  bool disturbed = false;  ///< it moved, jumped or came: sleepers on it wake
+  /// Plane of a PlaneShape, at the motion's end.
+  Vec3 planePoint = Vec3::Zero(), planeNormal = Vec3::UnitZ();
+  bool disturbed = false;  ///< the collider moved, jumped or appeared: sleeping bodies on it wake
   bool fresh = true;
   std::uint32_t version = 0;  ///< counts motions: older predictions are void
   Aabb swept;

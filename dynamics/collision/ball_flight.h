@@ -9,7 +9,7 @@
 namespace stadion {
 
 struct BallFlight {
-  Vec3 p, v, a;  ///< of its centre now [m, m/s, m/s2]
+  Vec3 p, v, a;  ///< position, velocity and acceleration of the ball's centre now [m, m/s, m/s2]
   double radius = 0;
 
   BallFlight seenFrom(const Pose& X) const {
@@ -27,17 +27,17 @@ struct BallFlight {
   Aabb around(double s, double t) const;
 
   struct Entry {
-    double time = 0;   ///< before that it does not touch; infinity: never within `most`
-    bool hit = false;  ///< it touches a face then
+    double time = 0;   ///< time before which the ball does not touch [s]; infinity: never within `most`
+    bool hit = false;  ///< the ball touches a face at that time
   };
   /// Into a box.
   Entry timeToBox(const BoxShape& box, double most) const;
 
   struct Stay {
-    double seconds = 0;  ///< so long its gap is `far` at most
+    double seconds = 0;  ///< time for which the gap is at most `far` [s]
     /// Then it is `far` off the face that was the last below it; else something ended there.
     bool sure = false;
-    std::int32_t triangle = -1;  ///< that face, of a mesh
+    std::int32_t triangle = -1;  ///< triangle of a mesh that was the last one below the ball; else -1
   };
   /// Over a plane.
   Stay stayNear(const Vec3& on, const Vec3& normal, double far) const;

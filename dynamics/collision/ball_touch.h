@@ -7,13 +7,14 @@
 
 namespace stadion {
 
-/// Whether the side is a ball about its own centre of mass that is not held, or one that stands still.
+/// Returns true if the side is a ball about its own centre of mass that is not held, or one that stands
+/// still.
 inline bool isFreeBall(const Side& s) {
   return s.body ? s.body->centred && s.body->mode != BodyMode::Held
                 : std::holds_alternative<BallShape>(*s.shape) && !s.collider->motion.moving;
 }
 
-/// The same as firstTouch() and gapBetween(), for free balls.
+/// Functions firstTouch() and gapBetween() for two free balls.
 std::optional<Touch> ballsTouch(const Side& a, const Side& b, double from, double to, std::uint64_t& count);
 Gap ballsGap(const Side& a, const Side& b, double tau);
 

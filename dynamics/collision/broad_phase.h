@@ -97,7 +97,7 @@ public:
       if (e.item && e.box.overlaps(box)) f(*e.item);
   }
 
-  /// All of it, to be written down or put back; `find` says which item has an id.
+  /// Saves or restores the whole tree; `find` returns the item of an id.
   template <class Fields, class Find>
   void state(Fields& f, const Find& find) {
     for (auto [name, entries] : {std::pair("sorted", &sorted_), std::pair("apart", &apart_)}) {
@@ -137,7 +137,7 @@ private:
     return s > 0 ? std::min(static_cast<std::size_t>(std::min(s, 1e9)), strips_.size() - 2) : 0;
   }
 
-  /// Those along which the boxes' middles are spread most.
+  /// Chooses the two axes along which the middles of the boxes are spread most.
   void chooseAxes(const std::vector<Entry>& entries) {
     Vec3 sum = Vec3::Zero(), squares = Vec3::Zero();
     double n = 0;
@@ -188,12 +188,12 @@ private:
   }
 
   std::vector<Entry> sorted_;
-  std::vector<double> low_;             ///< of the sorted ones, along the axis
+  std::vector<double> low_;             ///< lower ends of the sorted boxes, along the axis
   std::vector<std::ptrdiff_t> strips_;  ///< where each strip begins among them, and the end
   std::vector<Entry> apart_;            ///< the large ones, then those that have changed
   std::size_t filedApart_ = 0;          ///< how many large ones
   double widest_ = 0, widestAcross_ = 0;
-  double edge_ = 0, width_ = 1;  ///< of the first strip, of each
+  double edge_ = 0, width_ = 1;  ///< start of the first strip, width of a strip
   int along_ = 0, across_ = 1;
 };
 

@@ -13,7 +13,7 @@
 namespace stadion {
 
 struct ConvexGap {
-  double distance = 1e300;                      ///< of the rounded bodies; negative: overlap [m]
+  double distance = 1e300;                      ///< distance of the rounded bodies; negative: overlap [m]
   Vec3 normal = Vec3::UnitZ();                  ///< from b to a, unit
   Vec3 onA = Vec3::Zero(), onB = Vec3::Zero();  ///< points of the surfaces that are nearest
 };

@@ -9,7 +9,7 @@ namespace stadion {
 namespace {
 
 constexpr int kMostLooks = 400;  ///< by steps that are certain to pass nothing
-constexpr int kHurried = 1000;   ///< parts of the way in which it is gone on with after that
+constexpr int kHurried = 1000;   ///< parts of the way in which the search continues after that
 constexpr int kPatience = 6;     ///< looks until planes that turn are tried
 constexpr double kEven = 1e-8;   ///< points that reach as far but for this touch together [m]
 constexpr double kRough = 1e-5;  ///< accuracy of distances on the way

@@ -15,7 +15,7 @@
 
 namespace stadion {
 
-/// Both convex (convex_core.h).
+/// Returns the first touch of two convex shapes (convex_core.h).
 std::optional<Touch> convexTouch(const Side& a, const Side& b, double from, double to,
                                  std::uint64_t& iterations);
 /// A convex body and an unbounded plane.

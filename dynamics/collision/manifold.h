@@ -18,7 +18,7 @@ enum class Carrier : std::uint8_t { None, A, B };
 /// How the carrier is round where it touches: it rolls over the point, which stays below its axis.
 struct Rounding {
   double radius = 0;         ///< 0: a corner, which turns with the carrier [m]
-  Vec3 axis = Vec3::Zero();  ///< of a rod or disc, unit, in World; zero: round all over
+  Vec3 axis = Vec3::Zero();  ///< axis of a rod or disc, unit, in World; zero: round all over
 
   /// From the centre of the round part to the point, for the outward direction `down` and a turned axis.
   Vec3 offset(const Vec3& down, const Vec3& turnedAxis) const {
@@ -28,7 +28,7 @@ struct Rounding {
 
 struct ManifoldPoint {
   Gap gap;                ///< normal from b to a
-  std::uint32_t key = 0;  ///< the same feature has the same key from step to step
+  std::uint32_t key = 0;  ///< number of the feature; equal from step to step
   Carrier carrier = Carrier::None;
   Rounding rounding = {};
 };

@@ -28,7 +28,8 @@ public:
     each(
         within, [this](std::uint32_t i) { return moved(a_.triangles()[i], X_); }, f);
   }
-  /// The same; `place(i)` is triangle i of a in the frame of b, or what of it f wants, with its corners `v`.
+  /// Calls f for near pairs, as above. `place(i)` returns triangle i of a in the frame of b, or the part of
+  /// it that f needs. `v` are its corners.
   template <class W, class P, class F>
   void each(W within, P place, F f) const {
     if (!a_.empty() && !b_.empty()) follow(0, 0, within, place, f);

@@ -18,7 +18,7 @@ struct Touch;
 std::optional<Touch> meshesTouch(const Side& a, const Side& b, double from, double to,
                                  std::uint64_t& iterations);
 Gap meshesGap(const MeshShape& a, const Pose& X_WA, const MeshShape& b, const Pose& X_WB);
-/// The same for meshes nearer than `limit` [m]; an infinite distance if they are not.
+/// Returns the gap of two meshes that are nearer than `limit` [m]; else an infinite distance.
 Gap meshesGapWithin(const TriangleTree& a, const Pose& X_WA, const TriangleTree& b, const Pose& X_WB,
                     double limit);
 

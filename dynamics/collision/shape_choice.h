@@ -16,7 +16,7 @@ struct ShapeChoice {
   Shape shape;
   ShapeKind kind = ShapeKind::Mesh;  ///< never Auto
   double deviation = 0;              ///< greatest distance between shape and mesh, both ways [m]
-  std::string remark;                ///< one sentence for reports: which shape, and its deviation
+  std::string remark;                ///< sentence for reports: the shape, and its deviation
 };
 
 /// The shape to collide with in place of `mesh`. Auto takes the first of plane, ball, box, capsule, cylinder

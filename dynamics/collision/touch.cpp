@@ -490,7 +490,7 @@ Aabb sweptBox(const Side& side, double from, double to) {
   }
   const GuidedMotion& m = *side.motion();
   for (std::size_t i = m.partAfter(from); i < m.way.size() && (i == 0 || m.way[i].tau <= to); ++i) {
-    const WayPart& part = m.way[i];
+    const ArcPiece& part = m.way[i];
     const double start = std::max(from, part.tau),
                  end = std::max(start, i + 1 < m.way.size() ? std::min(to, m.way[i + 1].tau) : to);
     sweep(part.at(start).pose, part.at(end).pose, part.boundOver(start, end), s.centre.norm(), end - start);

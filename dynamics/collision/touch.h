@@ -11,7 +11,7 @@
 
 namespace stadion {
 
-/// One side of a pair through the present frame.
+/// A side of a pair through the present frame.
 struct Side {
   ContactSide key;
   const Shape* shape = nullptr;
@@ -26,7 +26,7 @@ struct Side {
   }
   std::uint32_t version() const { return body ? body->version : collider->version; }
   const Sphere& bound() const { return body ? body->bound : collider->bound; }
-  /// How it moves if that is said from outside, else null.
+  /// Its motion if something outside of the world prescribes it, else null.
   const GuidedMotion* motion() const {
     if (collider) return &collider->motion;
     return body->mode == BodyMode::Held ? &body->grip.held : nullptr;
@@ -41,7 +41,7 @@ struct Gap {
   Vec3 point = Vec3::Zero();    ///< on B, in World
   Vec3 normal = Vec3::UnitZ();  ///< from B to A, unit
   bool face = false;            ///< A touches a flat face of B, not an edge or corner
-  std::int32_t triangle = -1;   ///< of B's mesh
+  std::int32_t triangle = -1;   ///< triangle of B's mesh
 };
 
 struct Touch {
@@ -54,7 +54,7 @@ struct Touch {
 struct Within {
   double limit = 1e300;        ///< farther than this none [m]
   double enough = 0;           ///< nearer than this any point will do instead of the nearest [m]
-  std::int32_t triangle = -1;  ///< of a mesh, where such a point may be
+  std::int32_t triangle = -1;  ///< triangle of a mesh at which such a point may be
 };
 
 /// How far a ball is from a shape at X_WN.
@@ -67,7 +67,7 @@ std::optional<Touch> firstTouch(const Side& a, const Side& b, double from, doubl
 
 /// Distance now, for release events and reports. Normal from b to a.
 Gap gapBetween(const Side& a, const Side& b, double tau, Within within = {});
-/// The same where they are already known to be.
+/// Returns the gap between sides whose poses at tau are known.
 Gap gapBetween(const Side& a, const Kinematics& ka, const Side& b, const Kinematics& kb, Within within = {});
 
 /// The box around a side from `from` to `to`.

@@ -22,12 +22,12 @@ constexpr double kFlush = 1e-4;  ///< pieces make up one surface if their levels
 struct Bearing {
   ContactSide of;
   const Shape* shape = nullptr;
-  Pose X_WN;  ///< of the shape
+  Pose X_WN;  ///< pose of the shape
   Gap gap;    ///< normal to the body
 };
 
-/// Whether the contact `gap` of a body with a piece at X_WN is hidden by the surface `on` that it touches as
-/// well.
+/// Returns true if the contact `gap` of a body with a piece at X_WN is hidden by the surface `on` that it
+/// touches as well.
 bool isHidden(const Gap& gap, const Shape& piece, const Pose& X_WN, const Bearing& on);
 
 /// Which points of one body the surfaces at others hide, one flag each; empty if none. What only hidden ones

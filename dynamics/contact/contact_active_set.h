@@ -25,7 +25,7 @@ private:
     Vec3 reads, direction;
     double wanted, soft;
     bool normal;
-    std::int32_t area = -1;    ///< whose friction it changes as well ...
+    std::int32_t area = -1;    ///< area whose friction this impulse changes, too ...
     Vec3 also = Vec3::Zero();  ///< ... by this
   };
   static void add(ContactAxis& sum, const ContactRow& row, const Vec3& reads, const Vec3& direction);
@@ -55,11 +55,12 @@ private:
   const std::vector<ContactRow>& rows_;
   std::vector<Kind> kind_;
   std::vector<Unknown> unknowns_;
-  std::vector<ContactAxis> axes_;     ///< of the unknowns
-  std::vector<double> amount_;        ///< of each that has been added
-  std::vector<Vec3> flow_;            ///< of areas that slip: the slip that friction goes against
-  std::vector<std::uint32_t> order_;  ///< of the contacts, along the line of bodies that they hold together
-  std::vector<std::size_t> firsts_;   ///< where each unknown's row begins
+  std::vector<ContactAxis> axes_;  ///< axes of the unknowns
+  std::vector<double> amount_;     ///< amount of each unknown that has been added
+  std::vector<Vec3> flow_;         ///< slip of the areas that slip: friction goes against it
+  /// Order of the contacts, along the line of bodies that they hold together.
+  std::vector<std::uint32_t> order_;
+  std::vector<std::size_t> firsts_;  ///< where each unknown's row begins
   EnvelopeMatrix narrow_;
   Eigen::MatrixXd K_;
   Eigen::PartialPivLU<Eigen::MatrixXd> lu_;
@@ -67,7 +68,7 @@ private:
   Eigen::VectorXd r_;
   std::vector<Vec2> slip_;
   std::vector<Vec3> areaSlip_;
-  std::vector<double> speed_;  ///< of points that slip, once the direction is nearly known [m/s]
+  std::vector<double> speed_;  ///< speed of points that slip, once the direction is nearly known [m/s]
   std::vector<double> over_;   ///< how much faster than its floor each open point parts
 };
 

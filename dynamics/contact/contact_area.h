@@ -19,15 +19,15 @@ struct ContactPlane {
 };
 
 struct FlatContact {
-  ContactPlane plane;  ///< its origin is the middle of the area
+  ContactPlane plane;  ///< plane of the contact; its origin is the middle of the area
   std::shared_ptr<const ContactArea> area;
   Carrier carrier = Carrier::A;       ///< whose face it goes with
-  std::vector<std::uint32_t> points;  ///< those of the given ones that carry it
+  std::vector<std::uint32_t> points;  ///< those of the given points that carry the area
 };
 
-/// What the faces of a and b have in common, for each plane in which at least three of these points of
-/// contact touch. b may be several pieces that make up one surface; none may lie on another. Faces that are
-/// too much to work out are left out.
+/// Returns the common area of the faces of a and b, for each plane in which at least three of these points of
+/// contact touch. b may be several pieces that make up one surface; none may overlap another. Areas that are
+/// too large to compute are left out.
 std::vector<FlatContact> flatContacts(const Side& a, std::span<const Side> b, double tau,
                                       std::span<const Gap> points);
 

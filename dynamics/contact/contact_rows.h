@@ -8,10 +8,11 @@
 
 namespace stadion {
 
-/// One axis of a contact's basis.
+/// An axis of a contact's basis.
 struct ContactAxis {
   Vec3 n = Vec3::Zero(), spinA = Vec3::Zero(), spinB = Vec3::Zero();  ///< the velocity along it
-  Vec3 p = Vec3::Zero(), turnA = Vec3::Zero(), turnB = Vec3::Zero();  ///< what an impulse of 1 N s changes
+  /// Change of velocities by an impulse of 1 N s.
+  Vec3 p = Vec3::Zero(), turnA = Vec3::Zero(), turnB = Vec3::Zero();
 
   double velocity(const SolverBody& a, const SolverBody& b) const {
     return n.dot(a.v - b.v) + spinA.dot(a.omega) - spinB.dot(b.omega);
@@ -25,13 +26,14 @@ struct ContactAxis {
 struct ContactRow {
   std::uint32_t a = 0, b = 0;
   std::array<ContactAxis, 3> axis;
-  double response = 0;                     ///< of the normal velocity [1/kg]
-  double shortfall = 0;                    ///< of the normal velocity, for what the contact gives [1/kg]
+  double response = 0;  ///< change of the normal velocity by a normal impulse of 1 N s [1/kg]
+  /// Part of the normal velocity, for each N s, by which the contact may fall short [1/kg].
+  double shortfall = 0;
   double normalMass = 0, tangentMass = 0;  ///< 1 / response (and shortfall); 1 / greatest response across it
-  std::vector<std::uint32_t> points;       ///< that carry this area ...
+  std::vector<std::uint32_t> points;       ///< points that carry this area ...
   std::vector<Vec2> places;                ///< ... and where, as in `at`
-  Vec2 at = Vec2::Zero();    ///< of a point that carries an area: where, in units of the area's radius
-  Mat3 stop = Mat3::Zero();  ///< of an area: the impulse that stops a slip [kg]
+  Vec2 at = Vec2::Zero();    ///< place of a point that carries an area, in units of the area's radius
+  Mat3 stop = Mat3::Zero();  ///< for an area: the impulse that stops a slip [kg]
 
   Vec3 velocity(const std::vector<SolverBody>& m) const {
     return {axis[0].velocity(m[a], m[b]), axis[1].velocity(m[a], m[b]), axis[2].velocity(m[a], m[b])};

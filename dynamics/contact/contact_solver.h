@@ -21,20 +21,20 @@ struct SolverContact {
   std::uint32_t a = 0, b = 0;                             ///< indices of solverBodies
   Mat3 rows = Mat3::Identity(), push = Mat3::Identity();  ///< bases at the end and in the middle
   Vec3 armA = Vec3::Zero(), armB = Vec3::Zero();          ///< from the centres of mass at the end [m]
-  Vec3 pushA = Vec3::Zero(), pushB = Vec3::Zero();        ///< the same in the middle [m]
+  Vec3 pushA = Vec3::Zero(), pushB = Vec3::Zero();        ///< arms in the middle of the step [m]
   double friction = 0;
-  double floor = 0;             ///< normal velocity that the step must reach [m/s]
-  double give = 0;              ///< it may fall short of it by so much of what the impulse changes
-  Vec2 slip = Vec2::Zero();     ///< before the step, if `slides`: friction goes against the mean slip [m/s]
-  bool slides = false;          ///< known to slip all through the step
+  double floor = 0;          ///< normal velocity that the step must reach [m/s]
+  double give = 0;           ///< the normal velocity may stay this part of the impulse's effect below `floor`
+  Vec2 slip = Vec2::Zero();  ///< slip before the step, if `slides`: friction goes against the mean slip [m/s]
+  bool slides = false;       ///< known to slip all through the step
   Vec3 impulse = Vec3::Zero();  ///< in `push` [N s]; the guess on entry
 
   // Points that carry a flat contact leave friction to its area: one more contact, which presses nothing. Its
   // normal axis stands for the spin about the normal, in units of the area's radius.
   std::int32_t patch = -1;            ///< index of that contact; -1: the point has friction of its own
-  const ContactArea* area = nullptr;  ///< this is one
-  double spin = 0;                    ///< the same as `slip`, about the normal [m/s]
-  bool limited = false;               ///< its friction is at its limit
+  const ContactArea* area = nullptr;  ///< area of a flat contact; null: this is a point
+  double spin = 0;                    ///< slip by the spin about the normal, before the step [m/s]
+  bool limited = false;               ///< the friction is at its limit
 
   /// Takes place at a point of a (at pa) and b (at pb), as at one moment.
   void placeAt(const Vec3& point, const Vec3& n, const Vec3& pa, const Vec3& pb);

@@ -25,9 +25,10 @@ public:
   /// Makes the area ready to resist. False if it is none, or hardly any.
   bool close();
 
-  const Vec2& middle() const { return middle_; }  ///< its centroid, in the coordinates of the edges [m]
-  double radius() const { return radius_; }       ///< mean distance of its points from there [m]
-  double size() const { return size_; }           ///< [m2]
+  /// Centroid of the area, in the coordinates of the edges [m].
+  const Vec2& middle() const { return middle_; }
+  double radius() const { return radius_; }  ///< mean distance of its points from there [m]
+  double size() const { return size_; }      ///< [m2]
 
   /// Slip and friction as three numbers: spin (times the radius, as a speed), and two along the plane.
   /// Per unit of mu N; `slope` is its change with the slip; `loss` the power that it takes.
@@ -54,7 +55,7 @@ private:
   struct Edge {
     Vec2 from, to;
   };
-  struct Side {  ///< of the area, in units of the radius from the middle
+  struct Side {  ///< a side of the area, in units of the radius from the middle
     Vec2 from, along, out;
     double length;
   };

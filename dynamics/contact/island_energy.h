@@ -19,7 +19,7 @@ namespace stadion {
 void boundWork(std::size_t members, const std::vector<SolverBody>& free, std::vector<SolverBody>& end,
                const std::vector<Vec3>& falls, double allowed);
 
-/// What pushing out overlap at `speed` may cost in a step of h seconds [J].
+/// Returns the energy that pushing out overlap at `speed` may cost in a step of h seconds [J].
 double pushOutWork(std::size_t members, const std::vector<SolverBody>& start, const std::vector<Vec3>& pull,
                    double h, double speed);
 

@@ -67,10 +67,12 @@ private:
 };
 
 void FlatLanding::gather(const Side& side, PatchSide* part, double bounce, double grip) {
+  // A scheme of steps reports a touch early. The others are as far away then, and strike with the first one.
+  const double early = first_.distance > kSameImpact ? first_.distance : 0;
   manifold(a_, side, tau_, std::max(first_.distance, 0.0) + kSameImpact, points_);
   for (const ManifoldPoint& p : points_) {
     const double comes = closing(ma_, mb_, p.gap);
-    if (p.gap.normal.dot(first_.normal) < kSameSide || !(p.gap.distance < kSoon * comes)) continue;
+    if (p.gap.normal.dot(first_.normal) < kSameSide || !(p.gap.distance - early < kSoon * comes)) continue;
     SolverContact c;
     c.b = 1;
     c.placeAt(p.gap.point, p.gap.normal, ma_.p, mb_.p);

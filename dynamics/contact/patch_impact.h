@@ -25,7 +25,7 @@ struct PatchSide {
 
 struct PatchImpact {
   Vec3 impulse = Vec3::Zero();  ///< on a [N s]
-  Vec3 middle = Vec3::Zero();   ///< of the impulses, in World
+  Vec3 middle = Vec3::Zero();   ///< middle of the impulses, in World
 };
 
 /// The impact of a against b, and against what is `beside` b, that begins with the touch `first`, if it has

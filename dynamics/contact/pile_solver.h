@@ -60,7 +60,7 @@ struct Pile {
 
   // Results; `bodies` have the velocities of the step's end, contacts the impulses of their forces.
   std::vector<PileBody> start;  ///< after the jump
-  std::vector<Vec3> shift;      ///< of the places, at the step's start [m]
+  std::vector<Vec3> shift;      ///< shift of the places at the step's start [m]
 };
 
 /// On entry the contacts' impulses are a guess of what the forces will do.

@@ -22,7 +22,7 @@ struct FitTask {
 /// How good is good enough.
 struct FitTolerance {
   double landing = 0.01;  ///< between the points of landing, in parts of the range
-  double attitude = 1e9;  ///< of the axis, mean over a flight [degrees]
+  double attitude = 1e9;  ///< error of the axis, mean over a flight [degrees]
 };
 
 /// Over all flights, the worst.
@@ -33,11 +33,11 @@ struct FitErrors {
 struct FittedRung {
   FlightKind kind = FlightKind::Ballistic;
   FlightModel model;                 ///< BallisticFlight for Bias
-  Bias bias;                         ///< of Bias
-  std::vector<FlightTableRow> rows;  ///< of Table
-  double area = 1, length = 1;       ///< that the rows are per
+  Bias bias;                         ///< the bias; for Bias
+  std::vector<FlightTableRow> rows;  ///< the rows; for Table
+  double area = 1, length = 1;       ///< area and length to which the rows refer [m2, m]
   FitErrors errors;
-  bool good = false;  ///< within the tolerance
+  bool good = false;  ///< the errors are within the tolerance
 };
 
 /// All that suit the body, the cheapest first.

@@ -28,7 +28,7 @@ namespace stadion {
 /// The rungs, as the script names them. `Bias` has no wrench: it turns the body by hand (`bias.h`).
 enum class FlightKind { Ballistic, Bias, Rod, Plate, Ball, Table };
 
-/// What the air does to a body.
+/// Force and torque of the air on a body.
 struct Wrench {
   Vec3 force = Vec3::Zero();   ///< at the centre of mass [N]
   Vec3 torque = Vec3::Zero();  ///< about it [N m]
@@ -45,8 +45,8 @@ struct RodFlight {
   double crossArea = 0;  ///< [m2]
   double liftArea = 0;   ///< [m2]
   double crossArm = 0;   ///< how far behind the centre the cross drag acts [m]
-  double liftArm = 0;    ///< the same of the lift [m]
-  double damping = 0;    ///< of the angular velocity across [m4]
+  double liftArm = 0;    ///< distance of the lift's point behind the centre [m]
+  double damping = 0;    ///< damping of the angular velocity across [m4]
 };
 
 /// A flat body that spins about its axis: lift that grows with the angle of attack and stalls. With
@@ -60,7 +60,7 @@ struct PlateFlight {
   double stallArea = 0;     ///< [m2]
   double momentVolume = 0;  ///< nose-up moment before the stall [m3]
   double stall = 0.262;     ///< sine squared of the stall angle
-  double damping = 0;       ///< of the angular velocity across [m4]
+  double damping = 0;       ///< damping of the angular velocity across [m4]
 };
 
 /// A ball: drag that falls at the critical speed, and Magnus lift that saturates with the spin.
@@ -90,8 +90,8 @@ struct TableFlight {
 
 using FlightModel = std::variant<BallisticFlight, RodFlight, PlateFlight, SportsBall, TableFlight>;
 
-/// What air of `density` [kg/m3] does to a body with velocity u [m/s] and angular velocity w [rad/s] relative
-/// to it, in A. Finite for finite motion; no air speed gives no force.
+/// Returns the wrench of air with `density` [kg/m3] on a body with velocity u [m/s] and angular velocity w
+/// [rad/s] relative to the air, in A. Finite for finite motion; no air speed gives no force.
 Wrench aerodynamics(const FlightModel& model, double density, const Vec3& u, const Vec3& w);
 
 /// The axis of symmetry in A: 0 = x (rod), 2 = z (plate), as the table says; nothing where the model has
@@ -100,7 +100,7 @@ std::optional<int> symmetryAxis(const FlightModel& model);
 
 FlightKind kindOf(const FlightModel& model);
 
-/// One number of `coefficients="..."` in a script, in their order there.
+/// A number of `coefficients="..."` in a script, in their order there.
 struct Coefficient {
   const char* name;
   const char* unit;

@@ -15,7 +15,7 @@
 namespace stadion {
 
 struct FlightShape {
-  PrincipalAxes axes;     ///< of the surface, in N
+  PrincipalAxes axes;     ///< principal axes of the surface, in N
   Quat q_NA;              ///< A to N
   double length = 0;      ///< extent along A's x [m]
   double width = 0;       ///< extent along A's y [m]
@@ -23,13 +23,13 @@ struct FlightShape {
   double frontArea = 0;   ///< seen along x [m2]
   double sideArea = 0;    ///< seen across x, mean over the directions [m2]
   double topArea = 0;     ///< seen along z [m2]
-  double wetArea = 0;     ///< of the whole surface [m2]
+  double wetArea = 0;     ///< area of the whole surface [m2]
   double sideArm = 0;     ///< how far the side area's middle lies behind the centre of mass [m]
-  double wetArm = 0;      ///< the same of the surface's [m]
+  double wetArm = 0;      ///< distance of the whole surface's middle behind the centre of mass [m]
   double noseArm = 0;     ///< how far before it the front grows to its full width, on average [m]
   double sideSpread = 0;  ///< second moment of the side area along x about the centre of mass [m4]
 
-  /// The same shape `factor` times as large.
+  /// Returns this shape `factor` times as large.
   FlightShape scaled(double factor) const;
   /// (l1 - l3) / l1 is below 2 %: it has no direction, and no bias turns it.
   bool round() const { return axes.round(); }
@@ -52,7 +52,7 @@ SportsBall ballFrom(const FlightShape& shape);
 /// The shipped fits by the names `coefficients=` knows: javelin (rod), discus (plate), football (ball), for a
 /// body of this size; nothing if the kind has none of that name.
 std::optional<FlightModel> shippedFlight(FlightKind kind, const std::string& name, const FlightShape& shape);
-/// Their names.
+/// Returns the names of the shipped fits.
 std::vector<std::string> shippedFlights(FlightKind kind);
 
 }  // namespace stadion

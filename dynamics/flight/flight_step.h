@@ -18,12 +18,12 @@ namespace stadion {
 struct FlightBody {
   double mass = 1;    ///< [kg]
   double along = 1;   ///< moment of inertia about its axis [kg m2]
-  double across = 1;  ///< and about any axis across it
+  double across = 1;  ///< moment of inertia about any axis across it [kg m2]
 };
 
 /// Where it is and how it moves.
 struct FlightState {
-  Vec3 p = Vec3::Zero(), v = Vec3::Zero();  ///< of the centre of mass
+  Vec3 p = Vec3::Zero(), v = Vec3::Zero();  ///< position and velocity of the centre of mass
   Quat q = Quat::Identity();                ///< A to World
   Vec3 L = Vec3::Zero();                    ///< angular momentum in World [kg m2/s]
 };
@@ -31,7 +31,7 @@ struct FlightState {
 Vec3 momentumOf(const FlightBody& body, int axis, const Quat& q, const Vec3& w_A);
 Vec3 angularVelocityOf(const FlightBody& body, int axis, const FlightState& state);
 
-/// What it flies through.
+/// Gravity and air around the body.
 struct FlightAir {
   Vec3 gravity = Vec3(0, 0, -9.80665);  ///< [m/s2]
   Vec3 wind = Vec3::Zero();             ///< [m/s]

@@ -23,7 +23,7 @@ FlightTableRow mirrored(const FlightTableRow& r, double about, double moment) {
 
 /// Rows beyond both ends as symmetry has them, so that every angle of use lies among rows.
 Rows extended(Rows rows, int axis) {
-  if (axis == 0 && rows.back().alpha < 0.75 * kPi)  // nothing is said of flying tail first
+  if (axis == 0 && rows.back().alpha < 0.75 * kPi)  // the table has no data on flying tail first
     for (std::size_t n = rows.size(); n-- > 0;)
       if (rows[n].alpha < 0.5 * kPi - 1e-9) rows.push_back(mirrored(rows[n], 0.5 * kPi, 1));
   if (axis == 2 && rows.front().alpha > -0.25 * kPi) {  // both faces are alike

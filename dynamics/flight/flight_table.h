@@ -29,12 +29,12 @@ constexpr double kLongestBody = 1000;
 Result<TableFlight> readFlightTable(std::string_view text, const std::string& file, int axis,
                                     double bodyLength = kLongestBody);
 
-/// One row of such a table, as numbers per area and length.
+/// A row of a flight table, as numbers per area and length.
 struct FlightTableRow {
   double alpha = 0;  ///< [rad]
   double drag = 0, lift = 0, moment = 0, damping = 0;
 };
-/// The same from numbers. `rows` rise, from 0 (or -pi/2) on.
+/// Makes the model from the numbers of a table. `rows` rise, from 0 (or -pi/2) on.
 TableFlight tableFrom(const std::vector<FlightTableRow>& rows, double area, double length, int axis);
 /// The file of such a table.
 std::string flightTableText(const std::vector<FlightTableRow>& rows, double area, double length, int axis);

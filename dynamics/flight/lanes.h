@@ -41,7 +41,7 @@ template <class S, class L>
   return __builtin_bit_cast(S, x);
 }
 
-/// The same number in every lane.
+/// Returns x in every lane.
 template <class S>
 [[gnu::always_inline]] inline S all(double x) {
   return S{} + x;

@@ -26,7 +26,7 @@ struct Rates {
   S across, along, push, turn, damp;
 };
 
-/// The same, and k x u, whose size is |u_p|: no digits are lost nose on.
+/// The airflow, and k x u, whose size is |u_p|: no digits are lost nose on.
 template <class S>
 struct Crossing {
   V3<S> lift;

@@ -21,7 +21,7 @@ struct NumberColumns {
   };
   std::string file;
   std::vector<std::string> names;
-  std::vector<std::vector<double>> rows;           ///< each as long as `names`
+  std::vector<std::vector<double>> rows;           ///< rows of numbers, each as long as `names`
   std::vector<std::uint32_t> lines;                ///< where each row stands
   std::vector<std::vector<std::uint32_t>> places;  ///< where in its line each number of a row begins, from 1
   std::map<std::string, Setting> settings;

@@ -36,7 +36,7 @@ inline RigidFlight unpack(const State& y) {
   return {y.segment<3>(0), y.segment<3>(3), Quat(y[6], y[7], y[8], y[9]).normalized(), y.segment<3>(10)};
 }
 
-/// What the equations above need besides the motion.
+/// Parameters of the equations above, besides the motion.
 struct Surroundings {
   double mass = 1;
   Vec3 inertia = Vec3::Ones();  ///< principal moments in A [kg m2]
@@ -55,7 +55,7 @@ State rate(const State& y, const Surroundings& s, const Model& model) {
   return d;
 }
 
-/// One classical step of order 4.
+/// Takes one classical step of order 4.
 template <class Model>
 void step4(RigidFlight& f, double h, const Surroundings& s, const Model& model) {
   const State y = pack(f), a = rate(y, s, model), b = rate(y + 0.5 * h * a, s, model),
@@ -85,7 +85,7 @@ private:
   double tolerance_, step_ = 1e-3;
   State next_;
 
-  /// Its error in tolerances; the result is left in `next_`.
+  /// Returns the error of a step in multiples of the tolerance; leaves the result in `next_`.
   template <class Model>
   double tryStep(const RigidFlight& f, double h, const Surroundings& s, const Model& model) {
     namespace pair = dormand_prince;

@@ -101,8 +101,8 @@ template <class S>
   return x > 0.0 ? 1.0 / (1.0 + x) : 1.0 - x;
 }
 
-/// What air that moves with the wind does in one step to the velocity and the angular momentum; `axial` is
-/// L.k, which stays as it is.
+/// Changes velocity and angular momentum by the push of the air, which moves with the wind, in a step.
+/// `axial` is L.k, which stays constant.
 template <class Law, class S>
 [[gnu::always_inline]] inline void kick(const Law& law, const StepNumbers& n, const V3<S>& k, const S& axial,
                                         Motion<S>& m) {

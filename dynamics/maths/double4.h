@@ -20,7 +20,7 @@ inline Vec3 firstThree(const Double4& w) {
   return {w[0], w[1], w[2]};
 }
 
-/// Whether this machine has AVX2.
+/// Returns true if this machine has AVX2.
 inline bool hasAvx2() {
   return __builtin_cpu_supports("avx2") != 0;
 }

@@ -63,11 +63,11 @@ private:
   Vec3 polynomialPosition(double age) const;
 };
 
-/// What every kind of spin has; see Spin.
+/// Members that every kind of spin has; see Spin.
 struct SpinTerms {
   enum class Kind { Still, Uniform, Symmetric, Taylor, Driven, Steered };
   Kind kind = Kind::Still;
-  int axis = 2;                 ///< of symmetry
+  int axis = 2;                 ///< axis of symmetry
   Quat q0 = Quat::Identity();   ///< at age 0, C to World
   Vec3 L = Vec3::Zero();        ///< angular momentum in World, constant but for Driven, Steered [kg m2/s]
   Vec3 omega = Vec3::Zero();    ///< Uniform, Driven, Steered: at age 0, in World [rad/s]
@@ -104,8 +104,8 @@ struct Spin : SpinTerms {
   /// A body under torques through a step of h seconds of which both ends are known: it moves as if it were
   /// free, and makes a small smooth turn beside, which carries it to the second end.
   static Spin steered(const End& start, const End& end, double h, const Vec3& inertia);
-  /// What `steered` adds a small turn to: the exact motion of a free body of revolution, of others an even
-  /// one.
+  /// Returns the motion to which `steered` adds a small turn. For a body of revolution this is the exact free
+  /// motion, for others an even turn.
   static Spin unsteered(const Quat& q, const Vec3& L, const Vec3& inertia);
   /// A ball under constant torque.
   static Spin driven(const Quat& q, const Vec3& omega, const Vec3& alpha, double inertia);
@@ -115,7 +115,8 @@ struct Spin : SpinTerms {
     return kind == Kind::Taylor ? seriesOrientation(age) : turnedOrientation(age);
   }
   Vec3 angularVelocity(double age) const;
-  Vec3 angularVelocity(double age, const Quat& orientation) const;  ///< if that is known already
+  /// For an orientation that is known already.
+  Vec3 angularVelocity(double age, const Quat& orientation) const;
   Vec3 angularMomentum(double age) const;
   /// At least the angular speed at any age up to `age`.
   double speedBound(double age) const;

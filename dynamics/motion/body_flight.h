@@ -25,9 +25,9 @@ struct BodyFlight {
   bool jerks() const { return bias.rate != 0 && bias.form == BiasForm::Paper; }
 };
 
-/// The same mass, its principal axes those of the flight frame and its two moments across the model's axis
-/// made equal, if it nearly is such a body of revolution: a model's mesh is only as round as its facets.
-/// Others keep theirs.
+/// Returns the mass of a body of revolution: principal axes are those of the flight frame, and the two
+/// moments across the model's axis are equal. A model's mesh is only as round as its facets. If the body is
+/// not nearly one of revolution, returns `mass` unchanged.
 MassProperties revolved(const MassProperties& mass, const BodyFlight& flight);
 
 }  // namespace stadion

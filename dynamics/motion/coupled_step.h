@@ -22,7 +22,7 @@ struct CoupledState {
   Vec3 L = Vec3::Zero();      ///< [kg m2/s]
 };
 
-/// What acts on it.
+/// The acceleration and torque that act on a body.
 struct CoupledPush {
   Vec3 a = Vec3::Zero();       ///< [m/s2]
   Vec3 torque = Vec3::Zero();  ///< [N m]
@@ -30,11 +30,11 @@ struct CoupledPush {
 
 struct CoupledStep {
   CoupledState end;
-  CoupledPush first, last;  ///< what acts at its ends
+  CoupledPush first, last;  ///< pushes at the start and the end of the step
   double error = 0;         ///< in multiples of what is allowed
 };
 
-/// What a step may add to the error: 1e-9 m, 1e-8 m/s, 1e-9 rad and 1e-8 rad/s.
+/// Error that a step may add: 1e-9 m, 1e-8 m/s, 1e-9 rad and 1e-8 rad/s.
 struct CoupledTolerance {
   static constexpr double kPlace = 1e-9, kSpeed = 1e-8, kTurn = 1e-9, kTurning = 1e-8;
   /// A greater turn beside the free motion would not be small.

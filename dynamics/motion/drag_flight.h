@@ -10,7 +10,7 @@
 
 namespace stadion {
 
-/// What acts on a body that feels nothing but constant pulls and one medium that is the same everywhere.
+/// The push on a body that feels only constant pulls and one medium that is the same everywhere.
 struct EvenPull {
   Vec3 pull = Vec3::Zero();  ///< [m/s2]
   Drag drag;

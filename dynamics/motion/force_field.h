@@ -15,7 +15,7 @@
 
 namespace stadion {
 
-/// The same push everywhere.
+/// A push that is the same everywhere.
 struct LinearField {
   enum class Unit { Acceleration, Force };
   Vec3 push = Vec3::Zero();  ///< in the field's own coordinates [m/s2 or N]
@@ -60,7 +60,7 @@ struct MediumField {
   double viscosity = 0;      ///< c [1/s]
   Vec3 wind = Vec3::Zero();  ///< in the field's own coordinates [m/s]
   Region region = Region::Everywhere;
-  Vec3 centre = Vec3::Zero();  ///< of the region, in the field's own coordinates [m]
+  Vec3 centre = Vec3::Zero();  ///< centre of the region, in the field's own coordinates [m]
   Vec3 half = Vec3::Ones();    ///< Box: half extents; Ball: radius in x [m]
   bool operator==(const MediumField&) const = default;
 };
@@ -74,7 +74,7 @@ struct ForceField {
   double first = 1, last = 1;  ///< strength at the two ends of the frame, in multiples of the law's
 
   bool moving() const { return start.p != end.p || start.q.coeffs() != end.q.coeffs(); }
-  /// What it does to a body at a given place differs in the course of the frame.
+  /// Returns true if the push at a given place changes in the course of the frame.
   bool changing() const { return moving() || first != last; }
   /// True if a body anywhere feels one constant vector through the frame.
   bool uniform() const;
@@ -82,7 +82,7 @@ struct ForceField {
   const MediumField* evenMedium() const;
 };
 
-/// What a field acts on.
+/// The properties of a body on which a field acts.
 struct Exposed {
   double mass = 1;      ///< [kg]
   double dragArea = 0;  ///< drag coefficient times cross section [m2]
@@ -110,10 +110,11 @@ struct Air {
   double density = 0;        ///< [kg/m3]
   Vec3 wind = Vec3::Zero();  ///< in World [m/s]
 };
-/// What a medium is at p; nothing outside it, and of other fields. s as below.
+/// Returns the air of a medium at p. Nothing outside the medium, and for fields that are no medium. s as
+/// below.
 std::optional<Air> airAt(const ForceField& field, const Vec3& p, double s);
 
-/// What the body gains [m/s2]; s in [0, 1] from frame start to end.
+/// Returns the acceleration of the body by the field [m/s2]; s in [0, 1] from frame start to end.
 Vec3 accelerationOf(const ForceField& field, const Exposed& body, double s);
 
 }  // namespace stadion

@@ -19,13 +19,13 @@ public:
   static constexpr Nanoseconds kWindow = 80'000'000;  ///< [ns]
 
   struct Velocity {
-    Vec3 v = Vec3::Zero();      ///< of the hand's origin [m/s]
+    Vec3 v = Vec3::Zero();      ///< velocity of the hand's origin [m/s]
     Vec3 omega = Vec3::Zero();  ///< in World [rad/s]
   };
 
-  /// It is there now, and how it came there does not count.
+  /// Places the hand there without a motion: the way to this pose does not count.
   void put(Nanoseconds time, const Pose& X_WT);
-  /// It has gone there, straight. Expects a later time than the last.
+  /// Moves to that place, straight. Expects a later time than the last.
   void go(Nanoseconds time, const Pose& X_WT);
 
   /// Zero while its way has no length in time.

@@ -10,7 +10,7 @@ struct Instant {
   Nanoseconds ns = 0;  ///< show time, rounded down [ns]
   double rest = 0;     ///< [s], in [0, 1e-9)
 
-  /// This moment plus `s` seconds, |s| < 1e6.
+  /// Returns this moment plus `s` seconds, |s| < 1e6.
   Instant plus(double s) const {
     const double whole = rest + s;
     auto n = static_cast<Nanoseconds>(whole * 1e9);

@@ -19,22 +19,24 @@ struct DynamicsVariation {
   /// May change how a body looks to collisions (its shape) and what it is (fields, drag area). On the
   /// loader's thread; empty: nothing.
   std::function<void(NodeRef body, Appearance&, BodyAttributes&)> body;
-  std::uint32_t fineness = 1;           ///< of all dynamics nodes, as in World::setFineness
-  std::optional<ImpactScheme> impacts;  ///< of all dynamics nodes; empty: as the script says
+  std::uint32_t fineness = 1;           ///< fineness of all dynamics nodes (World::setFineness)
+  std::optional<ImpactScheme> impacts;  ///< impact scheme of all dynamics nodes; empty: as the script says
 };
 
-/// What a dynobject's declaration says of its body; its flight, which depends on the model, is left open.
+/// Returns the body attributes in the declaration of a dynobject. Its flight is left open, because it depends
+/// on the model.
 BodyAttributes bodyAttributesOf(const Declaration& dynobject);
 
 /// NodeType::make of the dynobject.
 std::unique_ptr<Node> makeDynObject(const NodeRequest& request);
 
-/// One of NodeServices. Without anything set, the script counts and no table of coefficients is found.
+/// The services of this floor (NodeServices). By default the script counts and no table of coefficients is
+/// found.
 struct DynamicsServices {
   DynamicsServices();
   explicit DynamicsServices(DynamicsVariation varied, const AssetRoots* assetRoots = nullptr);
 
-  std::shared_ptr<ShapeStore> shapes;  ///< of all nodes of a show
+  std::shared_ptr<ShapeStore> shapes;  ///< shapes of all nodes of a show
   DynamicsVariation variation;
   const AssetRoots* roots =
       nullptr;  ///< where tables of coefficients are looked for; null: nowhere. Borrowed

@@ -19,7 +19,7 @@
 namespace stadion {
 namespace {
 
-constexpr Nanoseconds kMostBehind = fromSeconds(10);  ///< of a state that is put back: what moves in it
+constexpr Nanoseconds kMostBehind = fromSeconds(10);  ///< of a restored state: what moves in it
 
 /// The box around the ball around a shape. Of an unbounded plane it is as good as everywhere.
 Aabb boxAround(const Shape& shape, const Pose& X_WN) {
@@ -220,7 +220,7 @@ bool CollisionNode::follow(Part& part, FrameContext& frame, std::vector<Nanoseco
   if (!part.ref.valid()) return false;
   followFrom(part, part.pose, frame);
   if (!part.way.empty()) {
-    for (const WayPart& p : part.way)
+    for (const ArcPiece& p : part.way)
       if (p.jump) cuts.push_back(p.begins());
   } else {
     addCuts(part.track, cuts);
@@ -255,7 +255,7 @@ bool CollisionNode::followBody(Part& part, const Pose& before, const FrameContex
     const LoadedScene* load = scene.tree().load(at.load);
     body = load ? dynamic_cast<const DynObjectNode*>(load->nodes[at.position].get()) : nullptr;
   }
-  const BodyWay* way = body && body->movedBy() != self() ? body->wayIn(frame.now.frame) : nullptr;
+  const ArcTrack* way = body && body->movedBy() != self() ? body->arcsIn(frame.now.frame) : nullptr;
   if (!way) return false;
   for (PlacementId id = part.placement; id != body->placement(); id = placements.carrier(id))
     if (id == kWorldPlacement || id == kNoPlacement) return false;  // a tracker has it
@@ -267,7 +267,7 @@ bool CollisionNode::followBody(Part& part, const Pose& before, const FrameContex
   if (!rides) return false;  // it moves on the body
   part.way = *way;
   if (part.ref != body->self())
-    for (WayPart& p : part.way) p.X_CN = p.X_CN * X_NP;
+    for (ArcPiece& p : part.way) p.X_CN = p.X_CN * X_NP;
   return true;
 }
 

@@ -26,7 +26,7 @@ struct CollisionAttributes {
   double releaseDistance = 0.5;                   ///< [m]
   bool selfCollide = true;
   bool on = true;
-  std::vector<SharedFit> fits;  ///< of colliders in its file: made by the loader, kept for App to find
+  std::vector<SharedFit> fits;  ///< fits of colliders in its file: made by the loader, kept for App to find
   std::uint32_t fineness = 1;   ///< as in World::setFineness
   ImpactScheme impacts = {};    ///< as in World::setImpactScheme
 };
@@ -46,7 +46,7 @@ public:
   bool awaits(const Node& earlier, const Scene& scene) const override;
   void addMovers(const Scene& scene, std::vector<NodeRef>& movers) const override;
 
-  /// What the last step did, for reports.
+  /// The world after the last step, for reports.
   const World& world() const { return world_; }
   const ImpactScheme& impacts() const { return attributes_.impacts; }
 
@@ -69,17 +69,17 @@ protected:
   struct Part {
     std::string name;
     NodeRef ref;           ///< invalid while it is not loaded
-    std::uint32_t id = 0;  ///< its collider or body in the world
+    std::uint32_t id = 0;  ///< id of the part's collider or body in the world
     SharedFit fit;         ///< null if it has no usable triangle
     ShapeId shape = 0;
     PlacementId placement = kNoPlacement;
     Pose pose;        ///< at the end of the last step, where the next one begins; the placement is at its end
     PoseTrack track;  ///< in this frame, if something outside moves it
-    BodyWay way;      ///< the same, if a body of another dynamics node carries it
+    ArcTrack way;     ///< path of the part in this frame, if a body of another dynamics node carries it
     /// When it leaves, and which node then has its name.
     Nanoseconds leaveAt = std::numeric_limits<Nanoseconds>::max(), nextAt = 0;
     NodeRef next;
-    std::optional<Vec3> refit;  ///< of a restored part: the scale at which its fit is found again
+    std::optional<Vec3> refit;  ///< for a restored part: the scale at which its fit is found again
 
     template <class Self, class Fields>
     static void fields(Self& p, Fields& f) {
@@ -98,18 +98,18 @@ protected:
 
   /// Puts a collidee into the world; here as a body that is moved from outside.
   virtual void addCollidee(Part& part, ObjectNode& object, Scene& scene);
-  /// Whether something outside moves its collidees.
+  /// Returns true if something outside moves its collidees.
   virtual bool followsCollidees() const { return true; }
   virtual void removeCollidee(Part& part, Scene& scene);
   // The frame is cut where something outside turns, jumps or is commanded; then act, move, act, ... in turn.
   /// Looks at what has changed outside, and adds the times at which the frame must be cut. True if anything
   /// has.
   virtual bool prepare(FrameContext& frame, std::vector<Nanoseconds>& cuts);
-  /// Whether something happens in this frame that needs the scene at its exact time.
+  /// Returns true if something happens in this frame that needs the scene at its exact time.
   virtual bool needsScene(Nanoseconds end) const;
-  /// What happens at `time`; no frame is given if nothing of it needs the scene.
+  /// Applies the changes that happen at `time`. `frame` is null if none of them needs the scene.
   virtual void act(Nanoseconds time, FrameContext* frame);
-  /// Whether `mover` moves one of the nodes that this one looks at, or one that carries such a node.
+  /// Returns true if `mover` moves one of the nodes that this one looks at, or one that carries such a node.
   virtual bool looksAt(const Node& mover, const Scene& scene) const;
   /// Tells the world where things that are moved from outside go until `to`; evenly, or as the world stands
   /// still in between, with a jump.
@@ -120,11 +120,11 @@ protected:
   /// How the object collides where it is now; null if it has no usable triangle.
   SharedFit fitOf(const ObjectNode& object, const Scene& scene);
   SharedFit fitAt(const Vec3& scale, const ObjectNode& object, const Scene& scene);
-  /// The same of a part that has been put back.
+  /// The same for a restored part.
   virtual SharedFit refit(const Part& part, const ObjectNode& object, const Scene& scene) {
     return fitAt(*part.refit, object, scene);
   }
-  /// Parts that were put back find their objects again; false: one of them is not there.
+  /// Connects restored parts with their objects. Returns false if an object is missing.
   bool resumeParts(Scene& scene);
   /// Adds the shape to the world; 0 of null.
   ShapeId addShape(const SharedFit& fit);
@@ -143,7 +143,7 @@ protected:
   static Pose poseAt(const Part& part, Nanoseconds time, Limit limit);
   /// Adds the other dynamics node that moves the node or something that carries it.
   void addMover(NodeRef node, const Scene& scene, std::vector<NodeRef>& movers) const;
-  /// Whether `mover` moves the node or something that carries it.
+  /// Returns true if `mover` moves the node or something that carries it.
   static bool isMovedBy(const Node& mover, NodeRef node, const Scene& scene);
   static void addCuts(const PoseTrack& track, std::vector<Nanoseconds>& cuts);
 
@@ -168,24 +168,24 @@ private:
     Nanoseconds when;
     bool on;
   };
-  std::vector<Switching> switchings_;  ///< of this frame
+  std::vector<Switching> switchings_;  ///< switches in this frame, in order
   bool on_;                            ///< at advancedTo_
   std::vector<Part*> comingOrGoing_;   ///< parts that stand in files that come or go in this frame
   std::uint64_t loadsSeen_ = ~std::uint64_t{0};
   bool awake_ = true;
   Nanoseconds advancedTo_ = 0;
-  /// What the present frame's step needs to know.
+  /// The parameters of the present frame's step.
   struct Span {
     Nanoseconds from = 0, to = 0;
     std::vector<Nanoseconds> cuts;
     bool outside = false;  ///< something has changed outside
-    bool rested = false;   ///< it was kept from running before `from`
+    bool rested = false;   ///< the node rested until `from`
     bool done = false;
   };
   Span span_;
 };
 
-/// What the attributes of a collision or dynamics node say.
+/// Returns the attributes in the declaration of a collision or dynamics node.
 CollisionAttributes collisionAttributesOf(const NodeRequest& request, ShapeStore& shapes);
 /// Warns of a node without collidees, and of colliders that are given twice.
 void lintContacts(const Declaration& node, LintScope& scope);

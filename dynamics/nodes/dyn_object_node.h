@@ -8,7 +8,7 @@
 /// Commands  hook FIELD, unhook FIELD, grab [tracker], release, and those of a placed node (reset brings it
 ///           back to its place, with the velocity that its script gives it).
 
-#include "dynamics/motion/body_way.h"
+#include "dynamics/motion/arc_track.h"
 #include "dynamics/nodes/shape_store.h"
 #include "dynamics/world/world.h"
 
@@ -16,8 +16,8 @@
 
 namespace stadion {
 
-/// What the script says about a body.
-enum class ThrowSource : std::uint8_t { Hand, Field, Both };  ///< `throw`
+/// The source of the velocity at a throw; the attribute `throw`.
+enum class ThrowSource : std::uint8_t { Hand, Field, Both };
 
 struct BodyAttributes {
   double density = 1000;       ///< [kg/m3]
@@ -26,11 +26,12 @@ struct BodyAttributes {
   /// the moments about the longest, the middle and the shortest principal axis through it [kg m2].
   std::optional<Vec3> centre, inertia;
   Surface surface;
-  double damping = 0;                   ///< [1/s]
-  std::optional<double> dragArea;       ///< instead of the shape's [m2]
-  std::vector<std::string> hooks;       ///< names of force fields, as seen from its file
-  Vec3 velocity = Vec3::Zero();         ///< at the start and after reset, in its parent [m/s]
-  Vec3 angularVelocity = Vec3::Zero();  ///< the same [rad/s]
+  double damping = 0;              ///< [1/s]
+  std::optional<double> dragArea;  ///< instead of the shape's [m2]
+  std::vector<std::string> hooks;  ///< names of force fields, as seen from its file
+  Vec3 velocity = Vec3::Zero();    ///< at the start and after reset, in its parent [m/s]
+  /// Angular velocity at the start and after reset, in its parent [rad/s].
+  Vec3 angularVelocity = Vec3::Zero();
   ThrowSource throwSource = ThrowSource::Both;
   std::shared_ptr<const BodyFlight> flight;  ///< null: as a point
   double spin = 0;               ///< about its axis of symmetry, added when a hand lets go [rad/s]
@@ -72,7 +73,7 @@ public:
 
   const BodyAttributes& body() const { return body_; }
   const std::vector<NodeRef>& hooked() const { return hooked_; }
-  /// What has been asked of it since its dynamics node last looked, in delivery order.
+  /// Returns the requests since the last call, in delivery order. The dynamics node calls this.
   std::vector<Request> takeRequests();
   /// The dynamics node that moves it, as which body, and where to say that something has been asked of it.
   struct Simulation {
@@ -83,16 +84,16 @@ public:
   void setSimulation(const Simulation& simulation) { simulation_ = simulation; }
   BodyId bodyId() const { return simulation_.body; }
   NodeRef movedBy() const { return simulation_.dynamics; }  ///< invalid while no node simulates it
-  /// Its simulated state after its last change. It is a copy, because the state hash and snapshots ask the
-  /// node, and because a node that is no longer simulated keeps it.
+  /// Sets a copy of the simulated state, after each change. The state hash and snapshots ask this node, and a
+  /// node that is no longer simulated keeps the copy.
   void setState(const BodyState& state) { state_ = state; }
   const BodyState& state() const { return state_; }
 
-  /// Its path in a frame, set by its dynamics node for nodes that look at it; null: it has not moved, or no
-  /// node looked at it before.
-  void setWay(std::uint64_t frame, const BodyWay& way) { way_ = way, wayOf_ = frame; }
-  const BodyWay* wayIn(std::uint64_t frame) const {
-    return frame == wayOf_ && !way_.empty() ? &way_ : nullptr;
+  /// Sets the path of the body in a frame; the dynamics node calls this for nodes that look at the body.
+  /// arcsIn() returns null if the body has not moved, or if no node looked at it before.
+  void setArcs(std::uint64_t frame, const ArcTrack& way) { arcs_ = way, arcsFrame_ = frame; }
+  const ArcTrack* arcsIn(std::uint64_t frame) const {
+    return frame == arcsFrame_ && !arcs_.empty() ? &arcs_ : nullptr;
   }
 
   bool moved() const override { return simulation_.asking != nullptr || ObjectNode::moved(); }
@@ -115,8 +116,8 @@ private:
   std::vector<Request> requests_;
   Simulation simulation_;
   BodyState state_;
-  BodyWay way_;
-  std::uint64_t wayOf_ = ~std::uint64_t{0};
+  ArcTrack arcs_;
+  std::uint64_t arcsFrame_ = ~std::uint64_t{0};
 };
 
 }  // namespace stadion

@@ -182,7 +182,7 @@ void DynamicsNode::obey(const Order& order, FrameContext& frame) {
   using Kind = DynObjectNode::Request::Kind;
   DynObjectNode* node = bodyAt(order.body, frame.scene);
   const auto at = node ? partOf_.find(node->bodyId()) : partOf_.end();
-  if (at == partOf_.end()) return;  // it has gone
+  if (at == partOf_.end()) return;  // its file was unloaded
   const Part* part = at->second;
   switch (order.what.kind) {
   case Kind::Reset: {
@@ -332,7 +332,7 @@ SharedFit DynamicsNode::refit(const Part& part, const ObjectNode& object, const 
 
 bool DynamicsNode::resume(Scene& scene) {
   if (!resumeParts(scene)) return false;
-  // A field's file may have gone; where it is there, so is the field.
+  // The field's file may have been unloaded; if it is loaded, the field exists.
   const auto isThere = [&](NodeRef ref) {
     const LoadedScene* load = scene.tree().load(ref.load);
     return !load || ref.position < load->nodes.size();
@@ -369,10 +369,10 @@ void DynamicsNode::tellCounts(FrameProbe& probe) const {
 
 /// Others see how the body has moved in this frame.
 void DynamicsNode::publishWay(const Part& part, FrameContext& frame) {
-  const BodyWay& way = world_.wayOf(part.id);
+  const ArcTrack& way = world_.arcsOf(part.id);
   DynObjectNode* node = bodyAt(part.ref, frame.scene);
   if (!node || way.empty() || (way.size() == 1 && way.front().stands())) return;
-  node->setWay(frame.now.frame, way);
+  node->setArcs(frame.now.frame, way);
   // A node that runs in some frames only knows more than those that look at this frame.
   if (frame.start() < frame.scene.frameStart()) return;
   const Pose begins = poseOn(way, frame.start(), Limit::Before);

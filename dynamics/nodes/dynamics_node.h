@@ -54,8 +54,8 @@ private:
     Pose pose;           ///< at the end of the last step
     PoseTrack track;     ///< in this frame, if it moves
     AxisTrack strength;  ///< in this frame, if a device's axis says it
-    BodyId carrier = 0;  ///< one of this node's bodies, if that carries it
-    Pose X_BF;           ///< where it is then, in the body's coordinates
+    BodyId carrier = 0;  ///< the body of this node that carries the field, if one does
+    Pose X_BF;           ///< pose of the field in the coordinates of `carrier`
     Nanoseconds leaveAt = std::numeric_limits<Nanoseconds>::max();
 
     template <class Self, class Fields>
@@ -87,10 +87,10 @@ private:
 
   std::vector<NodeRef> asking_;               ///< bodies of which something has been asked
   std::unordered_map<BodyId, Part*> partOf_;  ///< by its body
-  std::vector<Part*> traced_;                 ///< those whose path in this frame others may read
+  std::vector<Part*> traced_;                 ///< parts whose path in this frame other nodes may read
   std::vector<Field> fields_;
   Grips grips_{world_};
-  std::vector<Order> orders_;  ///< of this frame, in the order of time
+  std::vector<Order> orders_;  ///< commands of this frame, in the order of time
   bool toldOfLimit_ = false;   ///< once is enough
 };
 

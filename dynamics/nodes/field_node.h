@@ -25,13 +25,13 @@ struct StrengthAxis {
   std::size_t axis = 0;
 };
 
-/// What the script says about a field.
+/// Attributes that the script gives a field.
 struct FieldAttributes {
   FieldLaw law;
   Nanoseconds duration = 0;  ///< longest activation [ns], 0 = no limit
   bool on = true;            ///< at the start
   std::optional<StrengthAxis> axis;
-  bool centredOnMass = false;  ///< of the body below which it stands, if it stands below one
+  bool centredOnMass = false;  ///< if the field stands below a body: its centre is that body's centre of mass
 };
 
 extern const NodeType kForceLinearType;
@@ -69,7 +69,7 @@ public:
   /// The switches of frame `frame`, in order.
   const std::vector<Change>& changes(std::uint64_t frame) const;
 
-  /// What its strength is multiplied by in this frame, while it is on; empty without an axis.
+  /// Returns the factor of the strength in this frame while the field is on; empty without an axis.
   const AxisTrack& strength() const { return strength_; }
 
   /// A dynamics node that wants to be woken when this field is switched, or its strength changes.

@@ -29,7 +29,7 @@ struct Grip {
   std::string tracker;
   Pose X_TN;  ///< how it lies in the hand
   HandMotion hand;
-  PoseTrack track;          ///< of the hand in this frame; empty while the tracker is silent
+  PoseTrack track;          ///< path of the hand in this frame; empty while the tracker is silent
   Nanoseconds jumped = -1;  ///< when the hand last jumped while it held the body
 
   template <class Self, class Fields>
@@ -52,12 +52,12 @@ public:
   /// Opens the hand and tells how it was. The body stays held in the world until its releaseBody(). Nothing
   /// if no hand has it.
   std::optional<Grip> open(BodyId body);
-  /// The body is gone, or was put elsewhere.
+  /// The body was removed, or put elsewhere.
   void forget(BodyId body);
 
-  /// What the hands do in this frame, and at which times something about it changes.
+  /// Reads the paths of the hands in this frame. Adds to `cuts` the times at which they turn, jump or let go.
   void follow(FrameContext& frame, std::vector<Nanoseconds>& cuts);
-  /// What jumps at `time` takes its body with it.
+  /// Moves the bodies of hands that jump at `time` along with them.
   void jump(Nanoseconds time);
   void move(Nanoseconds from, Nanoseconds to, bool jump);
 

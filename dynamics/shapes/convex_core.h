@@ -26,7 +26,7 @@ struct ConvexCore {
   Vec3 support(const Vec3& d) const;
   /// The greatest n . x over the rounded body.
   double extent(const Vec3& n) const { return n.dot(support(n)) + radius; }
-  /// Whether x is in the core, give or take `margin`.
+  /// Returns true if x is in the core, give or take `margin`.
   bool holds(const Vec3& x, double margin) const;
   Vec3 middle() const;
   ConvexCore moved(const Vec3& by) const;
@@ -46,7 +46,7 @@ struct Feature {
   static constexpr int kMost = 16;
   std::array<Vec3, kMost> points;
   int count = 0;
-  Vec3 normal = Vec3::Zero();  ///< of a flat one, outwards; zero for lines and points
+  Vec3 normal = Vec3::Zero();  ///< normal of a flat feature, outwards; zero for lines and points
   void add(const Vec3& x) {
     if (count < kMost) points[static_cast<std::size_t>(count++)] = x;
   }
@@ -55,8 +55,8 @@ struct Feature {
 /// farthest along d first.
 Feature featureTowards(const ConvexCore& core, const Vec3& d, bool around);
 
-/// Whether the core reaches farthest along n, or against it, with a single point, the others staying back by
-/// more than `even` [m]. False if that is not known at once.
+/// Returns true if the core reaches farthest along n, or against it, with a single point, the others staying
+/// back by more than `even` [m]. False if that is not known at once.
 bool pointed(const ConvexCore& core, const Vec3& n, double even);
 
 /// Directions that separating planes can have near a contact.

@@ -26,8 +26,8 @@ struct ConvexShape {
   std::vector<Vec3> points;
   std::vector<Face> faces;
   std::vector<std::uint32_t> loops;
-  std::vector<std::array<std::uint32_t, 2>> edges;  ///< each once
-  Vec3 centre = Vec3::Zero();                       ///< of the corners' bounds
+  std::vector<std::array<std::uint32_t, 2>> edges;  ///< edges of the faces; each one is here once
+  Vec3 centre = Vec3::Zero();                       ///< middle of the bounds of the corners
   double reach = 0;                                 ///< greatest distance of a corner from the centre [m]
   double inside = 0;                                ///< radius of a ball about the centre that fits [m]
 

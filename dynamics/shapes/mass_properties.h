@@ -18,7 +18,7 @@ struct MassProperties {
   Vec3 inertia = Vec3::Constant(0.4);  ///< principal moments about C [kg m2], positive
 
   bool valid() const;
-  /// The same body with another mass.
+  /// Returns these properties for another mass of the same shape.
   MassProperties withMass(double kg) const;
 };
 

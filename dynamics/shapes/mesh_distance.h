@@ -30,10 +30,10 @@ public:
   /// The nearest triangles, or some that cross.
   static std::optional<Pair> nearest(const MeshHierarchy& a, const Pose& X_WA, const MeshHierarchy& b,
                                      const Pose& X_WB);
-  /// Whether a triangle of one crosses one of the other. Tests boxes along the axes of the meshes, then
-  /// triangles; knows no inside. True if the library fails.
+  /// Returns true if a triangle of one crosses one of the other. Tests boxes along the axes of the meshes,
+  /// then triangles; knows no inside. True if the library fails.
   static bool cross(const MeshHierarchy& a, const Pose& X_WA, const MeshHierarchy& b, const Pose& X_WB);
-  /// Whether a ball at `centre` reaches a triangle. In the mesh's coordinates.
+  /// Returns true if a ball at `centre` reaches a triangle. In the mesh's coordinates.
   bool reaches(const Vec3& centre, double radius) const;
 
 private:

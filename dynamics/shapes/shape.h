@@ -28,7 +28,8 @@ struct BoxShape {
   Vec3 half = Vec3::Constant(0.5);
 };
 
-/// One-sided half space below z = 0 of `pose`; with finite `half`, a rectangular sheet that things roll off.
+/// A one-sided half space below z = 0 of `pose`. With finite `half`, a rectangular sheet that bodies roll
+/// off.
 struct PlaneShape {
   Pose pose;
   Vec2 half = Vec2::Constant(1e300);  ///< extents along the pose's x and y [m]

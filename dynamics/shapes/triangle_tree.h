@@ -19,7 +19,7 @@ struct Triangle {
   std::array<Vec3, 3> v;
   Vec3 normal;                       ///< unit, outwards
   std::array<std::int32_t, 3> next;  ///< triangle across edge v[i] v[i+1], -1 at a border
-  std::array<bool, 3> merged;        ///< that edge is flat or hollow
+  std::array<bool, 3> merged;        ///< the edge v[i] v[i+1] is flat or hollow
 };
 
 /// The point of a triangle that is closest to some other point.
@@ -42,7 +42,8 @@ public:
     return closed_;
   }  ///< encloses a volume: inside and outside are defined; a sheet with two sides does not
   const std::vector<Triangle>& triangles() const { return triangles_; }
-  const std::vector<Vec3>& corners() const { return corners_; }  ///< each place once
+  /// Corners of the triangles; equal ones are here once.
+  const std::vector<Vec3>& corners() const { return corners_; }
   const Aabb& bounds() const { return bounds_; }
   std::size_t dropped() const { return dropped_; }  ///< triangles left out as useless
 
@@ -53,7 +54,7 @@ public:
   void eachOverlapping(const Aabb& box, F f) const {
     walk([&](const Aabb& b) { return b.overlaps(box); }, f);
   }
-  /// The same within `within()` metres of p; the callback may shorten what `within` says as it learns.
+  /// Calls f for triangles within `within()` metres of p. f may shorten the distance that `within` returns.
   template <class W, class F>
   void eachWithin(const Vec3& p, W within, F f) const {
     walk(

@@ -62,12 +62,13 @@ public:
   void mark(RigidBody& b) {
     if (!b.marked) b.marked = true, bodies_.push_back(&b);
   }
-  /// It has appeared, moved or jumped.
+  /// Marks a collider that has appeared, moved or jumped.
   void mark(ColliderId id) { colliders_.push_back(id); }
   void forget(RigidBody& b) { std::erase(bodies_, &b); }
 
   const std::vector<RigidBody*>& bodies() const { return bodies_; }
-  /// Those of the last frame stay until the world knows that they stand.
+  /// Colliders whose motion has changed. Colliders of the last frame stay until the world knows that they
+  /// stand.
   const std::vector<ColliderId>& colliders() const { return colliders_; }
   void sortBodies() {
     if (!std::ranges::is_sorted(bodies_, {}, &RigidBody::id)) std::ranges::sort(bodies_, {}, &RigidBody::id);
@@ -85,7 +86,7 @@ public:
     std::erase_if(colliders_, isDone);
   }
 
-  /// Whether a new arc is predicted at once, as while events run; else it is marked for later.
+  /// Returns true if a new arc is predicted at once, as while events run; else it is marked for later.
   bool immediate() const { return immediate_; }
   void setImmediate(bool on) { immediate_ = on; }
 

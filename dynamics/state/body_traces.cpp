@@ -19,7 +19,7 @@ void BodyTraces::trace(RigidBody& b, bool traced, bool awaited, double tau) {
   }
 }
 
-void BodyTraces::addPart(RigidBody& b, WayPart part) {
+void BodyTraces::addPart(RigidBody& b, ArcPiece part) {
   part.jump = std::exchange(b.trace.put, false);
   // What lasts for no time is no part of a way.
   if (!b.trace.way.empty() && !(b.trace.way.back().from < part.from)) {
@@ -34,7 +34,7 @@ void BodyTraces::addPart(RigidBody& b, WayPart part) {
 void BodyTraces::note(RigidBody& b, double tau) {
   if (!b.trace.traced && !b.trace.awaited) return;
   if (b.mode == BodyMode::Held) return noteHeld(b, tau);
-  WayPart part;
+  ArcPiece part;
   part.from = time_.instantAt(tau);
   part.pathAge = b.age(tau), part.spinAge = b.spinAge(tau);
   part.path = b.path, part.spin = b.spin, part.X_CN = b.X_CN;
@@ -46,11 +46,11 @@ void BodyTraces::noteHeld(RigidBody& b, double tau) {
   if (!b.trace.traced && !b.trace.awaited) return;
   if (!b.grip.held.guided()) {
     const Kinematics k = b.grip.held.at(tau);
-    return addPart(b, WayPart::straight(time_.instantAt(tau), k.pose, k.v, k.omega));
+    return addPart(b, ArcPiece::straight(time_.instantAt(tau), k.pose, k.v, k.omega));
   }
   for (std::size_t i = b.grip.held.partAfter(tau);
        i < b.grip.held.way.size() && b.grip.held.way[i].tau < time_.now(); ++i) {
-    WayPart part = b.grip.held.way[i];
+    ArcPiece part = b.grip.held.way[i];
     const double early = tau - part.tau;
     if (early > 0) part.from = time_.instantAt(tau), part.pathAge += early, part.spinAge += early;
     addPart(b, part);
@@ -106,7 +106,7 @@ void BodyTraces::pause(bool continues) {
   stoodStill_ = true;
   for (RigidBody* b : list_) {
     if (!continues) b->trace.way.clear();
-    addPart(*b, WayPart::straight(Instant{time_.t1(), 0}, b->pose, Vec3::Zero(), Vec3::Zero()));
+    addPart(*b, ArcPiece::straight(Instant{time_.t1(), 0}, b->pose, Vec3::Zero(), Vec3::Zero()));
   }
 }
 

@@ -19,16 +19,16 @@ public:
   void trace(RigidBody& b, bool traced, bool awaited, double tau);
   /// Notes, if the body is traced, that it follows its present arc from tau on.
   void note(RigidBody& b, double tau);
-  /// The same of a held body in this part of a frame.
+  /// Notes the path of a held body in this part of a frame.
   void noteHeld(RigidBody& b, double tau);
   /// A frame begins, or goes on (`continues`).
   void begin(bool continues);
-  /// From t1 on all bodies stand.
+  /// Lets all bodies stand from t1 on.
   void pause(bool continues);
   void forget(RigidBody& b) { std::erase(list_, &b); }
 
 private:
-  void addPart(RigidBody& b, WayPart part);
+  void addPart(RigidBody& b, ArcPiece part);
   void find(bool goesOn);
 
   const WorldTime& time_;

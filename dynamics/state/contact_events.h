@@ -31,22 +31,22 @@ public:
   void setTouching(const Key& pair, bool touching);
   bool touching(const Key& pair) const;
   void release(const Key& pair, Nanoseconds time);
-  /// The same, but it is told in the next frame.
+  /// The same, but the report comes in the next frame.
   void releaseLater(const Key& pair, Nanoseconds time);
-  /// That pair if its release has yet to be told, else null.
+  /// Returns the pair if its release has yet to be reported, else null.
   Waiting* waitingOf(const Key& pair);
   void forget(ContactSide gone);
 
   /// A pair whose impact has been told and whose release has not.
   struct Waiting {
     Key pair;
-    std::uint64_t frame = 0;  ///< of the last reported impact
+    std::uint64_t frame = 0;  ///< frame of the last reported impact
     // For the sake of speed only:
-    Nanoseconds look = 0;        ///< before that it cannot be released unless an arc changes ...
+    Nanoseconds look = 0;        ///< time before which the pair cannot part unless an arc changes ...
     std::uint32_t versions = 0;  ///< ... from these, in sum
-    const std::uint32_t *versionA = nullptr, *versionB = nullptr;  ///< what they are now
-    std::int32_t triangle = -1;                                    ///< of a mesh, that was near
-    bool sure = false;     ///< it will be as far off by then as it must be from what was near
+    const std::uint32_t *versionA = nullptr, *versionB = nullptr;  ///< the present versions of both sides
+    std::int32_t triangle = -1;                                    ///< triangle of a mesh that was near
+    bool sure = false;     ///< at `look` the pair is as far apart as it must be from the side that was near
     Nanoseconds seen = 0;  ///< up to then it has not parted ...
     double slack = 0;      ///< ... and after that it must go so far to do so [m]
 
@@ -72,7 +72,7 @@ public:
   std::vector<ContactEvent>& events() { return events_; }
   const std::vector<ContactEvent>& events() const { return events_; }
 
-  /// All but the events, to be written down or put back. Of those that wait, what is told of versions is
+  /// Saves or restores all but the events. Of those that wait, what is said of versions is
   /// asked for again: `versionOf(key)` points at it.
   template <class Fields, class VersionOf>
   void state(Fields& f, const VersionOf& versionOf) {
@@ -100,7 +100,7 @@ private:
     bool touching = false;             ///< in lasting contact, or touched since load
     std::uint32_t waiting = kNowhere;  ///< where in waiting_: its release is due
     Nanoseconds impact = 0;            ///< when [ns]
-    std::uint64_t share = 0;           ///< of the digest
+    std::uint64_t share = 0;           ///< part of this pair in the digest
     bool idle() const { return !touching && waiting == kNowhere; }
 
     template <class Self, class Fields>
@@ -108,7 +108,7 @@ private:
       f("touching", m.touching), f("waiting", m.waiting), f("impact", m.impact), f("share", m.share);
     }
   };
-  /// What a pair adds to the digest.
+  /// Returns the part of a pair in the digest.
   static std::uint64_t share(const Key& pair, const Memory& m);
   /// change(memory) of a pair, known or not. One with nothing to remember stays for a while: it may soon
   /// touch again.
@@ -119,10 +119,10 @@ private:
   void forgetIdle();
 
   std::map<Key, Memory> memory_;
-  std::size_t idle_ = 0;      ///< so many of them remember nothing
+  std::size_t idle_ = 0;      ///< number of pairs in memory_ that remember nothing
   std::uint64_t digest_ = 0;  ///< a sum over the others
   std::vector<Waiting> waiting_;
-  std::set<std::pair<BodyId, ContactSide>> others_;  ///< the same pairs by their body
+  std::set<std::pair<BodyId, ContactSide>> others_;  ///< the pairs of memory_, by body
   std::vector<ContactEvent> events_;
   struct Owed {
     Key pair;

@@ -69,7 +69,7 @@ public:
     e.tau = tau, e.kind = Event::Kind::Tick, e.detail = tickNumber_;
     post(e);
   }
-  /// Whether a tick event is the scheduled one.
+  /// Returns true if a tick event is the scheduled one.
   bool isScheduled(const Event& tick) const { return tick.detail == tickNumber_ && tickAt_ >= 0; }
   void beginTick() { tickAt_ = kNone; }
 

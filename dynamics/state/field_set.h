@@ -19,11 +19,11 @@ struct FieldEntry {
   FieldId id = 0;
   ForceField field;
   bool on = false;
-  bool changed = false;          ///< its push may differ from the last frame's
+  bool changed = false;          ///< the push may differ from the last frame's
   std::uint32_t activation = 0;  ///< counts activations: an old one's end is void
 };
 
-/// Whether the body is hooked to the field.
+/// Returns true if the body is hooked to the field.
 bool isHooked(const RigidBody& b, FieldId field);
 
 class FieldSet {
@@ -42,13 +42,14 @@ public:
   Vec3 accelerationAt(const RigidBody& b, const Vec3& p, const Vec3& v, double tau) const;
   /// Force and torque on a body that flies by a model: media act by the model instead of on a point.
   CoupledPush airPush(const RigidBody& b, const CoupledState& s, const Vec3& omega, double tau) const;
-  /// Whether all that acts on the body is the same everywhere and at all times.
+  /// Returns true if all that acts on the body is the same everywhere and at all times.
   bool uniformFor(const RigidBody& b) const;
-  /// Whether what acts on the body changes within this part of the frame.
+  /// Returns true if what acts on the body changes within this part of the frame.
   bool feelsChange(const RigidBody& b) const;
-  /// Whether the body is hooked to a medium that is on.
+  /// Returns true if the body is hooked to a medium that is on.
   bool inMedium(const RigidBody& b) const;
-  /// What acts on a body under constant pulls and at most one even medium; nothing under anything else.
+  /// Returns the push on a body under constant pulls and at most one even medium. Nothing if anything else
+  /// acts.
   std::optional<EvenPull> evenPullOn(const RigidBody& b) const;
   /// How long from tau on it is known what acts on the body [s].
   double knownFor(const RigidBody& b, double tau) const;

@@ -44,7 +44,7 @@ private:
 
 constexpr double kCarriedApart = 1e-5;  ///< pairs moved from outside touch while they are nearer [m]
 
-/// Whether both sides are moved from outside, so that no impulse can change either.
+/// Returns true if both sides are moved from outside, so that no impulse can change either.
 bool bothCarried(const Side& a, const Side& b);
 
 }  // namespace stadion

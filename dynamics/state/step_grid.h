@@ -25,7 +25,8 @@ public:
     if (Instant{next, 0}.since(at) < kShortestStep) next += island_;
     return Instant{next, 0}.since(at);
   }
-  /// The same of a pile; a step shorter than an eighth of the grid lasts one more interval.
+  /// Returns the time until the end of the pile's step. A step shorter than an eighth of the grid lasts one
+  /// more interval.
   double untilPileStep(const Instant& at) const {
     Nanoseconds next = (at.rounded() / pile_ + 1) * pile_;
     if (next - at.rounded() < pile_ / 8) next += pile_;
@@ -34,7 +35,7 @@ public:
 
 private:
   Nanoseconds island_ = 2'000'000;  ///< [ns]
-  double islandStep_ = 2e-3;        ///< the same [s]
+  double islandStep_ = 2e-3;        ///< `island_` in seconds [s]
   Nanoseconds pile_ = 8'333'333;    ///< 1/120 s: frames of 60 Hz have two steps each [ns]
   double faceStep_ = 1.0 / 480;     ///< [s]
 };

@@ -9,7 +9,7 @@
 
 namespace stadion {
 
-/// Whether the body slides, rolls or rests on `p`, or touches it in lasting contact.
+/// Returns true if the body slides, rolls or rests on `p`, or touches it in lasting contact.
 bool leansOn(const RigidBody& b, ContactSide p);
 
 class SupportGraph {

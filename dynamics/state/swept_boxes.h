@@ -40,7 +40,7 @@ public:
   void eachCollider(const Aabb& box, F f) const {
     colliders_.eachNear(box, f);
   }
-  /// Whether a moving body sweeps a box that something else is near.
+  /// Returns true if a moving body sweeps a box that something else is near.
   bool anyNear(const ActiveBodies& active) const;
 
   template <class Fields>

@@ -55,7 +55,7 @@ public:
 
   void ignore(ContactSide a, ContactSide b, bool on);
   void setBodiesCollide(bool on) { bodiesCollide_ = on; }
-  /// Whether the two sides collide with each other.
+  /// Returns true if the two sides collide with each other.
   bool mayTouch(const Side& a, const Side& b) const;
 
   /// A restored state lacks shapes and flights until they are given back.

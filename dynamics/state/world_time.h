@@ -41,7 +41,7 @@ public:
   double now() const { return now_; }             ///< tau of t1; may lie beyond the window
 
   Nanoseconds origin() const { return origin_; }  ///< start of the window
-  Nanoseconds window() const { return window_; }  ///< its length
+  Nanoseconds window() const { return window_; }  ///< length of the window
   double windowEnd() const { return toSeconds(window_); }
   bool inWindow(Nanoseconds when) const { return when < origin_ + window_; }
 

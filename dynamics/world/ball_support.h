@@ -6,9 +6,11 @@
 
 namespace stadion {
 
-/// Whether a ball at this gap from a collider has closed forms there: on a flat face of a still collider.
+/// Returns true if a ball at this gap from a collider has closed forms there: on a flat face of a still
+/// collider.
 bool carries(const RigidBody& ball, const Collider& c, const Gap& gap);
-/// That face, with its edges and surface values. False if nothing carries the ball.
+/// Finds the face that carries the ball, with its edges and surface values. Returns false if nothing carries
+/// it.
 bool supportFor(const RigidBody& ball, const Collider& c, const Gap& gap, Support& out);
 
 }  // namespace stadion

@@ -54,7 +54,7 @@ bool ContactIslands::wakeTouched(const std::vector<FoundContact>& found, double 
     RigidBody& o = *objects_.body(f.b.id);
     const RigidBody& mover = *objects_.body(f.a.id);
     if (o.mode != BodyMode::Rest || f.gap.distance > kTouching) continue;
-    if (mover.contact.quiet != 0 && !(mover.at(tau).velocityAt(f.gap.point).norm() > 5e-3)) continue;
+    if (mover.contact.quietTime != 0 && !(mover.at(tau).velocityAt(f.gap.point).norm() > 5e-3)) continue;
     if (o.support.on.id) {
       waking_.enterContact(o, tau);
       waking_.wakeOnto({true, o.id}, tau);
@@ -72,7 +72,7 @@ void ContactIslands::findAll(double tau, std::vector<RigidBody*>& set, std::vect
     for (RigidBody* b : active_) {
       b->contact.slot = kInNoSet;
       if (b->mode == BodyMode::Contact && b->enabled && !b->contact.inPile &&
-          b->contact.dueAge <= b->age(tau) + kDue)
+          b->contact.dueAge <= b->age(tau) + kSameTime)
         b->contact.slot = 0, set.push_back(b);
     }
     std::ranges::sort(set, {}, &RigidBody::id);

@@ -17,7 +17,7 @@ public:
       : time_(time), grid_(grid), queue_(queue), objects_(objects), active_(active), foresight_(foresight),
         waking_(waking), finder_(finder), step_(step), piles_(piles), counters_(counters) {}
 
-  /// One step of all bodies in contact that are due at tau.
+  /// Takes one step of all bodies in contact that are due at tau.
   void tick(double tau);
 
 private:

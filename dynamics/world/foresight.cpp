@@ -23,9 +23,9 @@ double Foresight::knownUntil(const Side& s) const {
   return motion->guided() ? std::min(time_.now(), motion->nextTurn()) : time_.now();
 }
 
-/// Its way goes on otherwise before the frame is over: what it meets then must be looked at again.
+/// Posts the next turn of a guided motion within this frame: contacts are predicted again then.
 void Foresight::pushTurn(ContactSide p, const GuidedMotion& motion, double tau) {
-  const double turns = std::max(tau, motion.nextTurn() + kTurnsLate);
+  const double turns = std::max(tau, motion.nextTurn() + kTurnTolerance);
   if (!motion.guided() || !(turns <= std::min(time_.now(), time_.windowEnd()))) return;
   queue_.postHorizon(turns, p, objects_.versionOf(p));
 }
@@ -41,7 +41,7 @@ void Foresight::predictPair(const Side& a, const Side& b, double tau) {
   if (!objects_.mayTouch(a, b)) return;
   for (const auto& [s, o] : {std::pair(&a, &b), std::pair(&b, &a)}) {
     if (!s->body) continue;
-    // What lasting contact is with is the solver's or the closed form's business.
+    // The solver, or the closed form of a ball on a face, handles pairs in lasting contact.
     if (s->body->mode == BodyMode::Contact &&
         std::find(s->body->contact.touching.begin(), s->body->contact.touching.end(), o->key) !=
             s->body->contact.touching.end())
@@ -51,7 +51,7 @@ void Foresight::predictPair(const Side& a, const Side& b, double tau) {
       return;
   }
   if (bothCarried(a, b)) {
-    // Nothing comes of it but the news that they touch, once.
+    // Such a pair has no impulse; only its first touch is reported.
     if (!isHeld(a) && !isHeld(b)) return;
     const ContactMemory::Key key = ContactMemory::keyOf(a.key, b.key);
     if (memory_.touching(key)) {
@@ -64,46 +64,46 @@ void Foresight::predictPair(const Side& a, const Side& b, double tau) {
     }
   }
   ++counters_.pairTests;
-  if (a.body && b.body) ++looks_.bodies;
-  // An arc that ends before the window is only asked up to its end.
+  if (a.body && b.body) ++predictions_.bodies;
+  // Contacts are searched up to the end of the shorter arc.
   const double to = std::min({time_.windowEnd(), knownUntil(a), knownUntil(b)});
   if (!(tau <= to)) return;
-  const double beyond = a.guided() || b.guided() ? to + kTurnsLate : to;
+  const double beyond = a.guided() || b.guided() ? to + kTurnTolerance : to;
   const auto touch = surfaces_.firstRealTouch(a, b, tau, beyond);
   if (!touch) return;
   queue_.postTouch(std::min(touch->tau, to), a, b, *touch);
 }
 
-/// What the body's new arc meets from tau to the end of the window.
 void Foresight::predict(RigidBody& b, double tau) {
   if (!changes_.immediate()) return changes_.mark(b);
   const Aabb before = b.swept;
   boxes_.sweep(b, tau);
   if (!b.enabled) return;
-  if (b.alone && b.place != kUnfiled && holds(before, b.swept)) {  // nothing else is where it goes
+  if (b.atMostOneNear && b.place != kUnfiled &&
+      holds(before, b.swept)) {  // nothing new is in the swept space
     b.swept = before;
-    lookAtOnly(b, tau);
+    predictNearCollider(b, tau);
   } else {
-    lookAhead(b, tau, false);
+    predictNearby(b, tau, false);
   }
 }
 
-void Foresight::lookAhead(RigidBody& b, double tau, bool onlyGreater) {
-  if (b.contact.inPile) return;  // all that could touch it has joined its step
+void Foresight::predictNearby(RigidBody& b, double tau, bool onlyHigherIds) {
+  if (b.contact.inPile) return;  // the step of the pile contains all bodies that could touch it
   const Side self = Side::of(b);
-  b.alone = true, b.only = 0;
-  ++looks_.looks;
+  b.atMostOneNear = true, b.nearCollider = 0;
+  ++predictions_.arcs;
   boxes_.eachCollider(b.swept, [&](Collider& c) {
-    b.alone = b.alone && b.only == 0;
-    b.only = c.id;
-    ++looks_.colliders;
+    b.atMostOneNear = b.atMostOneNear && b.nearCollider == 0;
+    b.nearCollider = c.id;
+    ++predictions_.colliders;
     predictPair(self, Side::of(c), tau);
   });
   boxes_.eachBody(b.swept, [&](RigidBody& o) {
     if (&o == &b) return;
-    b.alone = false;
+    b.atMostOneNear = false;
     comeNear(o, tau);
-    if (onlyGreater && o.marked && o.id < b.id) return;
+    if (onlyHigherIds && o.marked && o.id < b.id) return;
     predictPair(self, Side::of(o), tau);
   });
   awaitHorizon(b);
@@ -112,7 +112,7 @@ void Foresight::lookAhead(RigidBody& b, double tau, bool onlyGreater) {
 /// The body has been looked at. Its next arc begins in time, or on request.
 void Foresight::awaitHorizon(RigidBody& b) {
   // What its next arcs sweep is known if they go through the same medium.
-  b.lazy = b.alone && b.only == 0 && b.mode == BodyMode::Flight &&
+  b.lazy = b.atMostOneNear && b.nearCollider == 0 && b.mode == BodyMode::Flight &&
            (b.path.isSeries() || b.pathAge - b.age0 > time_.windowEnd());
   if (!b.lazy) pushHorizon(b);
 }
@@ -125,7 +125,7 @@ void Foresight::flyOnLazily(RigidBody& b) {
 
 /// Something has come near what the body sweeps: it stops being lazy.
 void Foresight::comeNear(RigidBody& b, double tau) {
-  b.alone = false;
+  b.atMostOneNear = false;
   if (!b.lazy) return;
   catchUp(b, tau);
   b.lazy = false;
@@ -133,18 +133,18 @@ void Foresight::comeNear(RigidBody& b, double tau) {
 }
 
 /// The same for a body that is alone and goes where it was seen to go.
-void Foresight::lookAtOnly(RigidBody& b, double tau) {
+void Foresight::predictNearCollider(RigidBody& b, double tau) {
   pushHorizon(b);
-  ++looks_.looks;
-  const Collider* c = b.only ? objects_.collider(b.only) : nullptr;
+  ++predictions_.arcs;
+  const Collider* c = b.nearCollider ? objects_.collider(b.nearCollider) : nullptr;
   if (!c || !c->enabled) return;
-  ++looks_.colliders;
+  ++predictions_.colliders;
   predictPair(Side::of(b), Side::of(*c), tau);
 }
 
 void Foresight::predictChanged(double tau) {
   for (RigidBody* b : changes_.bodies())
-    if (b->enabled) lookAhead(*b, tau, true);
+    if (b->enabled) predictNearby(*b, tau, true);
   for (const ColliderId id : changes_.colliders()) {
     Collider* c = objects_.collider(id);
     if (!c || !c->enabled) continue;
@@ -175,8 +175,8 @@ Nanoseconds Foresight::nextWindow() const {
     if (standsStill(b->mode)) continue;
     moves = true, lazy = lazy && b->lazy;
   }
-  if (!moves || looks_.bodies > 0 || (!lazy && solidsMayMeet())) return WorldTime::kWindow;
-  if (looks_.colliders > 2 * looks_.looks) return std::max(time_.window() / 2, WorldTime::kWindow);
+  if (!moves || predictions_.bodies > 0 || (!lazy && solidsMayMeet())) return WorldTime::kWindow;
+  if (predictions_.colliders > 2 * predictions_.arcs) return std::max(time_.window() / 2, WorldTime::kWindow);
   return std::min(2 * time_.window(), WorldTime::kLongestWindow);
 }
 
@@ -199,8 +199,8 @@ std::size_t Foresight::ballsAround(const RigidBody& b, double tau) {
 }
 
 void Foresight::predictSpin(RigidBody& b, double tau) {
-  if (b.alone)
-    lookAtOnly(b, tau);
+  if (b.atMostOneNear)
+    predictNearCollider(b, tau);
   else
     predict(b, tau);
 }
@@ -218,7 +218,7 @@ void Foresight::fillWindow(double tau) {
   boxes_.sweep(active_, tau);
   if (time_.window() > WorldTime::kWindow && solidsMayMeet()) {
     if (!boxes_.anyNear(active_)) {
-      for (RigidBody* b : active_) b->alone = true, b->only = 0, awaitHorizon(*b);
+      for (RigidBody* b : active_) b->atMostOneNear = true, b->nearCollider = 0, awaitHorizon(*b);
       return;
     }
     time_.shortenWindow();

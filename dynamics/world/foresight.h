@@ -10,7 +10,7 @@
 
 namespace stadion {
 
-constexpr double kDue = 1e-9;  ///< times as near as this are the same [s]
+constexpr double kSameTime = 1e-9;  ///< times that differ by less are equal [s]
 
 class Foresight {
 public:
@@ -22,11 +22,11 @@ public:
 
   /// Predicts what the body's new arc meets from tau to the end of the window, or marks it for later.
   void predict(RigidBody& b, double tau);
-  /// The same if the spin alone has changed: the body goes where it was seen to go.
+  /// Predicts contacts after the spin alone has changed: the path of the body stays as it was predicted.
   void predictSpin(RigidBody& b, double tau);
-  /// The collider has turned: predicts what comes near it.
+  /// Predicts contacts of a collider whose motion has turned.
   void predict(Collider& c, double tau);
-  /// Looks ahead from tau for all changed motions.
+  /// Predicts contacts from tau on for all changed motions.
   void predictChanged(double tau);
 
   /// Makes the arcs of a lazy body up to tau.
@@ -38,28 +38,29 @@ public:
   void eachBodyNear(const Aabb& box, double tau, F f) {
     boxes_.eachBody(box, [&](RigidBody& o) { catchUp(o, tau), f(o); });
   }
-  /// How many balls move within its own size around this ball: they will soon lean on each other.
+  /// Returns the number of balls that move within this ball's size of it: they will soon lean on each other.
   std::size_t ballsAround(const RigidBody& b, double tau);
 
-  /// Length of the next window; it grows while nothing is near.
+  /// Returns the length of the next window; it grows while nothing is near.
   Nanoseconds nextWindow() const;
-  /// All events are void: a window begins.
-  void beginWindow() { looks_ = {}, queue_.clear(); }
-  /// Looks ahead for all active bodies from tau; shortens a long window if something is near.
+  /// Begins a window: all events are void.
+  void beginWindow() { predictions_ = {}, queue_.clear(); }
+  /// Predicts contacts of all active bodies from tau on; shortens a long window if something is near.
   void fillWindow(double tau);
 
   template <class Fields>
   void state(Fields& f) {
-    f("looks", looks_.looks), f("collider looks", looks_.colliders), f("body looks", looks_.bodies);
+    f("looks", predictions_.arcs), f("collider looks", predictions_.colliders),
+        f("body looks", predictions_.bodies);
   }
 
 private:
-  /// Predictions in this window, and how much was near.
-  struct Looks {
-    std::size_t looks = 0, colliders = 0, bodies = 0;
+  /// Counts in this window: predicted arcs, and tested pairs with colliders and between bodies.
+  struct Predictions {
+    std::size_t arcs = 0, colliders = 0, bodies = 0;
   };
-  void lookAhead(RigidBody& b, double tau, bool onlyGreater);
-  void lookAtOnly(RigidBody& b, double tau);
+  void predictNearby(RigidBody& b, double tau, bool onlyHigherIds);
+  void predictNearCollider(RigidBody& b, double tau);
   void awaitHorizon(RigidBody& b);
   void flyOnLazily(RigidBody& b);
   void comeNear(RigidBody& b, double tau);
@@ -79,7 +80,7 @@ private:
   BodyArcs& arcs_;
   FlushSurfaces& surfaces_;
   World::Counters& counters_;
-  Looks looks_;
+  Predictions predictions_;
 };
 
 }  // namespace stadion

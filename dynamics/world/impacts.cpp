@@ -46,7 +46,7 @@ void Impacts::countImpact(RigidBody& b, double tau) const {
 /// The rest of a pile's step with other velocities, under the same forces.
 void Impacts::strikeInPile(RigidBody& b, const SolverBody& m, double tau) {
   const Quat q = b.orientation(tau);
-  const double left = b.contact.dueAge - b.age(tau), quiet = b.contact.quiet;
+  const double left = b.contact.dueAge - b.age(tau), quiet = b.contact.quietTime;
   const Vec3 a = left > 0 && b.path.isParabola() ? Vec3(2 * b.path.c[2]) : Vec3(Vec3::Zero());
   const Vec3 before = b.turning(tau), L = b.momentum(tau);
   const Vec3 more = q * b.inertia.cwiseProduct(q.conjugate() * (m.omega - before));
@@ -57,7 +57,7 @@ void Impacts::strikeInPile(RigidBody& b, const SolverBody& m, double tau) {
                BodyMode::Contact);
   if (b.mode != BodyMode::Contact) return;
   b.contact.endL = end, b.contact.dueAge = left > 0 ? left : grid_.untilPileStep(time_.instantAt(tau)),
-  b.contact.quiet = quiet;
+  b.contact.quietTime = quiet;
   boxes_.sweep(b, tau);
 }
 
@@ -76,7 +76,7 @@ void Impacts::afterImpulse(RigidBody& b, const SolverBody& m, double tau, bool l
     arcs_.setArc(b, tau, Path::parabola(p, m.v, Vec3::Zero()), Spin::free(q, L, b.inertia),
                  grid_.islandStep(), BodyMode::Contact);
     if (b.mode != BodyMode::Contact) return;
-    b.contact.quiet = 0;
+    b.contact.quietTime = 0;
     queue_.scheduleTick(tau);
     foresight_.predict(b, tau);
     return;
@@ -173,7 +173,7 @@ void Impacts::onTouch(const Touch& touch, ContactSide pa, ContactSide pb, double
     most = b && foresight_.ballsAround(a, tau) + 1 >= kPileOfBalls ? kMostInThick : kMostRattles;
   const bool tired = a.impacts > (onFace ? kMostBounces : most) || (b && b->impacts > most);
   const bool ends = tired || (press > 0 && rebound * rebound <= 2 * press * last);
-  if (tired) ++counters_.tired;
+  if (tired) ++counters_.dampedBounces;
   const double restitution = ends ? 0 : pair.restitution;
   std::optional<PatchImpact> patch;
   std::vector<PatchSide> others;

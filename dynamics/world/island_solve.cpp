@@ -159,7 +159,7 @@ bool IslandStep::solveStep(ContactIsland& s, double tau, double h, Effort effort
   step.reserve(points + s.flats.size());
   const auto begins = [&](SolverContact c, std::uint64_t key, const Vec3& n) {
     c.impulse.setZero();
-    for (const Pressed& p : s.set[c.a]->contact.presses)
+    for (const WarmStart& p : s.set[c.a]->contact.warmStarts)
       if (p.key == key) c.impulse = std::min(h, p.step) * (basisAround(n).transpose() * p.force);
     if (c.patch >= 0) c.impulse.tail<2>().setZero();  // its area's now
     step.push_back(c);

@@ -11,20 +11,20 @@ namespace {
 
 constexpr double kApproach = 1e-4;         ///< approaches up to this end with the step's own forces [m/s]
 constexpr double kRestitutionSpeed = 0.1;  ///< slower approaches inside lasting contact do not bounce [m/s]
-constexpr double kQuietSpeed = 2e-3;       ///< of surface points [m/s]
-constexpr double kSleepsAfter = 0.2;       ///< before a set of bodies sleeps [s]
-constexpr double kGliding = 1e-9;          ///< quiet time of one whose slow motion is known [s]
-constexpr double kCreep = 1e-4;            ///< mean speeds below this are none [m/s]
+constexpr double kQuietSpeed = 2e-3;       ///< speed of surface points below which a body is quiet [m/s]
+constexpr double kSleepsAfter = 0.2;       ///< quiet time after which a set of bodies sleeps [s]
+constexpr double kQuietInGlide = 1e-9;     ///< quiet time of a body that glides slowly [s]
+constexpr double kCreep = 1e-4;            ///< mean speed below which a body does not move on [m/s]
 constexpr double kBalance = 1e-5;          ///< mean accelerations below this are balance, per pull [m/s2]
-constexpr double kRolls = 0.01;            ///< slip of what rolls, relative to how it turns
-constexpr double kHeld = 0.05;             ///< of its spin, what rolls no more may have left
-constexpr double kNearlyStill = 5e-3;      ///< faster than this nothing is held by rolling resistance [m/s]
-constexpr double kUnmoved = 1e-9;          ///< slower than this is not at all [m/s]
+constexpr double kRolls = 0.01;            ///< slip of a rolling body, relative to its rotation
+constexpr double kMostSpinLeft = 0.05;     ///< part of its spin that a body may keep when it stops rolling
+constexpr double kNearlyStill = 5e-3;      ///< speed above which rolling resistance holds no body [m/s]
+constexpr double kUnmoved = 1e-9;          ///< speed below which a point does not move at all [m/s]
 constexpr double kMostTurn = 0.05;         ///< angle by which a solid turns in a step [rad]
-constexpr double kMostParts = 32;          ///< of a step in which the lowest point of a rim runs far
-constexpr double kGive = 1;                ///< share of what presses that a hand or a lift yields
-constexpr double kShort = 1e-3;            ///< a floor missed by less is reached, nearly [m/s]
-constexpr double kLanding = 1e-5;          ///< shortest step towards a touch [s]
+constexpr double kMostSubsteps = 32;  ///< substeps of a step in which the lowest point of a rim moves far
+constexpr double kGive = 1;           ///< share of what presses that a hand or a lift yields
+constexpr double kShort = 1e-3;       ///< a floor missed by less is reached, nearly [m/s]
+constexpr double kLanding = 1e-5;     ///< shortest step towards a touch [s]
 
 bool staysWedged(const ContactIsland& s) {
   return s.wedged && std::ranges::any_of(s.found, [&](const FoundContact& f) {
@@ -189,8 +189,8 @@ void IslandStep::stopApproaches(ContactIsland& s) const {
   if (!s.carried) boundWork(s.set.size(), before, s.start, {}, 0);
 }
 
-/// What lies on its rims, and is kept from rocking on them by rolling resistance, is solved for once more
-/// without that freedom: what the contacts asked for belonged to the spin that has been taken from it.
+/// Rolling resistance may stop a body from rocking on its rims. Then the step is solved once more without
+/// that rotation, because the contact forces of the first solution belong to it.
 void IslandStep::holdRims(ContactIsland& s, const std::vector<SolverBody>& solved) const {
   std::vector<SolverBody> solverBodies = s.free;
   bool any = false;
@@ -205,8 +205,9 @@ void IslandStep::holdRims(ContactIsland& s, const std::vector<SolverBody>& solve
           f.surface.rolling <= 0 || f.rounding.axis.isZero(0))
         continue;
       const Vec3 r = (f.rounding.axis - f.gap.normal * f.gap.normal.dot(f.rounding.axis)).normalized();
-      stopped = stopped && std::fabs(r.dot(m.omega)) <= kHeld * std::fabs(r.dot(solved[i].omega)) + kUnmoved;
-      if (const Vec3 more = free * r; more.norm() > kHeld)
+      stopped = stopped &&
+                std::fabs(r.dot(m.omega)) <= kMostSpinLeft * std::fabs(r.dot(solved[i].omega)) + kUnmoved;
+      if (const Vec3 more = free * r; more.norm() > kMostSpinLeft)
         free -= more.normalized() * more.normalized().transpose();
     }
     if (!stopped || free.isIdentity()) continue;
@@ -253,23 +254,23 @@ bool IslandStep::settleOnFace(RigidBody& b, const FoundContact& only, double tau
 /// balance.
 void IslandStep::noteQuiet(RigidBody& b, const SolverBody& start, const SolverBody& end, double tau,
                            double h) const {
-  const double before = b.contact.quiet;
+  const double before = b.contact.quietTime;
   const double fastest =
       std::max(end.v.norm() + end.omega.norm() * b.reach, start.v.norm() + start.omega.norm() * b.reach);
-  b.contact.quiet = fastest < kQuietSpeed ? before + h : 0;
+  b.contact.quietTime = fastest < kQuietSpeed ? before + h : 0;
   const auto look = [&](const SolverBody& from, double since, double span, bool balanced) {
     b.contact.sleepCandidate = {from.v, from.omega, since, span, balanced};
     b.contact.drift.setZero(), b.contact.twist.setZero();
   };
-  if (!(before > kGliding)) look(start, 0, kSleepsAfter, false);
+  if (!(before > kQuietInGlide)) look(start, 0, kSleepsAfter, false);
   b.contact.drift += 0.5 * h * (start.v + end.v), b.contact.twist += 0.5 * h * (start.omega + end.omega);
-  const double seconds = b.contact.quiet - b.contact.sleepCandidate.since;
+  const double seconds = b.contact.quietTime - b.contact.sleepCandidate.since;
   if (seconds < b.contact.sleepCandidate.span) return;
   const double change = (end.v - b.contact.sleepCandidate.v).norm() +
                         (end.omega - b.contact.sleepCandidate.omega).norm() * b.reach;
   const double pull = fields_.accelerationAt(b, start.p, start.v, tau).norm();
   const double way = b.contact.drift.norm() + b.contact.twist.norm() * b.reach;
-  look(end, b.contact.quiet, 2 * b.contact.sleepCandidate.span,
+  look(end, b.contact.quietTime, 2 * b.contact.sleepCandidate.span,
        change <= kBalance * (1 + pull) * seconds && way <= kCreep * seconds);
 }
 
@@ -277,7 +278,7 @@ void IslandStep::noteQuiet(RigidBody& b, const SolverBody& start, const SolverBo
 void IslandStep::conclude(ContactIsland& s, double tau, double h) {
   for (std::size_t i = 0; i < s.set.size(); ++i) {
     RigidBody& b = *s.set[i];
-    b.contact.touching.clear(), b.contact.presses.clear();
+    b.contact.touching.clear(), b.contact.warmStarts.clear();
     std::vector<ContactSide> near;
     const FoundContact* only = nullptr;
     int points = 0;
@@ -291,7 +292,7 @@ void IslandStep::conclude(ContactIsland& s, double tau, double h) {
       note(b.contact.touching, other);
       if (f.gap.distance < kTouching) note(near, other);
       if (f.contact.a == i && !f.contact.impulse.isZero(0))
-        b.contact.presses.push_back({f.key, basisAround(f.gap.normal) * (f.contact.impulse / h), h});
+        b.contact.warmStarts.push_back({f.key, basisAround(f.gap.normal) * (f.contact.impulse / h), h});
     }
     for (const ContactFinder::Beside& o : finder_.besideOf(b.id)) {
       note(b.contact.touching, o.piece);
@@ -300,7 +301,7 @@ void IslandStep::conclude(ContactIsland& s, double tau, double h) {
     for (const ContactSide p : s.way) note(b.contact.touching, p);
     for (const FlatPatch& f : s.flats)
       if (f.contact.a == i && !f.contact.impulse.isZero(0))
-        b.contact.presses.push_back({f.key, basisAround(f.flat.plane.n) * (f.contact.impulse / h), h});
+        b.contact.warmStarts.push_back({f.key, basisAround(f.flat.plane.n) * (f.contact.impulse / h), h});
     rememberTouching(memory_, b, near);
     if (points == 0) {
       concludeFreely(b, s.start[i], tau);
@@ -311,7 +312,7 @@ void IslandStep::conclude(ContactIsland& s, double tau, double h) {
     const Vec3 L0 = start.inverseInertia.inverse() * start.omega,
                L1 = end.inverseInertia.inverse() * end.omega;
     noteQuiet(b, start, end, tau, h);
-    if (s.glides) b.contact.quiet = b.contact.quiet > 0 ? kGliding : 0;
+    if (s.glides) b.contact.quietTime = b.contact.quietTime > 0 ? kQuietInGlide : 0;
     arcs_.setArc(b, tau, Path::parabola(start.p, start.v, (end.v - start.v) / h),
                  Spin::free(q, 0.5 * (L0 + L1), b.inertia), h, BodyMode::Contact);
     b.contact.endL = L1, b.contact.dueAge = h;
@@ -344,7 +345,7 @@ double IslandStep::stepOf(const ContactIsland& s, double tau, double h) const {
     const double lean = f.rounding.axis.cross(f.gap.normal).norm();
     if (lean < 0.5)
       parts =
-          std::max(parts, std::min(kMostParts, std::ceil(s.start[i].omega.norm() / lean * h / kMostTurn)));
+          std::max(parts, std::min(kMostSubsteps, std::ceil(s.start[i].omega.norm() / lean * h / kMostTurn)));
   }
   return h / std::max(1.0, parts);
 }
@@ -365,7 +366,7 @@ void IslandStep::advance(ContactIsland& s, double tau, double h) {
   if (!s.glides) {
     h = stepOf(s, tau, h);
     const bool holds = solveStep(s, tau, h, Effort::Moving);
-    for (RigidBody* b : s.set) b->contact.restless = !holds;
+    for (RigidBody* b : s.set) b->contact.unsolved = !holds;
     boundStep(s, h);
     const std::vector<SolverBody> solved = s.end;
     resistRolling(s);
@@ -376,7 +377,7 @@ void IslandStep::advance(ContactIsland& s, double tau, double h) {
   conclude(s, tau, s.glides ? last : h);
   // Sets that have been quiet together fall asleep together.
   const bool quiet = !s.carried && std::ranges::all_of(s.set, [&](const RigidBody* b) {
-    return b->mode == BodyMode::Contact && b->contact.quiet >= kSleepsAfter &&
+    return b->mode == BodyMode::Contact && b->contact.quietTime >= kSleepsAfter &&
            b->contact.sleepCandidate.balanced && !fields_.feelsChange(*b);
   });
   if (quiet)

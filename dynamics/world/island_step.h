@@ -30,14 +30,14 @@ struct ContactIsland {
   std::vector<RigidBody*> set;
   std::vector<FoundContact> found;
   std::vector<FlatPatch> flats;
-  std::vector<SolverBody> start, end;  ///< of the set, then of the sides that nothing moves
-  std::vector<ContactSide> fixed;      ///< those sides
-  std::vector<Vec3> pull;              ///< on the set in this step [m/s2]
-  std::vector<SolverBody> free;        ///< what `end` would be without contacts
+  std::vector<SolverBody> start, end;  ///< sides of the contacts: the bodies of `set`, then the fixed sides
+  std::vector<ContactSide> fixed;      ///< the sides that no contact moves
+  std::vector<Vec3> pull;              ///< by body of `set`: acceleration by fields in this step [m/s2]
+  std::vector<SolverBody> free;        ///< `end` as it would be without contacts
   bool carried = false;                ///< one of the fixed sides moves
   bool wedged = false;                 ///< no velocities suit all: contacts with external motion yield
-  std::vector<ContactSide> way;        ///< pieces that a glide comes to
-  bool glides = false;                 ///< in closed form
+  std::vector<ContactSide> way;        ///< pieces of a surface that a glide comes to
+  bool glides = false;                 ///< the step is a glide in closed form
 };
 
 class IslandStep {

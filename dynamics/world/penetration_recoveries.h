@@ -10,7 +10,7 @@
 
 namespace stadion {
 
-/// Returns true if the body is on its way out of the collider.
+/// Returns true if the body is on a way out of the collider.
 bool comesOutOf(const RigidBody& b, ColliderId id);
 /// Drops the ways out that the body has completed.
 void forgetRecoveries(RigidBody& b, const WorldObjects& objects, double tau);

@@ -36,7 +36,7 @@ void Piles::addContact(const RigidBody& b, ContactSide other, const Surface& sur
   PileStep::Note note;
   note.other = other, note.key = pairKey({true, b.id}, other, feature);
   note.reverse = pairKey(other, {true, b.id}, feature);
-  for (const Pressed& p : b.contact.presses)
+  for (const WarmStart& p : b.contact.warmStarts)
     if (p.key == note.key) {
       const Vec3 impulse = std::min(step.pile.h, p.step) * p.force;
       c.pressed = std::max(0.0, impulse.dot(c.n));
@@ -123,7 +123,7 @@ void Piles::meet(RigidBody& b, RigidBody& o, double margin, PileStep& step) {
     // A sleeping body stays asleep unless it is pushed; a moving body joins the step.
     const bool touched =
         std::ranges::any_of(step.found, [](const auto& p) { return p.gap.distance < kTouching; });
-    const bool pushes = b.contact.quiet == 0 || step.pile.bodies[b.contact.slot].v.norm() > kWakeSpeed;
+    const bool pushes = b.contact.quietTime == 0 || step.pile.bodies[b.contact.slot].v.norm() > kWakeSpeed;
     if (!sleeps(o) || (touched && pushes)) join(o, step);
     member = step.has(o);
     if (member && o.id < b.id) return;

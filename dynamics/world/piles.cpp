@@ -11,7 +11,7 @@ namespace {
 
 constexpr double kParted = 1e-3;          ///< and those farther than this no longer [m]
 constexpr std::size_t kContactsEach = 6;  ///< space for so many of each member is made at once
-constexpr std::size_t kLeast = 4;         ///< a smaller pile is none any more
+constexpr std::size_t kLeast = 4;         ///< a smaller pile dissolves
 constexpr double kLeaving = 0.1;          ///< least speed of a body that may leave a pile for good [m/s]
 constexpr double kQuietWay = 1.2e-3;      ///< a surface point that stays within this is quiet [m]
 constexpr double kQuietTime = 0.3;        ///< before a body sleeps among quiet ones [s]
@@ -57,10 +57,10 @@ std::vector<char> sleepCandidates(const PileStep& step) {
     const PileBody &start = pile.start[i], &end = pile.bodies[i];
     b.contact.drift += pile.shift[i] + 0.5 * pile.h * (start.v + end.v);
     b.contact.twist += 0.5 * pile.h * (start.omega + end.omega);
-    b.contact.quiet += pile.h;
+    b.contact.quietTime += pile.h;
     if (b.contact.drift.norm() + b.contact.twist.norm() * b.reach > kQuietWay)
-      b.contact.quiet = 0, b.contact.drift.setZero(), b.contact.twist.setZero();
-    calm[i] = b.contact.quiet >= kQuietTime;
+      b.contact.quietTime = 0, b.contact.drift.setZero(), b.contact.twist.setZero();
+    calm[i] = b.contact.quietTime >= kQuietTime;
   }
   std::vector<char> may = calm;
   for (const PileContact& c : pile.contacts) {
@@ -79,10 +79,10 @@ std::vector<char> sleepCandidates(const PileStep& step) {
 void Piles::join(RigidBody& b, PileStep& step) {
   const double tau = step.tau;
   if (!b.contact.inPile) {
-    const double quiet = b.mode == BodyMode::Rest ? kWaking : b.contact.quiet;
+    const double quiet = b.mode == BodyMode::Rest ? kWaking : b.contact.quietTime;
     waking_.enterContact(b, tau);
     if (b.mode != BodyMode::Contact) return;
-    b.contact.inPile = true, b.contact.restless = false, b.contact.quiet = quiet, b.contact.dueAge = 0;
+    b.contact.inPile = true, b.contact.unsolved = false, b.contact.quietTime = quiet, b.contact.dueAge = 0;
     b.contact.drift.setZero(), b.contact.twist.setZero();
   }
   PileStep::Member m;
@@ -114,7 +114,7 @@ bool Piles::noteNeighbours(const PileStep& step, std::size_t i, std::span<const 
                            std::vector<ContactSide>& near) {
   const Pile& pile = step.pile;
   RigidBody& b = *step.members[i].body;
-  b.contact.touching.clear(), b.contact.presses.clear();
+  b.contact.touching.clear(), b.contact.warmStarts.clear();
   near.clear();
   for (const std::uint32_t k : list) {
     const PileContact& c = pile.contacts[k];
@@ -125,7 +125,7 @@ bool Piles::noteNeighbours(const PileStep& step, std::size_t i, std::span<const 
     if (!(c.pressed > 0)) continue;
     const Vec3 force = (c.pressed * c.n + c.held) / pile.h;
     const std::uint64_t key = first ? step.notes[k].key : step.notes[k].reverse;
-    b.contact.presses.push_back({key, first ? force : Vec3(-force), pile.h});
+    b.contact.warmStarts.push_back({key, first ? force : Vec3(-force), pile.h});
   }
   std::ranges::sort(near);
   if (near != b.contact.leaning) {
@@ -146,7 +146,7 @@ void Piles::follow(const PileStep& step, std::size_t i) {
   RigidBody& b = *step.members[i].body;
   const PileBody &start = pile.start[i], &end = pile.bodies[i];
   const Quat q = b.orientation(tau);
-  const double quiet = b.contact.quiet;
+  const double quiet = b.contact.quietTime;
   const Path path = Path::parabola(step.members[i].p + pile.shift[i], start.v, (end.v - start.v) / h);
   if (step.members[i].round) {
     const Vec3 alpha = (end.omega - start.omega) / h;
@@ -163,7 +163,7 @@ void Piles::follow(const PileStep& step, std::size_t i) {
     arcs_.setArc(b, tau, path, Spin::free(q, 0.5 * (L0 + L1), b.inertia), h, BodyMode::Contact);
     b.contact.endL = L1;
   }
-  if (b.mode == BodyMode::Contact) b.contact.dueAge = h, b.contact.quiet = quiet;
+  if (b.mode == BodyMode::Contact) b.contact.dueAge = h, b.contact.quietTime = quiet;
 }
 
 /// Arcs of the step, and which members may sleep.
@@ -212,7 +212,7 @@ void Piles::advance(double tau) {
   std::vector<RigidBody*> due;
   for (RigidBody* b : active_) {
     b->contact.slot = PileStep::kNone;
-    if (b->contact.inPile && b->enabled && b->contact.dueAge <= b->age(tau) + kDue) due.push_back(b);
+    if (b->contact.inPile && b->enabled && b->contact.dueAge <= b->age(tau) + kSameTime) due.push_back(b);
   }
   std::ranges::sort(due, {}, &RigidBody::id);
   for (RigidBody* b : due)
@@ -242,7 +242,7 @@ void Piles::advance(double tau) {
 bool Piles::isPile(const std::vector<RigidBody*>& island, double tau) {
   const bool balls = std::ranges::all_of(island, [](const RigidBody* b) { return b->isBall(); });
   // Thin meshes would sink through each other in a pile's longer steps.
-  const bool restless = std::ranges::any_of(island, [](const RigidBody* b) { return b->contact.restless; }) &&
+  const bool restless = std::ranges::any_of(island, [](const RigidBody* b) { return b->contact.unsolved; }) &&
                         std::ranges::none_of(island, [](const RigidBody* b) {
                           return std::holds_alternative<MeshShape>(*b->shape);
                         });

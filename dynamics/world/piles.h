@@ -19,10 +19,10 @@ public:
       : time_(time), grid_(grid), objects_(objects), fields_(fields), memory_(memory), active_(active),
         boxes_(boxes), arcs_(arcs), foresight_(foresight), waking_(waking) {}
 
-  /// Whether an island is to become a pile: it is large, not solved exactly, or its balls have many
+  /// Returns true if an island is to become a pile: it is large, not solved exactly, or its balls have many
   /// neighbours.
   bool isPile(const std::vector<RigidBody*>& island, double tau);
-  /// One step of all members that are due at tau.
+  /// Takes one step of all members that are due at tau.
   void advance(double tau);
 
 private:
@@ -52,6 +52,6 @@ private:
   Waking& waking_;
 };
 
-constexpr std::size_t kPileOfBalls = 5;  ///< so many balls close together are a pile
+constexpr std::size_t kPileOfBalls = 5;  ///< number of balls close together that make a pile
 
 }  // namespace stadion

@@ -51,12 +51,12 @@ double turningSpeed(const MotionBound& bound, double reach) {
   return bound.spin > 0 ? bound.spin * reach : 0;
 }
 
-/// Whether it is known how the side has gone through this frame.
+/// Returns true if the side's motion through this frame is known.
 bool isNoted(const Side& s) {
   return !s.body || !s.body->trace.way.empty() || standsStill(s.body->mode);
 }
 
-/// A side as it has gone through the frame so far: a body on the way that has been noted of it.
+/// A side's motion through the frame so far: a body follows its noted path.
 class PastSide {
 public:
   PastSide(const Side& present, const Instant& start) : side_(present) {
@@ -69,12 +69,12 @@ public:
   PastSide(const PastSide&) = delete;
   PastSide& operator=(const PastSide&) = delete;
 
-  /// From when on it is known how it has gone.
+  /// The time from which on its motion is known.
   double begins() const { return side_.guided() ? side_.motion()->way.front().tau : -1e300; }
   /// Where its way goes on otherwise.
   void addTurns(std::vector<double>& turns) const {
     if (side_.guided())
-      for (const WayPart& p : side_.motion()->way) turns.push_back(p.tau);
+      for (const ArcPiece& p : side_.motion()->way) turns.push_back(p.tau);
   }
   /// The side in a part of its way that `tau` lies in.
   const Side& around(double tau) {
@@ -150,7 +150,7 @@ std::optional<Nanoseconds> ReleaseWatch::whenParted(const ContactMemory::Waiting
   return {};
 }
 
-/// At most how far a side's points have gone since `from`.
+/// Returns a bound on the way of a side's points since `from`.
 double ReleaseWatch::wayLength(const Side& s, double from, double tau) const {
   const double reach = reachOf(s);
   double length = 0;
@@ -162,11 +162,11 @@ double ReleaseWatch::wayLength(const Side& s, double from, double tau) const {
     add(s.boundOver(from, tau), tau - from);
     return length;
   }
-  const BodyWay& way = s.collider ? s.collider->motion.way : s.body->trace.way;
+  const ArcTrack& way = s.collider ? s.collider->motion.way : s.body->trace.way;
   if (way.empty()) return standsStill(s.body->mode) ? 0 : 1e300;
   if (s.body && way.front().from.since({time_.origin(), 0}) > from) return 1e300;
   for (std::size_t i = 0; i < way.size(); ++i) {
-    WayPart part = way[i];
+    ArcPiece part = way[i];
     part.tau = part.from.since({time_.origin(), 0});
     const double start = std::max(from, part.tau),
                  end = i + 1 < way.size() ? std::min(tau, way[i + 1].from.since({time_.origin(), 0})) : tau;
@@ -182,7 +182,7 @@ void ReleaseWatch::forgetSlack(ContactSide p) {
   });
 }
 
-/// Whether the pair has gone so little way since it has been seen last that it cannot have parted.
+/// Returns true if the pair has moved too little since the last look to have parted.
 bool ReleaseWatch::stillNear(ContactMemory::Waiting& w, double tau) const {
   const double from = std::max(time_.from(), time_.tauOf(w.seen));
   const double length = wayLength(*objects_.side(w.pair.first), from, tau) +
@@ -193,7 +193,7 @@ bool ReleaseWatch::stillNear(ContactMemory::Waiting& w, double tau) const {
 }
 
 /// Pairs whose impact was reported are released when their surfaces are far enough apart; if that is in the
-/// impact's own frame, they are told of it in the next one.
+/// impact's own frame, the report comes in the next one.
 void ReleaseWatch::reportReleases() {
   std::vector<std::pair<ContactMemory::Key, Nanoseconds>> due;
   for (ContactMemory::Waiting& w : memory_.waiting()) {

@@ -17,8 +17,8 @@ void Waking::enterContact(RigidBody& b, double tau) {
   arcs_.setArc(b, tau, Path::parabola(b.position(tau), b.velocity(tau), Vec3::Zero()),
                Spin::free(b.orientation(tau), L, b.inertia), grid_.islandStep(), BodyMode::Contact);
   b.contact.endL = L;
-  b.contact.quiet = 0;
-  if (!rests) b.contact.presses.clear();
+  b.contact.quietTime = 0;
+  if (!rests) b.contact.warmStarts.clear();
   if (pileMember && b.mode == BodyMode::Contact)
     b.contact.inPile = true, b.contact.dueAge = grid_.untilPileStep(time_.instantAt(tau));
   queue_.scheduleTick(tau);
@@ -31,7 +31,7 @@ void Waking::cutStep(RigidBody& b, double tau) {
   arcs_.setArc(b, tau, Path::parabola(b.position(tau), b.velocity(tau), Vec3::Zero()),
                Spin::free(b.orientation(tau), L, b.inertia), grid_.islandStep(), BodyMode::Contact);
   b.contact.endL = L;
-  b.contact.quiet = 0;
+  b.contact.quietTime = 0;
   queue_.scheduleTick(tau);
 }
 

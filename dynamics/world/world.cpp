@@ -113,7 +113,7 @@ bool World::removeCollider(ColliderId id) {
 bool World::moveCollider(ColliderId id, const Pose& end, bool teleport) {
   Collider* c = core_->objects_.collider(id);
   if (!c || !usable(end)) return false;
-  c->nextWay.clear();
+  c->nextArcs.clear();
   if (teleport) {
     c->now = unit(end), c->next.reset();
     c->disturbed = true;
@@ -125,9 +125,9 @@ bool World::moveCollider(ColliderId id, const Pose& end, bool teleport) {
   return true;
 }
 
-bool World::moveCollider(ColliderId id, const Pose& end, const BodyWay& way) {
+bool World::moveCollider(ColliderId id, const Pose& end, const ArcTrack& way) {
   if (!moveCollider(id, end)) return false;
-  core_->objects_.collider(id)->nextWay = way;
+  core_->objects_.collider(id)->nextArcs = way;
   return true;
 }
 
@@ -254,7 +254,7 @@ bool World::Core::putBody(RigidBody& b, const Pose& X_WN, const Vec3& v, const V
   memory_.forget({true, b.id});
   arcs_.startFlight(b, time_.now(), X_WC.p, v, X_WC.q,
                     X_WC.q * b.inertia.cwiseProduct(X_WC.q.conjugate() * omega));
-  // One that is in trouble again at once is told of, too.
+  // Reports a body that is in trouble again at once, too.
   if (b.mode == BodyMode::Quarantined) active_.add(b);
   waking_.wakeOnto({true, b.id}, time_.now());
   return true;
@@ -295,7 +295,7 @@ Vec3 World::woundUp(BodyId id) const {
 bool World::moveHeld(BodyId id, const Pose& end, bool teleport) {
   RigidBody* b = core_->objects_.body(id);
   if (!b || b->mode != BodyMode::Held || !usable(end)) return false;
-  b->grip.nextWay.clear();
+  b->grip.nextArcs.clear();
   if (teleport) {
     b->trace.put = b->trace.traced || b->trace.awaited;
     b->pose = unit(end);
@@ -311,9 +311,9 @@ bool World::moveHeld(BodyId id, const Pose& end, bool teleport) {
   return true;
 }
 
-bool World::moveHeld(BodyId id, const Pose& end, const BodyWay& way) {
+bool World::moveHeld(BodyId id, const Pose& end, const ArcTrack& way) {
   if (!moveHeld(id, end)) return false;
-  core_->objects_.body(id)->grip.nextWay = way;
+  core_->objects_.body(id)->grip.nextArcs = way;
   return true;
 }
 
@@ -324,17 +324,17 @@ bool World::releaseBody(BodyId id, const Vec3& v, const Vec3& omega) {
   return true;
 }
 
-bool World::advance(Nanoseconds t0, Nanoseconds t1, bool continues) {
-  if (t1 < t0 || (core_->time_.started() && t0 != core_->time_.t1())) return false;
-  if (!core_->time_.started()) core_->start(t0);
-  core_->advance(t0, t1, continues);
+bool World::advance(Nanoseconds from, Nanoseconds to, bool continues) {
+  if (to < from || (core_->time_.started() && from != core_->time_.t1())) return false;
+  if (!core_->time_.started()) core_->start(from);
+  core_->advance(from, to, continues);
   return true;
 }
 
-bool World::pause(Nanoseconds t0, Nanoseconds t1, bool continues) {
-  if (t1 < t0 || (core_->time_.started() && t0 != core_->time_.t1())) return false;
-  if (!core_->time_.started()) core_->start(t0);
-  core_->pause(t1, continues);
+bool World::pause(Nanoseconds from, Nanoseconds to, bool continues) {
+  if (to < from || (core_->time_.started() && from != core_->time_.t1())) return false;
+  if (!core_->time_.started()) core_->start(from);
+  core_->pause(to, continues);
   return true;
 }
 
@@ -345,8 +345,8 @@ bool World::traceBody(BodyId id, bool on) {
   return true;
 }
 
-const BodyWay& World::wayOf(BodyId id) const {
-  static const BodyWay none;
+const ArcTrack& World::arcsOf(BodyId id) const {
+  static const ArcTrack none;
   const RigidBody* b = core_->objects_.body(id);
   return b && b->trace.traced ? b->trace.way : none;
 }

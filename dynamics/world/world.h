@@ -31,11 +31,11 @@
 namespace stadion {
 
 class StateFields;
-struct WayPart;
-using BodyWay = std::vector<WayPart>;
+struct ArcPiece;
+using ArcTrack = std::vector<ArcPiece>;
 
-/// Its methods are more than 30, because it is the one interface to bodies, colliders and fields. It only
-/// passes calls on (world_core.h).
+/// The class has more than 30 methods, because it is the one interface to bodies, colliders and fields. It
+/// passes calls on to its parts (world_core.h).
 class World {
 public:
   World();
@@ -60,9 +60,9 @@ public:
   /// counts in impacts. Without a call it stays. `teleport`: it is there from the frame's start and gives no
   /// impulse for the jump; sleeping bodies that it is put into wake.
   bool moveCollider(ColliderId id, const Pose& end, bool teleport = false);
-  /// The same on a known path from the frame's start to its end, where it leads to `end`. A jump needs a call
-  /// of its own at its time.
-  bool moveCollider(ColliderId id, const Pose& end, const BodyWay& way);
+  /// Moves the collider on a known path from the frame's start to its end, which is `end`. A jump needs a
+  /// call of its own at its time.
+  bool moveCollider(ColliderId id, const Pose& end, const ArcTrack& way);
   /// A collider or body that is off takes part in nothing.
   bool enableCollider(ColliderId id, bool on);
   bool enableBody(BodyId id, bool on);
@@ -101,7 +101,7 @@ public:
   bool holdBody(BodyId id);
   /// `teleport`: the body is there from the frame's start and gives no impulse for the jump.
   bool moveHeld(BodyId id, const Pose& end, bool teleport = false);
-  bool moveHeld(BodyId id, const Pose& end, const BodyWay& way);
+  bool moveHeld(BodyId id, const Pose& end, const ArcTrack& way);
   bool releaseBody(BodyId id, const Vec3& v, const Vec3& omega);
   /// Sets the fields that the holding hand carries, until the next call or grab. While such a field is
   /// linear, on and hooked to the body, its push adds up instead of moving the body.
@@ -109,29 +109,32 @@ public:
   /// The velocity that has added up since the grab, turned with the hand, in World [m/s].
   Vec3 woundUp(BodyId id) const;
 
-  /// Advances from t0 to t1 [ns]. t0 is the last t1, or any time in the first call. False if t1 < t0.
+  /// Advances the world [ns]. `from` is the end of the last call, or any time in the first call. Returns
+  /// false if to < from.
   /// `continues`: a further part of the frame that an earlier call began. The caller cuts a frame where
   /// external motion turns, jumps or receives a command. "Start" and "end of the frame" above then mean those
   /// of each part.
-  bool advance(Nanoseconds t0, Nanoseconds t1, bool continues = false);
-  /// The same, but the world stands still while show time goes on.
-  bool pause(Nanoseconds t0, Nanoseconds t1, bool continues = false);
+  bool advance(Nanoseconds from, Nanoseconds to, bool continues = false);
+  /// Advances show time, but the world stands still.
+  bool pause(Nanoseconds from, Nanoseconds to, bool continues = false);
 
   /// Starts or stops recording how the body moves within a frame.
   bool traceBody(BodyId id, bool on);
-  /// Its path from the last frame's start, or since recording started; empty if it is not recorded.
-  const BodyWay& wayOf(BodyId id) const;
+  /// Returns the path of the body from the last frame's start, or since recording started. Empty if it is not
+  /// recorded.
+  const ArcTrack& arcsOf(BodyId id) const;
 
   /// Bodies whose state may have changed in the last frame, by id. No other state has.
   const std::vector<BodyId>& changed() const;
 
-  Pose pose(BodyId id) const;  ///< X_WN at t1
-  /// Its pose at `when` > t1 if nothing happens to it. For a held body, the pose set by moveHeld.
+  Pose pose(BodyId id) const;  ///< X_WN at the end of the last frame
+  /// Returns the pose at a later time `when`, if nothing happens to the body. For a held body, the pose set
+  /// by moveHeld.
   Pose poseAhead(BodyId id, Nanoseconds when) const;
-  BodyState state(BodyId id) const;  ///< at t1
+  BodyState state(BodyId id) const;  ///< at the end of the last frame
   BodyMode mode(BodyId id) const;
-  bool moving(BodyId id) const;            ///< false asleep or quarantined: nothing to publish
-  std::string troubleOf(BodyId id) const;  ///< why it is quarantined, empty if it is not
+  bool moving(BodyId id) const;            ///< false if asleep or quarantined: nothing to publish
+  std::string troubleOf(BodyId id) const;  ///< reason of the quarantine; empty if there is none
   double mass(BodyId id) const;
   /// Total energy of motion [J], for reports.
   double kineticEnergy(BodyId id) const;
@@ -142,7 +145,7 @@ public:
   /// False if no such shape or body lacks one.
   bool giveBack(ShapeId id, std::shared_ptr<const Shape> shape);
   bool giveBack(BodyId id, std::shared_ptr<const BodyFlight> flight);
-  /// Whether everything has been given back.
+  /// Returns true if everything has been given back.
   bool complete() const;
 
   /// The impacts and releases of the last frame, by time.
@@ -158,10 +161,10 @@ public:
   /// Work done by the last advance, for cost reports.
   struct Counters {
     std::uint64_t arcs = 0, impacts = 0, contactSteps = 0, pairTests = 0;
-    std::uint64_t contacts = 0;   ///< points, in all steps in contact
-    std::uint64_t distances = 0;  ///< asked for on the way to a touch, by what has no closed form
-    std::uint64_t tired = 0;      ///< impacts of bodies that have bounced too often in too short a time
-    std::uint64_t limited = 0;    ///< frames cut short because their events would not end: never expected
+    std::uint64_t contacts = 0;       ///< contact points, in all steps
+    std::uint64_t distances = 0;      ///< computed in searches for touches without closed form
+    std::uint64_t dampedBounces = 0;  ///< impacts without rebound, since the body has bounced too often
+    std::uint64_t limited = 0;        ///< frames cut short because of endless events: never expected
   };
   const Counters& counters() const;
 

@@ -82,7 +82,7 @@ void World::Core::beginFrame() {
   held_.dropReleased();
   for (RigidBody* b : held_.list()) {
     b->grip.held.set(b->grip.held.start, b->grip.held.end, time_.from(), seconds);
-    b->grip.held.way.swap(b->grip.nextWay), b->grip.nextWay.clear();
+    b->grip.held.way.swap(b->grip.nextArcs), b->grip.nextArcs.clear();
     b->grip.held.follow({time_.origin(), 0}, time_.from(), time_.now());
     traces_.noteHeld(*b, time_.from());
     b->trace.put = false;
@@ -94,7 +94,7 @@ void World::Core::beginFrame() {
     if (Collider* c = objects_.collider(id)) {
       c->move(c->now, c->next.value_or(c->now), time_.from(), seconds);
       c->next.reset();
-      c->motion.way.swap(c->nextWay), c->nextWay.clear();
+      c->motion.way.swap(c->nextArcs), c->nextArcs.clear();
       c->motion.follow({time_.origin(), 0}, time_.from(), time_.now());
       ++c->version;
       boxes_.sweep(*c);

@@ -72,7 +72,7 @@ static void fieldsOf(Support& s, StateFields& f) {
   f("friction", s.friction), f("rolling", s.rolling), f("restitution", s.restitution);
   if (s.edges < 0 || static_cast<std::size_t>(s.edges) > s.edgeNormal.size()) s.edges = 0, f.fail();
 }
-static void fieldsOf(Pressed& p, StateFields& f) {
+static void fieldsOf(WarmStart& p, StateFields& f) {
   f("key", p.key), f("force", p.force), f("step", p.step);
 }
 static void fieldsOf(Hook& h, StateFields& f) {
@@ -129,24 +129,24 @@ static void fieldsOf(RigidBody& b, StateFields& f) {
   f("age", b.age0), f("until", b.until), f("valid", b.validAge), f("path valid", b.pathAge);
   f("spin start", b.spinStart);
   f("enabled", b.enabled), f("fresh", b.fresh), f("active", b.active), f("marked", b.marked);
-  f("stirred", b.stirred), f("aligned", b.aligned), f("alone", b.alone), f("lazy", b.lazy);
+  f("stirred", b.stirred), f("aligned", b.aligned), f("alone", b.atMostOneNear), f("lazy", b.lazy);
   f("shape", b.shapeId), f("surface", b.surface), f("mass", b.mass), f("inverse mass", b.inverseMass);
   f("inertia", b.inertia), f("even pull", b.even), f("X_NC", b.X_NC), f("X_CN", b.X_CN);
   f("centred", b.centred), f("bound", b.bound), f("reach", b.reach), f("damping", b.damping);
   f("drag area", b.dragArea), f("release distance", b.releaseDistance), f("stick", b.embedding);
   f("q_CA", b.q_CA), f("end momentum", b.contact.endL), f("step", b.step), f("support", b.support);
   f("hooks", b.hooks), f("touching", b.contact.touching), f("leaning", b.contact.leaning),
-      f("presses", b.contact.presses);
+      f("presses", b.contact.warmStarts);
   f("due", b.contact.dueAge), f("crowd", b.contact.inPile), f("wedged", b.contact.wedged),
-      f("restless", b.contact.restless);
+      f("restless", b.contact.unsolved);
   f("drowsy", b.contact.sleepsNext), f("heaped", b.contact.restsInPile), f("drift", b.contact.drift),
       f("twist", b.contact.twist);
   f("slot", b.contact.slot), f("held", b.grip.held), f("carried", b.grip.carried), f("wound", b.grip.wound);
   f("wound to", b.grip.woundTo), f("free place", b.grip.freePlace), f("let go", b.grip.letGo),
       f("ways out", b.grip.recoveries);
-  f("impacts", b.impacts), f("impact span", b.impactSpan), f("quiet", b.contact.quiet),
+  f("impacts", b.impacts), f("impact span", b.impactSpan), f("quiet", b.contact.quietTime),
       f("calm", b.contact.sleepCandidate);
-  f("trouble", b.trouble), f("swept", b.swept), f("place", b.place), f("only", b.only);
+  f("trouble", b.trouble), f("swept", b.swept), f("place", b.place), f("only", b.nearCollider);
 }
 static void fieldsOf(Collider& c, StateFields& f) {
   f("shape", c.shapeId), f("surface", c.surface), f("bound", c.bound), f("enabled", c.enabled);

@@ -24,7 +24,7 @@ struct AssetFinding {
 
 struct AssetCounts {
   std::size_t loaded = 0, refused = 0, failed = 0;
-  std::size_t faults = 0;  ///< of the failed: the importer program crashed, hung or ran out of memory
+  std::size_t faults = 0;  ///< failed files for which the importer program crashed, hung or ran out of memory
 };
 
 /// Imports the files of `folder` in the order of names, without following symbolic links. Skips files that

@@ -32,7 +32,7 @@ struct FormatInfo {
   ModelFormat format;
   const char* extension;  ///< lower case, without the dot
   const char* name;       ///< for messages
-  const char* loader;     ///< what assimp calls the loader; the only one that may read such a file
+  const char* loader;     ///< assimp's name of the loader; no other loader may read such a file
   UpAxis up;              ///< when neither file nor script says
   double unit;            ///< [m] likewise
   bool statesAxes;        ///< the file states up axis and unit itself

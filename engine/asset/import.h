@@ -47,7 +47,7 @@ public:
 
   /// How many importer programs have been started so far.
   int started() const;
-  /// Process id of the one that is running, 0 if none.
+  /// Process id of the running importer, 0 if none.
   int pid() const;
 
 private:

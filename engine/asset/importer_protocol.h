@@ -29,7 +29,7 @@ struct RequestHead {
   MeshLimits mesh;
   double unit = 0;              ///< [m], 0 = as the format has it
   std::uint32_t up = 0;         ///< UpAxis + 1, 0 = as the format has it
-  std::uint32_t pathBytes = 0;  ///< of the name that follows
+  std::uint32_t pathBytes = 0;  ///< size of the file name that follows
 };
 
 enum class ImportStatus : std::uint32_t { Loaded, Failed, OutOfMemory };

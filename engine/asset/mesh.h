@@ -17,7 +17,7 @@ namespace stadion {
 struct Texture {
   std::uint32_t width = 0, height = 0;  ///< [pixels], at most 8192
   std::vector<std::uint8_t> rgba;       ///< (height x width x 4)
-  std::string name;                     ///< where it came from, for messages
+  std::string name;                     ///< source of the picture, for messages
 };
 
 constexpr float kMostAlphaCutoff = 2;  ///< beyond 1 nothing is left
@@ -46,10 +46,10 @@ struct Submesh {
   std::uint32_t material = 0;    ///< into Mesh::materials
 };
 
-/// The same surface with fewer triangles, of the same vertices.
+/// A simplified surface of the mesh: fewer triangles with the same vertices.
 struct MeshLevel {
   std::vector<std::uint32_t> indices;
-  std::vector<Submesh> submeshes;  ///< of these indices; the materials are the mesh's
+  std::vector<Submesh> submeshes;  ///< parts of these indices; the materials are the mesh's
   double error = 0;                ///< how far it is from the full surface where it is farthest [m]
 };
 
@@ -64,14 +64,15 @@ struct Mesh {
   std::vector<Submesh> submeshes;
   std::vector<Material> materials;  ///< never empty
   std::vector<Texture> textures;
-  Aabb bounds;                    ///< [m]
-  Sphere sphere;                  ///< [m] bounding sphere
-  std::uint64_t hash = 0;         ///< of the content: its identity
-  std::string name;               ///< the file it came from
-  std::vector<MeshLevel> levels;  ///< each with fewer triangles and a greater error than the one before
-  bool standIn = false;           ///< drawn in place of an asset that could not be loaded
+  Aabb bounds;             ///< [m]
+  Sphere sphere;           ///< [m] bounding sphere
+  std::uint64_t hash = 0;  ///< hash of the content, which identifies the mesh
+  std::string name;        ///< the file it came from
+  /// Simplified surfaces, each with fewer triangles and a greater error than the one before.
+  std::vector<MeshLevel> levels;
+  bool standIn = false;  ///< drawn in place of an asset that could not be loaded
 
-  /// Whether something of it is seen through.
+  /// Returns true if something of it is seen through.
   bool transparent() const {
     for (const Material& m : materials)
       if (m.transparent()) return true;

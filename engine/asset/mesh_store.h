@@ -31,7 +31,7 @@ public:
 
   /// Returns the mesh, or nullptr if it was freed.
   const Mesh* find(MeshId id) const;
-  /// Those that are in use, in ascending order.
+  /// Returns the ids of meshes in use, in ascending order.
   std::vector<MeshId> used() const;
   /// Returns true if a mesh of this content exists under this id, used or not. It returns no pointer, since
   /// an unused mesh may be freed at any moment.

@@ -61,8 +61,8 @@ public:
 
   struct Point {
     double distance = std::numeric_limits<double>::infinity();  ///< [m]
-    std::array<std::uint32_t, 3> corners{};                     ///< of the triangle
-    Vec3 weights = Vec3(1, 0, 0);                               ///< of the corners
+    std::array<std::uint32_t, 3> corners{};                     ///< corners of the triangle
+    Vec3 weights = Vec3(1, 0, 0);                               ///< weights of the corners
   };
   /// The nearest point, or any that is no farther than `enough` [m]. Expects triangles.
   Point nearest(const Vec3& p, double enough) const {

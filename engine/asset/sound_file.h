@@ -17,7 +17,7 @@
 namespace stadion {
 
 struct SoundInfo {
-  std::uint64_t samples = 0;   ///< of one channel
+  std::uint64_t samples = 0;   ///< number of samples of one channel
   std::uint32_t rate = 0;      ///< samples a second [1/s]
   std::uint32_t channels = 0;  ///< 1 or 2
 

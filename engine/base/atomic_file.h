@@ -27,7 +27,7 @@ public:
   /// The treatment of a text that cannot be finished.
   enum class Unfinished {
     Goes,
-    KeepsLines,  ///< its whole lines are kept as PATH.partial, in the place of an older one
+    KeepsLines,  ///< whole lines of the text are kept as PATH.partial, in place of an older one
   };
 
   explicit AtomicFile(std::string path, Unfinished unfinished = Unfinished::Goes);
@@ -51,8 +51,8 @@ private:
   bool keepLines();
 
   Unfinished unfinished_;
-  std::string path_;       ///< as it was named
-  std::string target_;     ///< what its links lead to
+  std::string path_;       ///< path as the caller named it
+  std::string target_;     ///< path to which its links lead
   std::string temporary_;  ///< empty: the target is written directly
   std::FILE* file_ = nullptr;
   std::optional<Diagnostic> error_;

@@ -16,7 +16,7 @@ namespace stadion {
 /// large is refused before any of it is read.
 Result<std::string> readPlainFile(const std::string& path, std::size_t limit);
 
-/// The same of a file that is open already; `path` is its name in messages.
+/// Reads a file that is open already; `path` is its name in messages.
 Result<std::string> readPlainFile(int file, const std::string& path, std::size_t limit);
 
 }  // namespace stadion

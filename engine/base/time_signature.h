@@ -19,7 +19,7 @@ constexpr Nanoseconds fromSeconds(double s) {
 struct LoadDecision {
   std::uint32_t load = 0,
                 position = 0;  ///< the node, by load number and position in its file; 0, 0 = the show
-  std::uint32_t level = 0;     ///< of the node's ladder; of the show: stress, in quarters of an octave
+  std::uint32_t level = 0;     ///< level on the node's ladder; for the show: stress, in quarters of an octave
 
   bool operator==(const LoadDecision&) const = default;
 };
@@ -42,7 +42,7 @@ struct FrameLoad {
   }
 };
 
-/// What every replica receives for a frame, besides the input sample. App advances the show from
+/// The data that every replica receives for a frame, besides the input sample. App advances the show from
 /// `time - step` to `time`.
 struct TimeSignature {
   std::uint64_t frame = 0;  ///< index, from 0

@@ -42,7 +42,7 @@ private:
   std::uint64_t round_ = 0;
   bool leaving_ = false;
   std::atomic<std::size_t> next_ = 0;
-  std::atomic<std::chrono::nanoseconds::rep> work_ = 0;  ///< of all pieces of the run [ns]
+  std::atomic<std::chrono::nanoseconds::rep> work_ = 0;  ///< time of all pieces of the run [ns]
   bool worthIt_ = true;                                  ///< waking the others pays
   std::vector<std::exception_ptr> thrown_;               ///< by piece
   std::vector<std::thread> threads_;

@@ -23,7 +23,7 @@ using SoundSource = std::function<Nanoseconds(const Declaration&)>;
 
 struct BuildInput {
   const Document& document;
-  std::uint32_t number;  ///< of the load
+  std::uint32_t number;  ///< number of the load
   NodeRef owner;
   Affine X_WO = Affine::Identity();         ///< where the owner is
   std::vector<std::uint32_t> surroundings;  ///< load numbers of the files around it, nearest first

@@ -11,7 +11,7 @@
 
 namespace stadion {
 
-/// What the nodes of a file do to one of them.
+/// How the other nodes of a file use one of its nodes.
 struct NodeUse {
   bool hooked = false;      ///< by an attribute or a message
   bool simulated = false;   ///< collidee of a dynamics node
@@ -21,7 +21,7 @@ struct NodeUse {
   std::size_t levels = 0;   ///< children that an lod node chooses from
 };
 
-/// One file, for NodeType::lint.
+/// A file that NodeType::lint checks.
 class LintScope {
 public:
   /// Expects a document whose names are resolved, and that it and the findings outlive the scope.
@@ -41,7 +41,7 @@ public:
   void warnAt(std::uint32_t place, std::string message) { report_.warning(place, std::move(message)); }
   /// Letters that the show cannot write.
   void warnOfMissing(std::string_view words, std::uint32_t place);
-  /// It is off at the start, and nothing switches it on.
+  /// Warns if the node is off at the start and nothing switches it on.
   void warnNeverOn(const Declaration& node);
   /// A reference that is given twice.
   void warnRepeated(const Declaration& node, Attr attr);

@@ -29,15 +29,14 @@ struct NodeRequest {
   std::string name;
   PlaceAttributes place;
   Appearance appearance;
-  const Mesh* mesh = nullptr;  ///< of types with Trait::Model
+  const Mesh* mesh = nullptr;  ///< mesh; for types with Trait::Model
   const std::function<NodeRef(const NodeReference&)>& resolve;
   /// Of objects in the same file.
   const std::function<std::optional<PlacedModel>(const NodeReference&)>& model;
   Diagnostics& findings;
   NodeServices& services;
-  Nanoseconds soundLength = 0;  ///< of types with Trait::Sound [ns]
-  std::vector<NodeRef>
-      children{};  ///< of those with Trait::Level that are placed below it, in the order of the file
+  Nanoseconds soundLength = 0;      ///< length of the sound; for types with Trait::Sound [ns]
+  std::vector<NodeRef> children{};  ///< children with Trait::Level, in the order of the file
 
   const NodeType& type() const { return declaration.type().type(); }
 };

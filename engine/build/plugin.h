@@ -17,7 +17,8 @@
 
 namespace stadion {
 
-inline constexpr std::uint32_t kPluginFormat = 1;  ///< of Plugin and of what it may call; counted up by hand
+/// Version of Plugin and of all that it may call; counted up by hand.
+inline constexpr std::uint32_t kPluginFormat = 1;
 
 /// Differs where the classes that plugins use are laid out otherwise, or another compiler has built them.
 constexpr std::uint32_t pluginLayout() {

@@ -45,7 +45,7 @@ constexpr CommandId lastOf(CommandId) {
   return static_cast<CommandId>(0xFFFFFF);
 }
 
-/// What of a tracker's pose `attach` takes over.
+/// The parts of a tracker's pose that `attach` takes over.
 enum class AttachPart : std::uint8_t { All, Position, Orientation };
 
 inline constexpr std::array<std::string_view, 3> kAttachPartNames = {"all", "position", "orientation"};

@@ -41,9 +41,9 @@ inline std::uint32_t levelsOf(std::span<const DegradationStep> ladder) {
 
 /// How far a node is degraded.
 struct NodeDegradation {
-  double lod = 1;         ///< factor on its distance in the choice of detail
-  std::uint8_t pace = 0;  ///< its cycle runs in one of 2^pace frames
-  bool rests = false;     ///< its cycle does not run at all
+  double lod = 1;         ///< factor of the node's distance in the choice of detail
+  std::uint8_t pace = 0;  ///< the node's cycle runs in one of 2^pace frames
+  bool rests = false;     ///< the node's cycle does not run at all
   bool hidden = false;
 
   bool operator==(const NodeDegradation&) const = default;
@@ -58,7 +58,7 @@ struct NodeDegradation {
   }
 };
 
-constexpr double kLodLevel = 1.5;  ///< of NodeDegradation::lod from level to level
+constexpr double kLodLevel = 1.5;  ///< factor of NodeDegradation::lod from level to level
 
 /// Returns the degradation at that level of the ladder.
 inline NodeDegradation degradationAt(std::span<const DegradationStep> ladder, std::uint32_t level) {
@@ -96,7 +96,7 @@ inline double stressOf(std::uint32_t level) {
 class LoadDecider {
 public:
   virtual ~LoadDecider() = default;
-  /// What takes effect with this frame.
+  /// Returns the degradation that takes effect with this frame.
   virtual FrameLoad decide(std::uint64_t frame) = 0;
 };
 

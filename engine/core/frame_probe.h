@@ -20,7 +20,7 @@
 
 namespace stadion {
 
-/// What a stretch of time is spent on.
+/// The kinds of work for which time is measured.
 enum class Span : std::uint8_t {
   // The stages.
   App,
@@ -37,20 +37,20 @@ enum class Span : std::uint8_t {
   Mail,      ///< finds the nodes to visit, and their messages
   Workers,   ///< waits for nodes that simulate side by side
   Settle,    ///< takes up the changes of a node's cycle: its hash, and nodes that it wakes
-  Publish,   ///< what changed, into the slot
-  Sound,     ///< what is heard
+  Publish,   ///< writes the changes into the slot
+  Sound,     ///< finds the sounds that are heard
   Watching,  ///< observers: hashes, reports, records
   // Of Cull.
   Eyes,         ///< cameras and what they can see, lights, sky
   Test,         ///< spheres against what can be seen
-  Fill,         ///< what is seen, into the draw list
-  ShadowCasts,  ///< what casts shadows, into the rings' lists
+  Fill,         ///< writes the visible objects into the draw list
+  ShadowCasts,  ///< writes the shadow casters into the lists of the rings
   Sort,
   // Of Draw.
   Prepare,     ///< batches and buffers
   Upload,      ///< meshes on their first use, to the graphics
   ShadowMaps,  ///< casters, as the light sees them
-  LeftEye,     ///< or the only one
+  LeftEye,     ///< the left eye, or the only one
   RightEye,
   Sky,      ///< clearing, and the sky where nothing was drawn
   Resolve,  ///< samples become pixels
@@ -86,7 +86,7 @@ constexpr Span stageOf(Span s) {
   return Span::Draw;
 }
 
-/// What is counted of a frame: work, not time, so that the same show counts the same on every machine.
+/// The counts of a frame. They count work, not time, so the same show has the same counts on every machine.
 enum class Count : std::uint8_t {
   // Of App.
   Visits,     ///< nodes that had something to do
@@ -98,15 +98,15 @@ enum class Count : std::uint8_t {
   Substeps,  ///< flights from one event to the next, and steps in contact
   // Of Cull, on a wall.
   Tested,   ///< spheres, against what can be seen
-  Seen,     ///< of these, by one eye or both
-  Casters,  ///< of shadows, that move
+  Seen,     ///< spheres among them that one eye or both can see
+  Casters,  ///< moving objects that cast shadows
   // Of Draw, for an eye.
   Calls,
   Instances,
   Triangles,
   Pixels,
   // Of Draw, for a wall.
-  Largest,  ///< of the node that has the most to draw: pixels it may cover and eight for each triangle
+  Largest,  ///< work of the node that has the most to draw: pixels it may cover and eight for each triangle
 };
 constexpr std::size_t kCounts = static_cast<std::size_t>(Count::Largest) + 1;
 std::string_view nameOf(Count count);
@@ -117,10 +117,11 @@ constexpr std::size_t kBatchesAFrame = 8;
 constexpr std::uint64_t kNoFrame = ~std::uint64_t{0};
 constexpr std::uint32_t kNoWall = ~std::uint32_t{0};
 
-/// What a probe wants of a wall's drawing of a frame, beside its spans. It changes no pixel, but takes time.
+/// The samples that a probe wants of a wall's drawing of a frame, beside its spans. They change no pixel, but
+/// take time.
 enum class DrawSample : std::uint8_t {
   None,
-  Whole,  ///< each eye alone, from an idle rasteriser to an idle rasteriser: what there is to be explained
+  Whole,  ///< each eye alone, from an idle rasteriser to an idle rasteriser: the cost that the nodes explain
   Some,   ///< a few of the batches, each alone
 };
 
@@ -132,7 +133,7 @@ struct DrawnAlone {
   Span what =
       Span::LeftEye;   ///< the eye: everything of it; Draw: nodes; Sky, Resolve, ShadowMaps, Prepare: these
   double ms = 0;       ///< without what drawing nothing takes
-  double emptyMs = 0;  ///< what drawing nothing takes
+  double emptyMs = 0;  ///< cost of drawing nothing [ms]
   /// After so many frames it has its turn again, if there is as much to draw. The turn's giver sets it.
   std::uint64_t round = 0;
 };
@@ -155,7 +156,7 @@ public:
   /// So much of it within the span that is under way on this thread; by a node, if that is valid.
   virtual void counted(Count, std::uint64_t, NodeRef = {}) {}
 
-  /// Whether `shared` is wanted for this frame of that wall.
+  /// Returns true if `shared` is wanted for this frame of that wall.
   virtual bool wantsShares(std::uint64_t, std::uint32_t) const { return false; }
   /// The last such span of this frame and wall was spent on these nodes, on all alike; a node named twice
   /// cost twice. An invalid node stands for the visitor. LeftEye, RightEye: the nodes that eye will draw.
@@ -163,11 +164,11 @@ public:
 
   /// How this frame of that wall is sampled, which is now being drawn. Asked once a frame.
   virtual DrawSample drawSample(std::uint64_t, std::uint32_t) { return DrawSample::None; }
-  /// Whether a batch of these nodes is to have a turn of being drawn alone.
+  /// Returns true if a batch of these nodes is to have a turn of being drawn alone.
   virtual bool wantsAlone(std::span<const NodeRef>) const { return true; }
   /// Which of `batches` batches that are to have one is drawn alone next; those that follow it may be, too.
   virtual std::size_t nextBatch(std::uint32_t, std::uint32_t, std::size_t) { return 0; }
-  /// What was drawn alone, and for which nodes, if for any.
+  /// Receives the cost of drawing alone, with the nodes that were drawn, if any were.
   virtual void drewAlone(const DrawnAlone&, std::span<const NodeShare>) {}
 };
 

@@ -32,7 +32,7 @@ struct Message {
   NodeRef target;
   CommandId command{};
   std::vector<std::string> arguments;
-  NodeRef node;  ///< what the first argument names, for verbs that take a node
+  NodeRef node;  ///< node that the first argument names; for verbs that take a node
   /// The rest of a path such as arena/ball. The scene looks up its first part when the message is posted, and
   /// the rest on delivery, because sub-scenes can load or unload in between.
   std::string targetInside{}, nodeInside{};

@@ -53,7 +53,7 @@ private:
 /// A plugin that a registry holds types of.
 struct PluginIdentity {
   std::string name, version;
-  std::string hash;  ///< of its file, hexadecimal
+  std::string hash;  ///< hash of the plugin's file, hexadecimal
   bool operator==(const PluginIdentity&) const = default;
 };
 

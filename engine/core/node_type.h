@@ -35,7 +35,7 @@ class LintScope;
 class Node;
 struct NodeRequest;
 
-/// What the other parts of the engine need to know of a type.
+/// The properties of a type that other parts of the engine must know.
 enum class Trait : std::uint8_t {
   Placed,    ///< has a place in the world: takes parent, position, orientation, scale; attach, detach, show,
              ///< hide
@@ -49,7 +49,7 @@ enum class Trait : std::uint8_t {
   Field,     ///< a force field: may be hooked to a body
   Collides,  ///< tests colliders against collidees
   OwnsBodies,  ///< moves its collidees
-  Degradable,  ///< its cycle may run less often to save time
+  Degradable,  ///< may run its cycle less often to save time
   Encloses,    ///< loads a file of its own
   Sound,       ///< has a sound file
 };
@@ -67,14 +67,14 @@ private:
   std::uint32_t bits_ = 0;
 };
 
-/// What the value of an attribute is, and thereby how it is written.
+/// The kinds of attribute values, and thereby how they are written.
 enum class ValueKind : std::uint8_t {
   Number,
   Whole,         ///< a number without a fraction
   Vector,        ///< "x, y, z"
   Direction,     ///< "x, y, z", not all zero
   Colour,        ///< "r, g, b"
-  Moments,       ///< of inertia, about a body's three principal axes, from its longest to its shortest
+  Moments,       ///< moments of inertia about a body's three principal axes, from its longest to its shortest
   Scale,         ///< one number or three
   Sphere,        ///< "x, y, z, radius"
   Box,           ///< "x, y, z, sx, sy, sz": the centre and the full lengths of the edges
@@ -114,8 +114,8 @@ struct AttributeSpec {
   ValueKind kind;
   std::string_view help;           ///< one line
   std::string_view standard = {};  ///< the value if it is not stated, as a script would write it
-  std::string_view unit = {};      ///< of the numbers
-  NumberRange range = {};          ///< of the numbers; for Sphere and Box, of radius and edges
+  std::string_view unit = {};      ///< unit of the numbers
+  NumberRange range = {};          ///< range of the numbers; for Sphere and Box, of radius and edges
   bool required = false;           ///< must be stated
   bool repeatable = false;         ///< may be stated several times, which accumulates
   NodeFilter targets = {};         ///< Reference: the node types that it may name
@@ -129,7 +129,7 @@ struct EventSpec {
   std::string_view help;  ///< one line
 };
 
-/// What may follow a command's word.
+/// The arguments that a command takes.
 enum class ArgumentKind : std::uint8_t {
   None,
   PartAndTracker,  ///< all|position|orientation [tracker]

@@ -17,11 +17,11 @@ inline constexpr NumberRange kColourRange{0, 1};
 inline constexpr NumberRange kTurnRange{-36000, 36000};
 inline constexpr NumberRange kForceRange{-kFar, kFar};
 
-/// What a path, a sway or a force field may move or follow.
+/// Types of nodes that a path, a sway or a force field may move or follow.
 inline constexpr NodeFilter kPlacedOrRig{{Trait::Placed}, {"rig"}};
 inline constexpr NodeFilter kModelTypes{{Trait::Model}};
 inline constexpr NodeFilter kFieldTypes{{Trait::Field}};
-/// What may run less often, and what may have such below it.
+/// Types of nodes that may run less often or have such nodes below them.
 inline constexpr NodeFilter kPacedTypes{{Trait::Degradable, Trait::Encloses}};
 
 inline constexpr std::string_view kDegradationWords[] = {"lod", "half", "rest", "hide"};

@@ -74,9 +74,9 @@ public:
   /// Node::nodeOf().
   void about(std::uint32_t part) { part_ = part; }
 
-  /// Whether fields are set from saved bytes.
+  /// Returns true if fields are set from saved bytes.
   virtual bool restores() const { return false; }
-  /// Whether the bytes are no such state.
+  /// Returns true if the bytes are no such state.
   virtual bool failed() const { return false; }
   /// Reports a value that cannot be: an unknown name, a place that does not exist.
   virtual void fail() {}
@@ -89,9 +89,9 @@ protected:
   /// The most elements that a list may have: each takes a byte.
   virtual std::uint64_t most() const { return ~std::uint64_t{0}; }
 
-  std::string_view name_;   ///< of the visited field
+  std::string_view name_;   ///< name of the visited field
   std::string_view outer_;  ///< name of the field that contains it; empty = none
-  std::uint32_t part_ = 0;  ///< of the node; 0 = of none
+  std::uint32_t part_ = 0;  ///< part of the node that the field belongs to; 0 = none
 
 private:
   template <class T>
@@ -315,7 +315,7 @@ public:
   bool restores() const override { return true; }
   bool failed() const override { return bytes_.failed(); }
   void fail() override { bytes_.fail(); }
-  /// Whether all bytes were read.
+  /// Returns true if all bytes were read.
   bool complete() const { return !bytes_.failed() && bytes_.left() == 0; }
 
 private:
@@ -335,7 +335,7 @@ public:
   struct Field {
     std::string name;
     std::string here, there;  ///< as text
-    std::uint32_t part;       ///< of the node that it belongs to; 0 = the node itself
+    std::uint32_t part;       ///< part of the node that the field belongs to; 0 = the node itself
   };
   const std::optional<Field>& first() const { return first_; }
   /// Looks for a further one in the fields visited from now on.

@@ -58,7 +58,7 @@ struct Plane {
   double distance(const Vec3& p) const { return normal.dot(p) + offset; }
 };
 
-/// What lies inside all of a few planes.
+/// The set of points that are inside all of a few planes.
 struct ConvexVolume {
   static constexpr std::uint32_t kMaxPlanes = 8;
 
@@ -70,7 +70,7 @@ struct ConvexVolume {
   /// False only if the body is wholly outside one of the planes.
   bool mayTouch(const Sphere& sphere) const;
   bool mayTouch(const Aabb& box) const;
-  /// The same volume, in the coordinates that X_AB maps to, relative to `origin` (in A).
+  /// Returns the volume in the coordinates that X_AB maps to, relative to `origin` (in A).
   ConvexVolume transformed(const Pose& X_AB, const Vec3& origin = Vec3::Zero()) const;
 };
 

@@ -17,7 +17,7 @@
 
 namespace stadion {
 
-/// What is done to a picture before it is shown.
+/// The changes to a picture before it is shown.
 struct OutputShape {
   bool flipH = false, flipV = false;  ///< left becomes right; top becomes bottom
   std::uint32_t rotate = 0;           ///< clockwise: 0, 90, 180 or 270 [degrees]
@@ -37,7 +37,7 @@ struct OutputShape {
 /// Where an output is.
 struct OutputPlace {
   std::string screen;   ///< an X screen, such as :0.1; empty = the one of DISPLAY
-  std::string monitor;  ///< its name, or its number from 1; empty = none is named
+  std::string monitor;  ///< name of the monitor, or its number from 1; empty = no monitor is named
   struct Rectangle {
     std::int32_t x = 0, y = 0;
     std::uint32_t width = 0, height = 0;

@@ -22,8 +22,8 @@ struct SheetPlace {
   bool operator==(const SheetPlace&) const = default;
 };
 
-/// One place a wall, in file order, in the walls' own proportions, as large as fits. Expects at least one
-/// wall.
+/// Returns a place for each wall, in file order, in the walls' own proportions, as large as fits. Expects at
+/// least one wall.
 std::vector<SheetPlace> unfold(const std::vector<WallEntry>& walls, std::uint32_t width,
                                std::uint32_t height);
 

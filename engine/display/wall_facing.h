@@ -16,12 +16,12 @@
 namespace stadion {
 
 enum class Facing {
-  Room,   ///< or nothing tells that it does not
+  Room,   ///< faces the room, or nothing shows that it does not
   Away,   ///< mirroring such walls makes a room
   Unsure  ///< no point is in front of every wall, and this one is a reason
 };
 
-/// One for each wall. Expects walls with an area.
+/// Returns the facing of each wall. Expects walls with an area.
 std::vector<Facing> facingOf(const std::vector<WallEntry>& walls, const Vec3& standingEye);
 
 }  // namespace stadion

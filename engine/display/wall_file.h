@@ -41,10 +41,10 @@ struct PixelSize {
 /// A wall as a file describes it.
 struct WallEntry {
   Wall wall;
-  PixelSize pixels;                  ///< of one eye's picture, if the file says
-  std::optional<WallOutput> output;  ///< where it comes out, if the file says
+  PixelSize pixels;                  ///< size of one eye's picture, if the file states it
+  std::optional<WallOutput> output;  ///< output of the wall, if the file states one
   std::uint32_t line = 0;            ///< in the file; 0 = made by a program
-  std::uint32_t column = 0;          ///< of the name
+  std::uint32_t column = 0;          ///< column of the wall's name
   std::string excerpt;               ///< the line, for messages
 };
 
@@ -54,7 +54,7 @@ struct WallFile {
 
   std::string file;              ///< as the user named it
   std::vector<WallEntry> walls;  ///< in file order
-  double metresPerUnit = 1;      ///< what lengths were multiplied by
+  double metresPerUnit = 1;      ///< factor by which lengths were multiplied
   double eyeSeparation = 0.064;  ///< [m]
   DepthRange depth;
 

@@ -24,8 +24,8 @@ public:
   /// Returns the input at `showTime`. The sample is refilled, so a caller that keeps it allocates nothing.
   virtual void sampleAt(Nanoseconds showTime, InputSample& sample) = 0;
 
-  /// The same for a frame from `start` to `end`, with the corners of the trackers' ways inside it. A device
-  /// that does not know them says where they are at the end.
+  /// Returns the input for a frame from `start` to `end`, with the corners of the trackers' paths inside it.
+  /// A device that does not know them reports its trackers' poses at the end.
   virtual void sampleFrame(Nanoseconds start, Nanoseconds end, InputSample& sample) {
     (void)start;
     sampleAt(end, sample);

@@ -60,7 +60,7 @@
 
 namespace stadion {
 
-/// One record of one tracker.
+/// A record of a tracker.
 struct InputStamp {
   Nanoseconds time = 0;
   Pose X_RT;
@@ -80,15 +80,16 @@ struct InputLog {
   static constexpr std::size_t kMaxTrackers = 64;
 
   std::vector<InputTrack> tracks;  ///< in the order of first appearance
-  RunDecisions decisions;          ///< of the run that was recorded
+  RunDecisions decisions;          ///< decisions of the recorded run
 
   const InputTrack* find(std::string_view name) const;
   /// The time of the last record of a tracker, or of the last frame that was decided [ns].
   Nanoseconds end() const;
-  /// What the trackers do at `showTime`; exactly the stamp's values at the time of a stamp.
+  /// Fills `sample` with the input at `showTime`. At the time of a stamp, these are exactly the stamp's
+  /// values.
   void sampleAt(Nanoseconds showTime, InputSample& sample) const;
-  /// The same at `end`, and the corners of every tracker's way between `start` and `end`. They lie on the
-  /// log's own time axis, so the way is the same however it is cut into frames.
+  /// Fills `sample` with the input at `end`, and with the corners of every tracker's path between `start` and
+  /// `end`. The corners lie on the log's own time axis, so the path does not depend on the frames.
   void sampleFrame(Nanoseconds start, Nanoseconds end, InputSample& sample) const;
 };
 
@@ -98,7 +99,7 @@ std::optional<InputLog> loadInputLog(const std::string& path, Diagnostics& out);
 /// Text that parseInputLog reads back to the very same values.
 std::string formatInputLog(const InputLog& log);
 
-/// One record as a line of the format, with its newline.
+/// Returns a record as a line of the format, with its newline.
 std::string formatRecord(const std::string& tracker, const InputStamp& stamp);
 /// The first line of a log; with a rate, the first two.
 std::string inputLogHeading(double rate = 0);

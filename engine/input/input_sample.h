@@ -19,7 +19,7 @@ namespace stadion {
 
 constexpr std::size_t kTrackerAxes = 8;
 
-/// What a device's buttons and axes say from a time on.
+/// The state of a device's buttons and axes from a time on.
 struct ControlKnot {
   Nanoseconds time = 0;  ///< show time [ns]
   std::uint32_t buttons = 0;
@@ -33,9 +33,9 @@ struct ControlKnot {
 };
 
 struct TrackerSample {
-  std::string name;                        ///< such as head, wand, foot; unique in a sample
+  std::string name;                        ///< name, such as head, wand, foot; unique in a sample
   Pose X_RT;                               ///< while not valid: the last one known
-  std::uint32_t buttons = 0;               ///< one bit a button
+  std::uint32_t buttons = 0;               ///< buttons, one bit each
   std::array<float, kTrackerAxes> axes{};  ///< joypad and triggers
   Nanoseconds stamp = 0;                   ///< time of its newest measurement [ns]
   bool valid = true;                       ///< false: its pose is not known at the moment
@@ -44,16 +44,16 @@ struct TrackerSample {
   /// The corners of its way since the frame before, X_RT at times inside the frame (a jump may be at its very
   /// end); without any it came straight.
   PoseTrack knots;
-  /// What buttons and axes said at the frame's start and whenever that changed inside the frame. Buttons stay
-  /// as they are until the next one; axes go evenly to the next one, the last of them to `axes` at the
-  /// frame's end. Two of the same time are a jump of the axes. Empty if the device does not know: then
-  /// buttons were pressed at the frame's end and axes were all the while as they are.
+  /// Changes of buttons and axes within the frame, and their state at its start. Buttons are constant until
+  /// the next knot. Axes change evenly to the next knot, and from the last one to `axes` at the frame's end.
+  /// Two knots of the same time are a jump of the axes. Empty if the device does not know the times: then
+  /// buttons were pressed at the frame's end, and axes were constant.
   std::vector<ControlKnot> controls;
   /// Time of its newest measurement, by the clock of the playing machine [ns]; 0: unknown, as in a replay. It
   /// gives the age of a picture. The show does not depend on it, and comparisons of samples ignore it.
   Nanoseconds measured = 0;
 
-  /// Whether its buttons and axes count.
+  /// Returns true if its buttons and axes count.
   bool hasControls() const { return valid || controlsOnly; }
 
   template <class Self, class Fields>
@@ -87,8 +87,8 @@ struct InputSample {
 
 constexpr double kTeleportSpeed = 60;  ///< faster than any hand, foot or bat [m/s]
 
-/// Whether a tracker that went from `previous` to `next` in `dt` cannot have moved there: it was lost and
-/// found, or another one took its name. What follows it must be put there without impulse.
+/// Returns true if a tracker that went from `previous` to `next` in `dt` cannot have moved there: it was lost
+/// and found, or another one took its name. What follows it must be put there without impulse.
 inline bool teleported(const Pose& previous, const Pose& next, Nanoseconds dt) {
   const double distance = (next.p - previous.p).norm();
   if (!(dt > 0)) return distance > 0;

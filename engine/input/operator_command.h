@@ -15,13 +15,13 @@ namespace stadion {
 enum class OperatorAction : std::uint8_t {
   Start,          ///< ends waiting: show time begins
   Pause,          ///< on: show time stands still; the visitor can still look around
-  Step,           ///< one frame of show time, while it is paused
+  Step,           ///< plays one frame of show time during a pause
   Black,          ///< on: all walls are black; the show goes on unless it is paused too
   NextGroup,      ///< the show restarts, as if the program had been restarted
   SwapEyes,       ///< on: left and right are exchanged on every wall
   EyeSeparation,  ///< between the eyes [m]
   FreezeHead,     ///< on: the head stays where it is, and its tracker is ignored
-  Volume,         ///< of all sounds, from 0 to 1
+  Volume,         ///< volume of all sounds, from 0 to 1
   Latency,        ///< limit of frames in flight between pose and picture: 1 to 4
   End,            ///< the run ends after this frame
 };
@@ -41,7 +41,7 @@ constexpr std::optional<OperatorAction> operatorActionNamed(std::string_view wor
   return std::nullopt;
 }
 
-/// Whether it changes pictures and sounds alone, not what happens in the show.
+/// Returns true if it changes pictures and sounds alone, not what happens in the show.
 constexpr bool isOfPresentation(OperatorAction action) {
   return action == OperatorAction::Black || action == OperatorAction::SwapEyes ||
          action == OperatorAction::EyeSeparation || action == OperatorAction::Volume;

@@ -18,7 +18,7 @@
 
 namespace stadion {
 
-/// One of the poses: the mean of measurements, and how far they were apart.
+/// A held pose: the mean of measurements, and how far they were apart.
 struct HeldPose {
   Pose X_SD;
   double spread = 0;  ///< farthest from the mean [m], as sent

@@ -48,10 +48,10 @@ struct RigTracker {
 struct RigFile {
   static constexpr std::size_t kMostTrackers = 16;
 
-  double unit = 1;  ///< of measured lengths [m]
+  double unit = 1;  ///< unit of measured lengths [m]
   bool upIsY = false;
   Vec3 origin = Vec3::Zero();                     ///< p_SR [m]
-  double yaw = 0;                                 ///< of the rig in S, about up [rad]
+  double yaw = 0;                                 ///< rotation of the rig in S, about up [rad]
   double cutoff = 4, beta = 30;                   ///< filter [Hz], [1/m] and [1/rad]
   double hold = 0.1, ease = 0.5, predict = 0.02;  ///< [s]
   std::vector<RigTracker> trackers;
@@ -65,7 +65,7 @@ struct RigFile {
   const RigTracker* find(std::string_view name) const;
 };
 
-/// One without a file: head and wand, at the rig's own origin.
+/// Returns the rig without a rig file: head and wand, at the rig's own origin.
 RigFile standardRig();
 
 std::optional<RigFile> parseRigFile(std::string_view text, const std::string& file, Diagnostics& out);

@@ -56,7 +56,7 @@ public:
 
 private:
   std::uint64_t tickOfNext(std::uint64_t ticks) const { return frame_ > 0 ? tick_ + ticks : tick_; }
-  /// What was decided of the next frame; null if nothing was.
+  /// Returns the decision about the next frame; null if there was none.
   const Nanoseconds* decisionOfNext() const;
 
   double rate_;

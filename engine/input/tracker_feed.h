@@ -32,7 +32,7 @@ namespace stadion {
 /// Counts of measurements.
 struct FeedCounts {
   std::uint64_t taken = 0;
-  std::uint64_t unknown = 0;  ///< of trackers that the rig file does not have
+  std::uint64_t unknown = 0;  ///< measurements of trackers that the rig file does not have
   std::uint64_t refused = 0;  ///< not finite, too far, no rotation, no such button or axis
   std::uint64_t late = 0;     ///< older than one that came before
 };
@@ -83,10 +83,10 @@ public:
   struct Status {
     std::string name;
     bool heard = false;  ///< within `hold`
-    bool posed = false;  ///< it has sent a pose
-    double age = 0;      ///< of the last measurement [s]
+    bool posed = false;  ///< the tracker has sent a pose
+    double age = 0;      ///< age of the last measurement [s]
     double rate = 0;     ///< measurements a second
-    Pose X_SD;           ///< as it came
+    Pose X_SD;           ///< pose as the tracker sent it
     Pose X_RT;           ///< in the rig, smoothed
     std::uint32_t buttons = 0;
     std::array<float, kTrackerAxes> axes{};
@@ -105,28 +105,29 @@ private:
     OneEuroFilter filter;
     bool ever = false;
     Nanoseconds last = 0;   ///< measurement [ns]
-    Nanoseconds ahead = 0;  ///< what it is aimed at [ns]
-    Pose X_SD, X_RT;        ///< as it came; smoothed
+    Nanoseconds ahead = 0;  ///< time for which the pose is predicted [ns]
+    Pose X_SD, X_RT;        ///< pose as sent, and smoothed in the rig
     double period = 0;      ///< between measurements, smoothed [s]
     std::optional<Pose> frozen{};
-    Pose from;  ///< where it was when it was heard of again
+    Pose from;  ///< pose when the tracker was heard again
     Nanoseconds found = 0;
     std::uint32_t buttons = 0;
     std::array<float, kTrackerAxes> axes{};
     std::vector<Change> changes;  ///< since the last frame
     // Of a device without a pose.
-    bool controlled = false;      ///< its buttons and axes count
-    Nanoseconds lastControl = 0;  ///< its last message about one [ns]
+    bool controlled = false;      ///< buttons and axes count, although the device has no pose
+    Nanoseconds lastControl = 0;  ///< last message about a button or an axis [ns]
     Nanoseconds lastChange = 0;   ///< the last one that changed something [ns]
     double beat = 0;              ///< between messages that change nothing [s]; 0: it sends changes only
-    std::optional<Nanoseconds> silentSince{};  ///< as it was told; nothing: it is heard, as far as was told
-    std::optional<Nanoseconds> toldSilent{};   ///< when that was the last time
+    /// Time of silence, as reported; nothing: the tracker was last reported as heard.
+    std::optional<Nanoseconds> silentSince{};
+    std::optional<Nanoseconds> toldSilent{};  ///< when that was the last time
   };
 
   Channel* channel(std::string_view name);
   bool refuse() { return ++counts_.refused, false; }
   bool heard(const Channel& c, Nanoseconds clock) const;
-  /// Whether it is there without a pose.
+  /// Returns true if it is there without a pose.
   bool controlled(const Channel& c, Nanoseconds clock) const;
   bool there(const Channel& c, Nanoseconds clock) const { return heard(c, clock) || controlled(c, clock); }
   /// Returns the time of its measurement, for the samples at `clock`; 0 if it is long ago.
@@ -141,7 +142,7 @@ private:
 
   RigFile rig_;
   std::vector<Channel> channels_;
-  InputLog log_;  ///< what the last frames said, as a log would have it
+  InputLog log_;  ///< input of the last frames, as a log would contain it
   Nanoseconds lastClock_ = 0;
   FeedCounts counts_;
 };

@@ -4,7 +4,7 @@
 namespace stadion {
 
 inline constexpr const char* kHeadTracker = "head";  ///< the visitor's eyes
-inline constexpr const char* kWandTracker = "wand";  ///< what the visitor holds
-inline constexpr const char* kFootTracker = "foot";  ///< what the visitor kicks with
+inline constexpr const char* kWandTracker = "wand";  ///< the device in the visitor's hand
+inline constexpr const char* kFootTracker = "foot";  ///< the visitor's foot, for kicks
 
 }  // namespace stadion

@@ -21,7 +21,7 @@ Affine withScale(const Pose& X, const Affine& like);
 struct PoseKnot {
   Nanoseconds time = 0;  ///< show time [ns]
   Pose X;
-  bool jump = false;  ///< it did not move here: until `time` it stays where it was, from then on it is here
+  bool jump = false;  ///< a jump: before `time` the pose is that of the knot before, from then on it is X
 
   template <class Self, class Fields>
   static void fields(Self& k, Fields& f) {

@@ -17,7 +17,7 @@ extern const NodeType kLodType;
 
 class LodNode : public PlacedNode {
 public:
-  static constexpr double kBand = 0.1;  ///< of a range
+  static constexpr double kBand = 0.1;  ///< hysteresis, as a part of a range
 
   /// `children` in the order of the script; `ranges` growing [m], at least one.
   LodNode(NodeRef self, std::string name, PlaceAttributes place, std::vector<NodeRef> children,

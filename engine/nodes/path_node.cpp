@@ -139,7 +139,7 @@ void PathNode::restUntil(Nanoseconds time) {
   since_ = time;
 }
 
-// Each pass that it has missed is told; time that does not count has none.
+// Reports each pass that it has missed; time that does not count has none.
 bool PathNode::resume(Scene& scene) {
   const Nanoseconds now = scene.now();
   if (elapsed_ < 0 || elapsed_ > length() || since_ < 0 || since_ > now) return false;

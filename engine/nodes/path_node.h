@@ -54,7 +54,7 @@ protected:
 
 private:
   Nanoseconds length() const { return fromSeconds(keys_.back().time); }
-  /// What has passed up to `time` does not count.
+  /// Skips passes up to `time`: they do not count.
   void restUntil(Nanoseconds time);
   /// Lets what has passed up to `time` count: passes end, the path may.
   void advanceTo(Nanoseconds time, FrameContext& frame);
@@ -70,7 +70,7 @@ private:
   Switched switch_;
   Nanoseconds elapsed_ = 0;
   Nanoseconds since_ = 0;             ///< show time up to which elapsed_ counts
-  std::optional<Nanoseconds> putAt_;  ///< when it last put its target somewhere
+  std::optional<Nanoseconds> putAt_;  ///< time at which the node last placed its target
   std::vector<Nanoseconds> passed_;   ///< trace()'s own: where its way turns, since since_
 };
 

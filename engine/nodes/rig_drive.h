@@ -19,7 +19,7 @@
 namespace stadion {
 
 struct RigDrive {
-  /// What the devices say at one end of the piece.
+  /// The state of the devices at one end of the piece.
   struct End {
     double turn = 0, forward = 0;  ///< axes
     Vec3 p_RH = Vec3::Zero();      ///< head

@@ -23,7 +23,7 @@ protected:
   void onLeave(Scene& scene) override;
 
 private:
-  double eyeHeight_;  ///< of an untracked head [m]
+  double eyeHeight_;  ///< height of an untracked head [m]
 };
 
 /// `navigator`: the joypad moves the rig where the wand points, and turns it about the visitor's head, so

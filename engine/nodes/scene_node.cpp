@@ -116,7 +116,7 @@ constexpr AttributeSpec kSceneRows[] = {
 };
 
 constexpr EventSpec kSceneEvents[] = {{"loaded", "the sub-scene has appeared"},
-                                      {"unloaded", "the sub-scene has gone"}};
+                                      {"unloaded", "the sub-scene has been removed"}};
 
 constexpr CommandSpec kSceneCommands[] = {
     {"load", ArgumentKind::None, "load", "the scene appears after its `ready` time"},

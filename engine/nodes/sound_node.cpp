@@ -43,7 +43,7 @@ void SoundNode::publish(Scene& scene) {
 
 bool SoundNode::resume(Scene& scene) {
   if (!scene.sounds().isAt(handle_, placement())) return false;
-  // Each pass that it has missed is told.
+  // Reports each pass that it has missed.
   const bool repeats = switch_.on() && attributes_.loop;
   if (since_ < 0 || due_ < 0) return false;
   if (repeats && (scene.now() - due_) / attributes_.length > kMostPasses) return false;

@@ -21,7 +21,7 @@ class SoundNode : public PlacedNode {
 public:
   struct Attributes {
     std::string file;        ///< below the asset roots
-    Nanoseconds length = 0;  ///< of the file
+    Nanoseconds length = 0;  ///< length of the file
     double gain = 1, range = 0;
     bool loop = false;
   };
@@ -41,7 +41,7 @@ protected:
   void simulate(FrameContext& frame) override;
 
 private:
-  static constexpr Nanoseconds kShortestPass = 1'000'000;  ///< of a loop [ns]
+  static constexpr Nanoseconds kShortestPass = 1'000'000;  ///< shortest pass of a loop [ns]
 
   void startAt(Nanoseconds when, Scene& scene);
   /// Lets the passes that end up to `time` count.
@@ -51,10 +51,10 @@ private:
 
   Attributes attributes_;
   Switched switch_;
-  Nanoseconds since_ = 0;  ///< when it was started
+  Nanoseconds since_ = 0;  ///< start time
   Nanoseconds due_ = 0;    ///< when its present pass ends
   std::size_t handle_ = 0;
-  bool heard_ = false;  ///< as it was published last
+  bool heard_ = false;  ///< the sound was heard in the last published frame
 };
 
 }  // namespace stadion

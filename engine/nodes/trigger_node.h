@@ -77,13 +77,13 @@ private:
   std::string tracker_;  ///< "head" for a usertrigger
   Switched switch_;
   bool inside_ = false;
-  bool looked_ = false;       ///< what follows is valid
+  bool looked_ = false;       ///< the members below are valid
   Nanoseconds seen_ = 0;      ///< show time of the last look; while not looked_, from when on to look [ns]
   Vec3 last_ = Vec3::Zero();  ///< visitor in the node's coordinates
-  Vec3 p_RV_ = Vec3::Zero();  ///< and in the rig
-  Affine X_NR_ = Affine::Identity();  ///< at the end of the frame before
+  Vec3 p_RV_ = Vec3::Zero();  ///< visitor in the rig
+  Affine X_NR_ = Affine::Identity();  ///< rig to node at the end of the frame before
   std::uint32_t buttons_ = 0;
-  std::uint32_t pressed_ = 0;       ///< of these, the ones of which a press was reported
+  std::uint32_t pressed_ = 0;       ///< buttons of `buttons_` whose press was reported
   PoseTrack way_;                   ///< wayInRig()'s answer
   std::vector<Nanoseconds> stops_;  ///< look()'s own
 };

@@ -103,7 +103,7 @@ public:
   // The words of the line.
 
   const Word& keyword() const { return lines_.words()[0]; }
-  /// Whether the line has another word.
+  /// Returns true if the line has another word.
   bool more() const { return next_ < lines_.words().size(); }
   /// The next word, without taking it; null at the line's end.
   const Word* peek() const { return more() ? &lines_.words()[next_] : nullptr; }
@@ -150,7 +150,7 @@ public:
   void errorAtEnd(std::string message) { lines_.error(lines_.endColumn(), std::move(message)); }
   /// An error at a word that is none of `known`: `"WORD" PROBLEM`, and what was meant or what is known.
   void unknown(const Word& at, std::string_view problem, const std::vector<std::string>& known);
-  /// Whether an error of this file was reported.
+  /// Returns true if an error of this file was reported.
   bool failed() const { return lines_.failed() || failed_; }
 
 private:

@@ -21,7 +21,7 @@ namespace stadion {
 
 struct Word {
   std::string_view text;
-  std::uint32_t column = 0;  ///< of its first character, from 1
+  std::uint32_t column = 0;  ///< column of the word's first character, from 1
 };
 
 class LineReader {

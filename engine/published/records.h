@@ -26,18 +26,18 @@ using InstanceId = std::uint32_t;
 using ChunkId = std::uint32_t;
 constexpr ChunkId kNoChunk = 0;
 
-constexpr std::size_t kMostLights = 16;    ///< that shine at a time; the scene chooses them
+constexpr std::size_t kMostLights = 16;  ///< limit of the lights that shine at a time; the scene chooses them
 constexpr std::size_t kMostChunks = 4096;  ///< shown at a time; objects of further files are instances
 
-/// One thing to draw.
+/// An instance: a mesh to draw.
 struct InstanceRecord {
   double model[12];  ///< X_WN (3 x 4), row major; a copy, since Cull reads it while App moves the node
-  double centre[3];  ///< of the bounding sphere in World [m]
+  double centre[3];  ///< centre of the bounding sphere in World [m]
   float radius;      ///< [m]; < 0 = not there
   MeshId mesh;
   std::uint32_t flags;
   NodeRef owner;    ///< for profiling
-  float lodFactor;  ///< it counts as so many times farther away; 0 = its mesh has no simplified levels
+  float lodFactor;  ///< factor of the distance for levels of detail; 0 = the mesh has no simplified levels
 
   static constexpr std::uint32_t kShown = 1, kTransparent = 2;
 };
@@ -49,7 +49,7 @@ InstanceRecord makeInstance(const Affine& X_WN, const Mesh& mesh, MeshId id, boo
 /// Where the instance is: its matrix, and the sphere around it. Leaves the rest of the record as it is.
 /// Both forms compute the same bits, so it does not matter which of them published an instance.
 void placeInstance(InstanceRecord& record, const Affine& X_WN, const Sphere& sphere_N);
-/// The same of a matrix's rows, when its sphereScale() is known.
+/// Places an instance by the rows of a matrix whose sphereScale() is known.
 inline void placeInstance(InstanceRecord& r, const std::array<double, 12>& m, double scale,
                           const Sphere& sphere_N) {
   std::memcpy(r.model, m.data(), sizeof r.model);
@@ -90,7 +90,7 @@ struct ViewerRecord {
   void set(const Pose& X_WR, const Pose& X_RH);
 };
 
-/// What changed in one frame.
+/// The changes of a frame.
 struct ChangeSet {
   struct Instance {
     InstanceId id;
@@ -118,7 +118,7 @@ struct ChangeSet {
 
   TimeSignature signature;
   Sink* sink = nullptr;             ///< where instances go; null: they stay here
-  std::vector<Instance> instances;  ///< those that the sink has not taken
+  std::vector<Instance> instances;  ///< instances that the sink has not taken
   std::vector<Chunk> chunks;
   std::vector<StaticItem> statics;
   bool lightsChanged = false;

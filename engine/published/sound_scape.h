@@ -22,7 +22,7 @@ struct SoundRecord {
   double gain = 1;   ///< from 0 to 1
   double range = 0;  ///< how far it is heard [m]; 0: everywhere alike, from no direction
   bool loop = false;
-  Nanoseconds since = 0;  ///< when it began; another time is another beginning
+  Nanoseconds since = 0;  ///< start time; a new start time is a new start
 };
 
 /// All sounds that play, and where they are heard.

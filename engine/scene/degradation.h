@@ -25,7 +25,7 @@ class Degradation {
 public:
   /// The time for which a node's cycle runs.
   struct Turn {
-    TimeSignature now;  ///< its step includes the frames that the node missed
+    TimeSignature now;  ///< signature whose step includes the frames that the node missed
     bool rested;        ///< the node's own time stood still up to this frame's start
   };
 
@@ -34,7 +34,7 @@ public:
 
   // For nodes.
 
-  /// What the node must do without, because it or something above it costs too much.
+  /// Returns how far the node is degraded, because it or a node above it costs too much.
   NodeDegradation of(NodeRef node) const {
     if (degraded_.empty()) return {};
     const auto at = degraded_.find(node);
@@ -46,13 +46,13 @@ public:
   // For the scene.
 
   void apply(const TimeSignature& now);
-  /// Whether any node must do without something.
+  /// Returns true if any node is degraded.
   bool any() const { return !degraded_.empty(); }
-  /// Whether the node's cycle does not run in this frame. If so, notes once what the node misses.
+  /// Returns true if the node's cycle does not run in this frame. If so, notes once what the node misses.
   bool putOff(Node& node);
   /// Keeps a node waiting that was woken and is put off.
   void keepWaiting(NodeRef node) { waiting_.insert(node); }
-  /// Calls `wake` for each waiting node that is put off no longer, also if it is gone.
+  /// Calls `wake` for each waiting node that is put off no longer, also if it was removed.
   template <class Wake>
   void wakeWaiting(const Wake& wake) {
     std::erase_if(waiting_, [&](NodeRef ref) {
@@ -91,8 +91,8 @@ private:
   Placements& placements_;
   Instances& instances_;
   const SceneTime& time_;
-  std::map<NodeRef, std::uint32_t> levels_;      ///< of the nodes that were decided about
-  std::map<NodeRef, NodeDegradation> degraded_;  ///< of these and all below them
+  std::map<NodeRef, std::uint32_t> levels_;      ///< levels of the nodes with a decision
+  std::map<NodeRef, NodeDegradation> degraded_;  ///< degradation of these nodes and of all below them
   std::uint64_t treeVersion_ = 0;                ///< the tree's when degraded_ were found
   std::uint32_t stressLevel_ = 0;
   std::set<NodeRef> waiting_;       ///< woken and put off

@@ -26,7 +26,7 @@ public:
     const auto at = std::find_if(first, last, [&](const auto& w) { return w.second == watcher; });
     if (at != last) watchers_.erase(at);
   }
-  /// Whether an impact may be of interest in this frame. If not, dynamics need not note any.
+  /// Returns true if an impact may be of interest in this frame. If not, dynamics need not note any.
   bool wanted() const { return !watchers_.empty() || mayBegin_; }
   void note(const Impact& impact) {
     bool watched = false;

@@ -38,7 +38,7 @@ public:
   void setDrawn(InstanceId id, bool drawn);
   /// Sets what the instance shows; kNoMesh = nothing.
   void setMesh(InstanceId id, MeshId mesh);
-  /// Whether the instance exists and belongs to `owner`; nodes ask this when they are restored.
+  /// Returns true if the instance exists and belongs to `owner`; nodes ask this when they are restored.
   bool owns(InstanceId id, NodeRef owner) const {
     return id < all_.size() && all_[id].live && all_[id].owner == owner;
   }
@@ -67,19 +67,20 @@ public:
   bool consistent() const;
   /// After state() has restored: finds the meshes again and marks all instances.
   void resume();
-  /// Whether every instance has found its mesh.
+  /// Returns true if every instance has found its mesh.
   bool complete() const;
 
 private:
   static constexpr InstanceId kNone = ~InstanceId{0};
   struct Instance {
-    const Mesh* form = nullptr;  ///< what `mesh` names; null = nothing
+    const Mesh* form = nullptr;  ///< mesh with the id `mesh`; null = none
     PlacementId placement = kNoPlacement;
     MeshId mesh = kNoMesh;
     NodeRef owner;
     InstanceId next = kNone;  ///< at the same placement
     bool drawn : 1 = true, live : 1 = false, changed : 1 = false;
-    bool transparent : 1 = false, leveled : 1 = false;  ///< of its form; leveled: it has simplified levels
+    /// Properties of the mesh; leveled: it has simplified levels.
+    bool transparent : 1 = false, leveled : 1 = false;
 
     template <class Self, class Fields>
     static void fields(Self& i, Fields& f) {

@@ -31,7 +31,7 @@ public:
   std::size_t add(PlacementId placement, const LightRecord& local, NodeRef node);
   void set(std::size_t handle, const LightRecord& local, bool on);
   void remove(std::size_t handle);
-  /// Whether the light exists and belongs to `node`; nodes ask this when they are restored.
+  /// Returns true if the light exists and belongs to `node`; nodes ask this when they are restored.
   bool owns(std::size_t handle, NodeRef node) const {
     return handle < lights_.size() && lights_[handle].live && lights_[handle].node == node;
   }
@@ -48,7 +48,7 @@ public:
   void moved(std::span<const PlacementId> placements) {
     for (std::size_t i = 0; i < placements.size() && !at_.empty(); ++i) moved(placements[i]);
   }
-  /// Whether publish() has anything to do.
+  /// Returns true if publish() has anything to do.
   bool due() const { return changed_ || !shining_.empty(); }
   /// Publishes all lights that shine, if they changed. The head is at p_WH.
   void publish(const Vec3& p_WH, ChangeSet& changes);
@@ -93,10 +93,10 @@ private:
   std::vector<std::uint32_t> at_;  ///< number of lights by placement
   bool changed_ = true;
   std::vector<std::size_t> wanted_;   ///< handles of lights that are on and shown
-  std::vector<std::size_t> chosen_;   ///< of these, at most kMostLights
+  std::vector<std::size_t> chosen_;   ///< handles in `wanted_` of the lights that shine, at most kMostLights
   std::vector<std::size_t> shining_;  ///< published last, while more than kMostLights are wanted
   std::vector<std::pair<double, std::size_t>> brightest_;
-  bool warned_ = false;     ///< of too many lights
+  bool warned_ = false;     ///< a warning of too many lights has been given
   std::vector<Sky> skies_;  ///< the last one is seen
 };
 

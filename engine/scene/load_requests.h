@@ -40,7 +40,7 @@ public:
   std::uint32_t load(const std::string& file, NodeRef owner, const Affine& X_WO, Nanoseconds at);
   /// A load that has not arrived yet is removed as soon as it arrives.
   void unload(std::uint32_t number, Nanoseconds at) { pending_.push_back({at, number, false}); }
-  /// Whether that load was requested and has not taken effect yet.
+  /// Returns true if that load was requested and has not taken effect yet.
   bool awaits(std::uint32_t number) const;
   bool nonePending() const { return pending_.empty(); }
 
@@ -52,7 +52,7 @@ public:
   void announceUnloads(Nanoseconds now, SceneTree& tree) const;
   /// Drops what is pending for that load.
   void drop(std::uint32_t number);
-  /// Forgets what a load was requested with: it failed or is gone.
+  /// Forgets the request of a load that failed or was removed.
   void forget(std::uint32_t number) { asked_.erase(number); }
 
   /// Sets the show's own file, which each machine knows by itself: snapshots do not contain its path.
@@ -62,11 +62,11 @@ public:
   /// After state() has restored: asks the loader for all files again.
   void requestAgain(StateFields& f);
   bool asked(std::uint32_t number) const { return asked_.contains(number); }
-  /// Whether restored requests fit the loads of the tree.
+  /// Returns true if restored requests fit the loads of the tree.
   bool consistent(const SceneTree& tree) const;
 
 private:
-  /// What a load was requested with.
+  /// The arguments of a request for a load.
   struct Asked {
     std::string file;
     NodeRef owner;

@@ -38,11 +38,11 @@ struct LoadedScene {
   std::string file;
   std::uint64_t script = 0;  ///< hash of what is in it
   NodeRef owner;             ///< the scene node that asked for it; invalid = the show itself
-  Nanoseconds since = 0;     ///< when it was installed [ns]
-  Nanoseconds until =
-      std::numeric_limits<Nanoseconds>::max();  ///< when it goes, once that is in the present frame
+  Nanoseconds since = 0;     ///< time of installation [ns]
+  /// Time of unloading [ns], once that is in the present frame.
+  Nanoseconds until = std::numeric_limits<Nanoseconds>::max();
 
-  Affine X_WO = Affine::Identity();  ///< where its owner was when it was asked for: statics are placed by it
+  Affine X_WO = Affine::Identity();  ///< owner at the request: places static objects
 
   std::vector<std::unique_ptr<Node>> nodes;              ///< by position in file; null for static objects
   std::vector<std::uint32_t> enterOrder;                 ///< positions of the nodes, parents first
@@ -52,12 +52,12 @@ struct LoadedScene {
   ChunkId chunk = kNoChunk;
   bool chunkShown = false;                       ///< set by the scene's publisher
   std::span<const InstanceRecord> chunkRecords;  ///< in published memory, immutable
-  const NodeType* staticType = nullptr;          ///< of its static objects, if there are any
+  const NodeType* staticType = nullptr;          ///< type of the static objects, if there are any
   std::vector<StaticObject> statics;             ///< parallel to chunkRecords, ordered by position
   std::vector<std::pair<std::uint32_t, const std::string*>>
       staticNames;                           ///< position to key in `names`, of those that have one, in order
   std::map<std::uint32_t, NodeTerms> terms;  ///< position to what a node may cost, of those that say so
-  std::vector<MeshId> meshes;                ///< each counted once, released with the load
+  std::vector<MeshId> meshes;  ///< meshes of the load, each counted once; released with the load
 
   /// Of a static object.
   std::string nameOf(const StaticObject& object) const {
@@ -79,8 +79,9 @@ public:
   virtual ~SceneLoader() = default;
   /// Begins to prepare `file` as load `number`, below `owner`, which is at X_WO now.
   virtual void request(std::uint32_t number, const std::string& file, NodeRef owner, const Affine& X_WO) = 0;
-  /// Whether the load, which is due, takes effect in the frame of show time `now`. If it always does, take()
-  /// waits for late loads. If not (live shows and their replays), the scene asks again in the next frame.
+  /// Returns true if the load, which is due, takes effect in the frame of show time `now`. If it always does,
+  /// take() waits for late loads. If not (live shows and their replays), the scene asks again in the next
+  /// frame.
   virtual bool takesEffect(std::uint32_t number, Nanoseconds now) {
     static_cast<void>(number), static_cast<void>(now);
     return true;

@@ -7,8 +7,8 @@
 /// itself is not drawn: it publishes an instance record through the scene.
 ///
 /// Ownership  the scene owns every installed node.
-/// Threads    App only, except compute(): a thread of the worker pool may run it. The loader thread constructs
-///            nodes and owns them until they are installed.
+/// Threads    App only, except compute(): a thread of the worker pool may run it. The loader thread
+///            constructs nodes and owns them until they are installed.
 /// Errors     resume() returns false if the restored state does not fit; no other function fails.
 
 #include "engine/core/event.h"
@@ -29,13 +29,13 @@ class Scene;
 class StateFields;
 struct InputSample;
 
-/// What a node may look at during its cycle.
+/// The surroundings of a node during its cycle.
 struct FrameContext {
-  const TimeSignature& now;  ///< the frame advances the show from now.time - now.step to now.time; of
-                             ///< nodes that run more seldom the step is that since their last cycle
+  const TimeSignature& now;  ///< the frame advances the show from now.time - now.step to now.time. If
+                             ///< the node skipped frames, the step begins at its last cycle
   const InputSample& input;  ///< trackers at now.time
   Scene& scene;
-  bool rested = false;  ///< the node did not run up to this frame's start, and its own time stood still
+  bool rested = false;          ///< the node rested until this frame's start, and its own time stood still
   FrameProbe* probe = nullptr;  ///< receives the costs; null: they are not measured
 
   Nanoseconds start() const { return now.time - now.step; }
@@ -48,7 +48,7 @@ struct FrameContext {
 /// position in file).
 enum class Rank : std::uint8_t { Input, Attachment, Motion, Sensing, Dynamics, Contact, Outcome };
 
-/// One `eventmessage` of a node: what it posts when something happens to it.
+/// An `eventmessage` of a node: the message that it posts at an event.
 struct Notification {
   Event event{};
   std::string target;  ///< name or path, resolved from the file the node stands in
@@ -72,15 +72,16 @@ public:
   const std::string& name() const { return name_; }
   /// The node, if it has a place in the world; else nullptr.
   virtual PlacedNode* placed() { return nullptr; }
-  /// What the node has missed since its last cycle: nothing, frames that it makes up for, or also time.
+  /// The part of the show that a node has missed since its last cycle: nothing, frames that it makes up for,
+  /// or also time.
   enum class Missed : std::uint8_t { Nothing, Frames, Time };
-  /// What the scene notes about an installed node. Only the scene's parts use it.
+  /// The scene's notes about an installed node. Only the scene's parts use them.
   struct ScheduleState {
-    std::uint64_t hash = 0;  ///< its part of the state hash
+    std::uint64_t hash = 0;  ///< the node's term of the state hash
     bool busy = false;
-    bool touched = false;     ///< its state has changed since `hash` was computed
-    bool rests = false;       ///< it does not run, to save time (cost_budget.h)
-    std::uint8_t pace = 0;    ///< it runs in one of 2^pace frames
+    bool touched = false;     ///< the node's state has changed since `hash` was computed
+    bool rests = false;       ///< the node does not run, to save time (cost_budget.h)
+    std::uint8_t pace = 0;    ///< the node runs in one of 2^pace frames
     std::uint16_t level = 0;  ///< within its rank: a node comes after those that it looks at
     Missed missed{};
   };
@@ -106,14 +107,15 @@ public:
     raise(event, when);
     dispatch(frame);
   }
-  /// Whether the node may look at what `earlier` reports in this frame, and so can begin only after it.
+  /// Returns true if the node may look at what `earlier` reports in this frame, and so can begin only after
+  /// it.
   virtual bool awaits(const Node& earlier, const Scene& scene) const;
 
   /// Adds the nodes of the same rank that move what this node looks at.
   virtual void addMovers(const Scene&, std::vector<NodeRef>& /*movers*/) const {}
 
   virtual Rank rank() const { return Rank::Motion; }
-  /// Whether the node must be visited in the next frame even if no message arrives.
+  /// Returns true if the node must be visited in the next frame even if no message arrives.
   virtual bool busy() const { return false; }
   /// Adds every field that the show's future depends on.
   virtual void hash(StateHash&) const {}

@@ -106,7 +106,7 @@ private:
   Placements& placements_;
   Degradation& degradation_;
   VisitQueue queue_;
-  std::optional<Visit> current_;      ///< of the node whose cycle runs
+  std::optional<Visit> current_;      ///< visit of the node whose cycle runs
   std::vector<NodeRef> wokenLate_;    ///< after their turn: for the next round
   std::vector<NodeRef> wokenBefore_;  ///< callDue()'s own
   std::set<Alarm> alarms_;

@@ -6,7 +6,7 @@
 
 namespace stadion {
 
-/// What an object shows. The mesh is counted by its load, not by the node.
+/// The mesh and look of an object. The load counts the mesh as used, not the node.
 struct Appearance {
   MeshId mesh = kNoMesh;
   bool drawn = true;        ///< `draw=false` is not drawn and still collides

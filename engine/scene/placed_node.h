@@ -48,7 +48,7 @@ public:
   void rejoin(Scene& scene, const Affine& X_WP);
   bool attached() const { return follow_ != Held::Nothing; }
   bool follows(std::string_view tracker) const { return attached() && tracker_ == tracker; }
-  /// Whether a tracker or a dynamics node moves it; then no path does.
+  /// Returns true if a tracker or a dynamics node moves it; then no path does.
   virtual bool moved() const { return attached(); }
   /// Static objects are below this node. They must become nodes before it may move.
   void carryStatics() { carriesStatics_ = true; }
@@ -91,8 +91,8 @@ private:
   PlacementId placement_ = kNoPlacement;
   Held follow_ = Held::Nothing;
   std::string tracker_;
-  Nanoseconds traced_ = 0;  ///< its path along the tracker is known up to this time
-  bool arrived_ = false;    ///< it has reached the tracker
+  Nanoseconds traced_ = 0;  ///< show time up to which the path along the tracker is known
+  bool arrived_ = false;    ///< the node has reached the tracker
   bool shown_ = true;
   bool carriesStatics_ = false;
   /// Where it was last put, in World if it is held. The state hash needs this beside the placement, because

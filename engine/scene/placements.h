@@ -34,14 +34,14 @@ using PlacementId = std::uint32_t;
 constexpr PlacementId kWorldPlacement = 0;  ///< World itself: the identity, never moves
 constexpr PlacementId kNoPlacement = ~PlacementId{0};
 
-/// What hides a placement; it is shown while nothing hides it.
+/// The reasons to hide a placement; it is shown while there is none.
 enum class Hider : std::uint8_t {
   Author = 1,       ///< the script, and its messages
   Level = 2,        ///< an lod node above it draws another child
-  Degradation = 4,  ///< it costs too much
+  Degradation = 4,  ///< the node must save time
 };
 
-/// What of a placement is held in World.
+/// The parts of a placement's pose that are held in World.
 enum class Held : std::uint8_t { Nothing, Position, Orientation, All };
 constexpr Held lastOf(Held) {
   return Held::All;
@@ -83,24 +83,27 @@ public:
   /// Expects that its children are gone.
   void remove(PlacementId id);
 
-  /// Places it at X_PN below its parent, which carries it from now on.
+  /// Places the node at X_PN below its parent, which carries it from now on.
   bool setLocal(PlacementId id, const Affine& X_PN);
-  /// Makes a fleet of them. They stay where they are until it moves. `rule` lives until removeFleet().
+  /// Makes a fleet of the members, which keep their poses until the fleet moves. `rule` lives until
+  /// removeFleet().
   FleetId addFleet(const FleetRule& rule, std::span<const PlacementId> members);
-  /// They stay where they are.
+  /// Removes the fleet; its members keep their poses.
   void removeFleet(FleetId fleet);
-  /// All members have moved, except those that are attached.
+  /// Moves all members by the rule, except attached ones.
   void moveFleet(FleetId fleet);
   /// Calls visit(ids, places) for members that have moved with their fleets since the last call, a block at a
   /// time. kNoPlacement stands for a detached member. All of them are shown, and their parent is World.
   template <class Visit>
   void takeMovedFleets(const Visit& visit);
-  bool setWorld(PlacementId id, const Affine& X_WN);  ///< the same, so that it is at X_WN now
-  /// Holds it at X_WN, or only its position or orientation, until setLocal(), setWorld() or rejoin().
+  /// Sets the local pose so that the World pose becomes X_WN.
+  bool setWorld(PlacementId id, const Affine& X_WN);
+  /// Holds the placement at X_WN in World, or only its position or orientation, until setLocal(), setWorld()
+  /// or rejoin().
   bool hold(PlacementId id, const Affine& X_WN, Held part = Held::All);
-  /// Its parent carries it again, from where the two were when the parent was at X_WP.
+  /// Attaches the placement to its parent again, as the two stood when the parent was at X_WP.
   void rejoin(PlacementId id, const Affine& X_WP);
-  /// Sets whether a tracker or a dynamics node moves it; its fleet then does not.
+  /// Sets whether a tracker or a dynamics node moves the placement. If so, its fleet does not move it.
   void setAttached(PlacementId id, bool attached);
   Held held(PlacementId id) const { return entries_[id].held; }
   const Affine& world(PlacementId id) const;
@@ -119,9 +122,9 @@ public:
   /// From now on takeMovedWatched() returns this placement if it has moved.
   void watch(PlacementId id);
   bool anyWatched() const { return anyWatched_; }  ///< any placement, ever
-  /// Whether this placement or one below it has ever been watched.
+  /// Returns true if this placement or one below it has ever been watched.
   bool watchedBelow(PlacementId id) const { return entries_[id].watchedBelow; }
-  /// Those that have moved since the last call. Valid until the next one.
+  /// Returns the watched placements that have moved since the last call. Valid until the next call.
   const std::vector<PlacementId>& takeMovedWatched();
 
   /// Every other placement whose World matrix or visibility may have changed since the last call, each once.
@@ -139,14 +142,14 @@ private:
     PlacementId parent = kNoPlacement, firstChild = kNoPlacement, nextSibling = kNoPlacement,
                 previousSibling = kNoPlacement;
     Held held = Held::Nothing;
-    bool stale = false;    ///< its World matrix must be recomputed
+    bool stale = false;    ///< the World matrix must be recomputed
     bool changed = false;  ///< is in changed_
     std::uint8_t hiders = 0;
     bool live = false;
     bool watched = false, watchedBelow = false;
     bool attached = false;
     bool detached = false;     ///< from some fleet
-    FleetId fleet = kNoFleet;  ///< it moves with this fleet
+    FleetId fleet = kNoFleet;  ///< fleet that moves the placement
     std::uint32_t member = 0;
     std::uint32_t move = 0;  ///< the fleet's move after which its local matrix was written
 
@@ -173,7 +176,7 @@ private:
   };
   static constexpr std::size_t kFleetBlock = 64;
 
-  /// Whether its World matrix is the local one.
+  /// Returns true if its World matrix is the local one.
   static bool standsInWorld(const Entry& e) { return e.parent == kWorldPlacement && e.held == Held::Nothing; }
   Affine carriedBy(PlacementId id, const Affine& X_WP) const;
   void markBelow(PlacementId id, bool moved);

@@ -37,7 +37,7 @@ private:
   };
   const Known* above(PlacementId id, const Placements& placements) const;
 
-  std::deque<Known> pool_;  ///< their memory is used again from frame to frame
+  std::deque<Known> pool_;  ///< pool of tracks; their memory is used again from frame to frame
   std::uint32_t used_ = 0;
   std::vector<std::uint32_t> at_;  ///< by placement: which of the pool, from 1; 0 = none
 };

@@ -86,7 +86,7 @@ std::vector<Message> Scene::callRound(const TimeSignature& now) {
     m.target = tree_.resolveInside(m.target, m.targetInside);
     m.node = tree_.resolveInside(m.node, m.nodeInside);
   }
-  // A message that is due after its target has gone is lost.
+  // A message to a removed target is lost.
   std::erase_if(mail, [&](const Message& m) {
     const bool late = m.due > tree_.endOf(m.target.load);
     counters_.messagesLost += late;
@@ -279,7 +279,7 @@ void Scene::applyUnloads(const TimeSignature& now, FrameProbe* probe) {
 void Scene::install(std::unique_ptr<LoadedScene> arrived, Nanoseconds at) {
   if (arrived->owner.valid() && (!find(arrived->owner) || tree_.endOf(arrived->owner.load) <= at)) {
     requests_.forget(arrived->number);
-    loader_.dispose(std::move(arrived), 0);  // its scene node is gone
+    loader_.dispose(std::move(arrived), 0);  // its scene node was removed
     return;
   }
   LoadedScene& load = tree_.install(std::move(arrived));

@@ -47,7 +47,7 @@ struct FrameCounters {
   std::uint64_t nodesVisited = 0;
   std::uint64_t changesPublished = 0;  ///< instance records
   std::uint64_t messagesDelivered = 0;
-  std::uint64_t messagesLost = 0;  ///< their target is not loaded
+  std::uint64_t messagesLost = 0;  ///< messages whose target is not loaded
 };
 
 /// Something that happened in a frame, for observers of a run.
@@ -55,7 +55,7 @@ struct EventRecord {
   NodeRef node;
   Event event;
   Nanoseconds when;
-  std::optional<double> figure{};  ///< of a measurement: the distance [m]
+  std::optional<double> figure{};  ///< for a measurement: the distance [m]
 };
 
 class Scene : private SceneTree::Host {
@@ -84,7 +84,7 @@ public:
                Nanoseconds when);
   std::uint64_t stateHash() const;
   const FrameCounters& counters() const { return counters_; }
-  const std::vector<EventRecord>& events() const { return events_; }  ///< of the last frame, by time
+  const std::vector<EventRecord>& events() const { return events_; }  ///< events of the last frame, by time
 
   // Parts.
 

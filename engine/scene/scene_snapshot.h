@@ -23,7 +23,7 @@ public:
   /// Where two scenes differ.
   struct Difference {
     NodeRef node;       ///< the node with the field; invalid: the scene as a whole
-    std::string field;  ///< such as "velocity"
+    std::string field;  ///< name of the field, such as "velocity"
     std::string here, there;
   };
 

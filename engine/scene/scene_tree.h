@@ -27,7 +27,7 @@ class StateFields;
 
 class SceneTree {
 public:
-  /// What a scene does when static objects become nodes.
+  /// Receives the changes of static objects that become nodes.
   class Host {
   public:
     virtual ~Host() = default;
@@ -52,7 +52,8 @@ public:
   const LoadedScene* load(std::uint32_t number) const;
   LoadedScene* load(std::uint32_t number);
   const std::map<std::uint32_t, std::unique_ptr<LoadedScene>>& loads() const { return loads_; }
-  /// What the node is placed below: its parent, in a sub-scene at least the scene node; invalid = World.
+  /// Returns the node below which `ref` is placed: its parent, in a sub-scene at least the scene node.
+  /// Invalid = World.
   NodeRef parentOf(NodeRef ref) const;
   /// The placement of `parent` for a node in `child`'s file.
   PlacementId placementFor(NodeRef parent, NodeRef child);

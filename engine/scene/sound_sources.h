@@ -31,7 +31,7 @@ public:
     sources_[handle].sound = sound;
   }
   void remove(std::size_t handle) { sources_[handle] = {}; }
-  /// Whether the source exists at that placement; nodes ask this when they are restored.
+  /// Returns true if the source exists at that placement; nodes ask this when they are restored.
   bool isAt(std::size_t handle, PlacementId placement) const {
     return handle < sources_.size() && sources_[handle].live && sources_[handle].placement == placement;
   }

@@ -72,7 +72,7 @@ Element elementOf(const AttributeSpec& spec, std::size_t i) {
 
 /// What a number outside the range must be.
 std::string demand(const NumberRange& range, double x, std::string_view unit) {
-  constexpr double kMemorable = 1000;  // a range that an author can keep in mind is told whole
+  constexpr double kMemorable = 1000;  // a range that an author can keep in mind is listed whole
   constexpr double kNone = std::numeric_limits<double>::infinity();
   if (range.most <= kMemorable && range.least >= -kMemorable) return describe(range, unit);
   return x > range.most ? describe(NumberRange{-kNone, range.most}, unit)

@@ -38,7 +38,7 @@ struct BoxValue {
   Vec3 edges = Vec3::Zero();   ///< full lengths [m]
 };
 
-/// One declaration of a document. A light handle; pass it by value.
+/// A declaration of a document. A light handle; pass it by value.
 class Declaration {
 public:
   Declaration(const Document& document, std::uint32_t index) : document_(&document), index_(index) {}
@@ -48,20 +48,22 @@ public:
   const RegisteredType& type() const;
   NodeKind kind() const { return type().type().kind; }
   bool is(Trait trait) const { return type().has(trait); }
-  bool takes(Attr attr) const { return type().find(attr) != nullptr; }  ///< its type has this attribute
-  std::string_view name() const;                                        ///< empty if it has none
-  SourcePosition where() const;                                         ///< of the type word
-  std::uint32_t line() const;                                           ///< cheaper than where()
+  /// The declaration's type has this attribute.
+  bool takes(Attr attr) const { return type().find(attr) != nullptr; }
+  std::string_view name() const;  ///< empty if it has none
+  SourcePosition where() const;   ///< position of the type word
+  std::uint32_t line() const;     ///< cheaper than where()
 
   /// Offset in the text of the first value of this attribute, of the type word if it is not stated.
   std::uint32_t offset(Attr attr) const;
   bool has(Attr attr) const;  ///< stated in the script
   SourcePosition
-  where(Attr attr) const;  ///< of the value, of the first if repeated; of the type word if not stated
+  /// Position of the attribute's value, or of the first value if repeated; of the type word if not stated.
+  where(Attr attr) const;
   std::string excerpt(Attr attr) const;  ///< the line of where(attr), for a Diagnostic
 
   double number(Attr attr) const;
-  std::optional<double> optionalNumber(Attr attr) const;  ///< of an attribute without a standard value
+  std::optional<double> optionalNumber(Attr attr) const;  ///< number of an attribute without a standard value
   Vec3 vec3(Attr attr) const;                             ///< Vec3, Direction, Colour, Scale (always three)
   bool flag(Attr attr) const;
   std::string_view

@@ -22,13 +22,14 @@ namespace stadion {
 struct NodeReference {
   static constexpr std::uint32_t kNone = ~std::uint32_t{0};
 
-  std::string_view name;              ///< as written
-  std::uint32_t level = 0;            ///< 0: declared in this file; n: in the nth file around it
-  std::uint32_t declaration = kNone;  ///< of the name's first part, in that file; kNone if unresolved
-  std::uint32_t where = 0;            ///< offset in the source text
+  std::string_view name;    ///< as written
+  std::uint32_t level = 0;  ///< 0: declared in this file; n: in the nth file around it
+  /// Declaration of the name's first part, in that file; kNone if unresolved.
+  std::uint32_t declaration = kNone;
+  std::uint32_t where = 0;  ///< offset in the source text
 
   bool resolved() const { return declaration != kNone; }
-  /// What follows the first "/"; empty if the node is not inside a scene.
+  /// Returns the part of the name after the first "/"; empty if the node is not inside a scene.
   std::string_view inner() const {
     const std::size_t slash = name.find('/');
     return slash == name.npos ? std::string_view{} : name.substr(slash + 1);

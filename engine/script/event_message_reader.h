@@ -26,9 +26,10 @@ struct ReadMessage {
 std::vector<ValueError> readEventMessage(std::string_view text, const RegisteredType& sender,
                                          const NodeRegistry& types, ReadMessage& message);
 
-/// What is wrong with a word as a name, as the end of a sentence that begins with it, and where in it.
+/// Returns the fault of a word that shall be a name, with its place in the word. The text ends a sentence
+/// that begins with the word.
 std::optional<ValueError> faultOfName(std::string_view name);
-/// The same for a name that may lead into sub-scenes: parts separated by "/".
+/// Returns the fault of a name that may lead into sub-scenes: parts separated by "/".
 std::optional<ValueError> faultOfReference(std::string_view name);
 
 }  // namespace stadion

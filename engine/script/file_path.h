@@ -7,8 +7,8 @@
 
 namespace stadion {
 
-/// What is wrong with a path, as the end of a sentence that begins with the path; nothing if it is
-/// acceptable. Acceptable paths are relative, use "/", and lead neither out of the script's folder nor out of
+/// Returns the fault of a path; nothing if it is acceptable. The text ends a sentence that begins with the
+/// path. Acceptable paths are relative, use "/", and lead neither out of the script's folder nor out of
 /// `../assets`.
 std::optional<std::string> faultOfPath(std::string_view path);
 

@@ -10,7 +10,8 @@ namespace stadion {
 
 /// The whole language: how a script is written, every node type, every event and command.
 std::string languageReference(const NodeRegistry& types);
-/// One node type: its attributes with form, unit, range and standard value, its events, its commands.
+/// Returns the reference of a node type: its attributes with form, unit, range and standard value, its
+/// events, its commands.
 std::string languageReference(const NodeRegistry& types, const RegisteredType& node);
 
 /// A TextMate grammar (JSON) that colours node types, attributes, values and comments.

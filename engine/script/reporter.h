@@ -8,7 +8,7 @@ namespace stadion {
 
 class Reporter {
 public:
-  static constexpr std::size_t kMost = 100;  ///< of errors and warnings each
+  static constexpr std::size_t kMost = 100;  ///< limit of the number of errors, and of warnings
 
   /// Expects that both outlive the reporter.
   Reporter(const SourceText& source, Diagnostics& findings) : source_(source), findings_(findings) {}

@@ -35,7 +35,7 @@ struct Surroundings {
 /// parsed.
 void resolveNames(Document& document, const Surroundings& surroundings, Diagnostics& findings);
 
-/// Both steps for a script that stands alone; findings are in the order of the lines.
+/// Parses a script that stands alone and resolves its names. Findings are in the order of the lines.
 Document checkScript(SourceText source, const NodeRegistry& types, Diagnostics& findings);
 
 /// File by file in the order of their first finding, in each by line and column.

@@ -29,17 +29,18 @@ class ScriptTexts {
 public:
   static std::shared_ptr<const ScriptTexts> read(const std::string& script, const AssetRoots& roots,
                                                  const NodeRegistry& types);
-  /// One file that a scene node names, as it is on disk now. Errors say where it was looked for.
+  /// Reads a file that a scene node names, as it is on disk now. Errors say where it was looked for.
   static Result<SourceText> readPart(const std::string& name, const AssetRoots& roots);
 
   Result<SourceText> show() const { return show_; }
   /// A part that no script had named then is an error.
   Result<SourceText> part(const std::string& name) const;
-  /// The same, where the text of a large one was left out: it is read again, and must be what it was.
+  /// Returns the text of a part. If the text of a large one was left out, reads the file again, which must
+  /// not have changed.
   Result<SourceText> part(const std::string& name, const AssetRoots& roots) const;
-  /// The same without the show's own file, which is read once: a big one need not be kept.
+  /// Returns the texts without the show's own file, which is read once: a big one need not be kept.
   std::shared_ptr<const ScriptTexts> withoutShow() const;
-  /// The same without the text of a part, if that is large.
+  /// Returns the texts without the text of a part, if that is large.
   std::shared_ptr<const ScriptTexts> without(const std::string& name) const;
   /// The names of all parts.
   std::vector<std::string> parts() const;

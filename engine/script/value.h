@@ -18,7 +18,7 @@ struct ValueError {
 struct NumberList {
   std::array<double, 7> value{};
   std::size_t count = 0;
-  std::array<std::size_t, 7> offset{};  ///< of each in the text
+  std::array<std::size_t, 7> offset{};  ///< offset of each number in the text
 };
 
 /// Numbers separated by blanks, by commas, or by both. `what` names the value in messages.
@@ -27,7 +27,7 @@ std::optional<ValueError> readNumbers(std::string_view text, NumberList& numbers
 
 std::optional<bool> readFlag(std::string_view text);
 
-/// One part of a text between separators, blanks at both ends left out.
+/// A part of a text between separators, without blanks at both ends.
 struct Piece {
   std::string_view text;
   std::size_t offset = 0;  ///< in the whole text

@@ -12,7 +12,7 @@
 
 namespace stadion {
 
-constexpr double kStrokeWidth = 14;  ///< of every stroke [hundredths]
+constexpr double kStrokeWidth = 14;  ///< width of every stroke [hundredths]
 constexpr double kLineHeight = 160;  ///< from line to line [hundredths]
 constexpr double kDescent = 32;      ///< how far letters reach below the line [hundredths]
 
@@ -33,7 +33,7 @@ struct Glyph {
 
 /// Null if the font has no such character.
 const Glyph* findGlyph(char32_t character);
-/// What stands for a character that is not in the font: a box.
+/// Returns the glyph for a character that is not in the font: a box.
 const Glyph& missingGlyph();
 
 /// An accent, drawn about x = 0, for small letters; above capitals it is moved up by kMarkRise.
@@ -44,7 +44,7 @@ constexpr double kMarkRise = 30;
 struct DrawnCharacter {
   const Glyph* glyph = nullptr;
   char32_t mark = 0;
-  bool raised = false;   ///< its accent stands above a capital
+  bool raised = false;   ///< the accent stands above a capital
   bool missing = false;  ///< the font lacks it
 };
 DrawnCharacter drawn(char32_t character);
@@ -54,8 +54,8 @@ double kerning(const Glyph& left, const Glyph& right);
 
 /// The characters of a text, which must be UTF-8; what is not becomes U+FFFD.
 std::vector<char32_t> charactersOf(std::string_view utf8);
-/// Those of a text that the font lacks, each once, in the order in which they come. Line ends are no
-/// characters.
+/// Returns the characters of a text that the font lacks, each once, in the order of the text. Line ends are
+/// no characters.
 std::vector<char32_t> missingFrom(std::string_view utf8);
 
 }  // namespace stadion

@@ -10,7 +10,7 @@ namespace stadion {
 namespace {
 
 constexpr double kMargin = 50;     // of the board around the letters [hundredths of a capital]
-constexpr double kGap = 5;         // between flat letters and the board, so that they are told apart far away
+constexpr double kGap = 5;         // between flat letters and the board, so that depths differ far away
 constexpr double kThickness = 15;  // of the board
 constexpr float kShade = 0.45f;    // of the letters' sides, beside their front
 

@@ -18,10 +18,10 @@ namespace stadion {
 enum class TextAlign : std::uint8_t { Left, Centre, Right };  ///< text: align
 
 struct TextStyle {
-  double size = 0.5;                                 ///< height of a capital [m]
-  double depth = 0;                                  ///< of the letters, away from the reader [m]; 0 = flat
-  std::array<float, 3> colour{1, 1, 1};              ///< linear
-  std::optional<std::array<float, 3>> background{};  ///< of a board behind the letters, linear
+  double size = 0.5;                     ///< height of a capital [m]
+  double depth = 0;                      ///< depth of the letters, away from the reader [m]; 0 = flat
+  std::array<float, 3> colour{1, 1, 1};  ///< linear
+  std::optional<std::array<float, 3>> background{};  ///< colour of a board behind the letters, linear
   TextAlign align = TextAlign::Centre;
   bool lit = false;  ///< lit like any surface; else it shows its colour in any light
 };

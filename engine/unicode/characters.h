@@ -29,7 +29,7 @@ std::string withoutHidden(std::string_view text);
 
 /// "U+200B ZERO WIDTH SPACE", or the number alone if its name is not known here.
 std::string nameOf(char32_t code);
-/// The same of the character that `text` begins with.
+/// Returns the name of the character that `text` begins with.
 std::string nameOfFirst(std::string_view text);
 
 /// Returns the look of a word: letters that look alike replaced by one of them, accents separated from their

@@ -27,9 +27,10 @@ struct Named {
 
 extern const std::span<const Range> kBlanks;   ///< empty, but as wide as a letter; not the ASCII blank
 extern const std::span<const Range> kNothing;  ///< no sign at all: ignorable, format and control characters
-extern const std::span<const Range> kViramas;  ///< of Indic scripts: joins the consonants around it
-extern const std::span<const Range> kMarks;    ///< stand above, below or around the letter before
-extern const std::span<const Range> kWide;     ///< twice as wide as a Latin letter in a terminal
+/// Viramas of Indic scripts: they join the consonants around them.
+extern const std::span<const Range> kViramas;
+extern const std::span<const Range> kMarks;  ///< stand above, below or around the letter before
+extern const std::span<const Range> kWide;   ///< twice as wide as a Latin letter in a terminal
 extern const std::span<const Alike> kAlike;
 extern const std::span<const Composed> kComposed;
 extern const std::span<const Named> kNames;

@@ -37,9 +37,6 @@ int fail(const std::string& why) {
 
 int main(int argc, char** argv) {
   if (argc != 4) return fail("usage: play_show SHOW.evs NODE PICTURE.png");
-  // The software rasteriser reads its settings once: before any thread starts.
-  if (const auto wrong = pinRasteriser()) return fail(format(*wrong));
-
   ShowOptions options;
   options.script = argv[1];
   options.walls = "desktop";
@@ -52,11 +49,11 @@ int main(int argc, char** argv) {
   for (const Diagnostic& d : findings.all()) std::fprintf(stderr, "%s\n", format(d).c_str());
   if (!player) return fail("the show cannot be played");
 
-  const auto provider = openOsMesa();
-  if (!provider) return fail(format(provider.error()));
+  const auto renderer = ShowRenderer::open({RendererChoice::Cpu});
+  if (!renderer) return fail(format(renderer.error()));
   LastPicture sink;
   ShowParts parts = player->parts(StereoLayout::Off);
-  parts.provider = provider.value().get();
+  renderer.value()->drawFor(parts);
   parts.sink = &sink;
   parts.drawUnseen = false;
 

@@ -37,8 +37,8 @@ using StatePart = stadion_wire_StatePart;
 enum class Phase : std::uint8_t {
   Waiting,  ///< for a session, or opening the show
   Asking,   ///< the show is under way, and the node needs the scene's state
-  Ready,    ///< it has applied all orders that it knows of
-  Leaving,  ///< it plays no longer
+  Ready,    ///< the node has applied all orders that it knows of
+  Leaving,  ///< the node plays no longer
 };
 
 /// No node; stands in place of a node's number (Session::giver).

@@ -42,8 +42,8 @@ struct ClusterNode {
   std::string name;
   std::vector<std::string> walls;
   std::uint32_t line = 0;                    ///< in the file
-  std::vector<std::uint32_t> wallColumns{};  ///< of each wall
-  std::string excerpt{};                     ///< that line
+  std::vector<std::uint32_t> wallColumns{};  ///< column of each wall's name
+  std::string excerpt{};                     ///< text of line `line`
 };
 
 struct ClusterFile {

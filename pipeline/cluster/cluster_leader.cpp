@@ -129,12 +129,12 @@ std::optional<ShowUnderWay> ClusterLeader::takeOver() {
     if (!isTime(transfer.time)) continue;
     session_.giver = kNoNode;
     pending_.signature.frame = transfer.frame, pending_.signature.time = transfer.time;
-    pending_.standsAfter = transfer.still, pending_.shown = transfer.shown;
+    pending_.standsAfter = transfer.still, pending_.presentation = transfer.presentation;
     options_.tell(
         fmt::format("the show goes on after frame {}, with the scene of {}", transfer.frame, nameOf(*node)));
     return ShowUnderWay{pending_.signature,
                         std::make_shared<const std::vector<std::uint8_t>>(std::move(transfer.scene.bytes)),
-                        transfer.scene.files, transfer.still, transfer.shown};
+                        transfer.scene.files, transfer.still, transfer.presentation};
   }
   if (session_.resumes != 0 && !double_)
     options_.tell("the others play, but none sends its scene: the show restarts");
@@ -235,7 +235,7 @@ void ClusterLeader::answerRequests() {
     const std::lock_guard lock(mutex_);
     transfer.session = session_.number, transfer.serial = serial_;
     transfer.frame = pending_.signature.frame, transfer.time = pending_.signature.time;
-    transfer.still = pending_.standsAfter, transfer.shown = pending_.shown;
+    transfer.still = pending_.standsAfter, transfer.presentation = pending_.presentation;
     const bool underWay = serial_ > 0 || session_.resumes != 0;
     for (std::size_t i = 0; i < followers_.size() && underWay; ++i) {
       Follower& f = followers_[i];

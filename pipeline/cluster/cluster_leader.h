@@ -43,19 +43,19 @@ struct LeaderOptions {
 
 /// The operator's choice about nodes that have not come.
 enum class WaitDecision {
-  Lasts,
-  Ends,     ///< the show is to begin without them
-  GivesUp,  ///< it is not to begin
+  Lasts,    ///< the leader goes on waiting for the missing nodes
+  Ends,     ///< the show starts without the missing nodes
+  GivesUp,  ///< the show does not start
 };
 using OperatorDecision = std::function<WaitDecision(bool told)>;
 
 /// A show that the other nodes play already.
 struct ShowUnderWay {
-  TimeSignature last;                                      ///< of the last frame before the show continues
-  std::shared_ptr<const std::vector<std::uint8_t>> state;  ///< of its scene
+  TimeSignature last;                                      ///< last frame before the show continues
+  std::shared_ptr<const std::vector<std::uint8_t>> state;  ///< snapshot of the scene
   std::uint64_t files = 0;                                 ///< Scene::files()
   Standstill still{};                                      ///< whether the show stood still
-  Presentation shown{};                                    ///< how that frame was shown
+  Presentation presentation{};                             ///< how that frame was shown
 };
 
 class ClusterLeader final : public FrameOrders, public BusListener {
@@ -80,7 +80,7 @@ public:
   /// The nodes that played with us at the end or shortly before, one bit each. Call it after finish().
   std::uint32_t played() const;
   bool hasBegun() const;
-  std::uint64_t session() const;  ///< its number
+  std::uint64_t session() const;  ///< number of the session
   /// Wraps the show's input: each sample also goes to all nodes. `inner` must outlive it.
   InputDevice& input(InputDevice& inner);
   /// Sets how the scene's state is saved, between two frames.
@@ -116,16 +116,16 @@ private:
     std::uint64_t incarnation = 0;  ///< 0: the node is absent
     std::uint64_t session = 0;      ///< the session that it is in; 0: none
     std::uint64_t plays = 0;        ///< the session of its scene; 0: it has none
-    std::uint64_t serial = 0;       ///< of the last order that its scene has applied
+    std::uint64_t serial = 0;       ///< last order that the node's scene has applied
     std::uint64_t show = 0;         ///< CompatibilityKey::show() of that session
     Phase phase = Phase::Waiting;
     bool member = false, asks = false;
-    bool differs = false;  ///< its scene, and the node has not joined again since
+    bool differs = false;  ///< the node's scene differs from ours, and the node has not joined again since
   };
   /// The last sample from a node, present or not.
   struct Word {
     std::uint64_t incarnation = 0, count = 0;
-    std::optional<Clock::time_point> gone{};  ///< when it stopped playing
+    std::optional<Clock::time_point> gone{};  ///< time at which the node stopped playing
   };
   /// An order that not all nodes have drawn.
   struct OrderEpoch {
@@ -163,7 +163,7 @@ private:
   std::deque<OrderEpoch> epochs_;                               ///< by serial
   std::uint8_t latest_ = 0;                                     ///< the node that has drawn last
   std::deque<std::pair<std::uint64_t, std::uint64_t>> hashes_;  ///< ours: frame, hash
-  std::vector<SceneHash> early_;                                ///< of frames that we have not simulated yet
+  std::vector<SceneHash> early_;  ///< hashes of frames that we have not simulated yet
   std::deque<SceneTransfer> transfers_;
   IncomingScene incoming_;  ///< from the node that sends us the show
   bool ending_ = false, double_ = false;

@@ -17,8 +17,9 @@ struct CompatibilityKey {
   std::uint64_t input = 0;    ///< hash of the input log; 0: no log is played
   std::uint64_t cluster = 0;  ///< hashOf() the cluster file
   std::uint64_t walls = 0;    ///< hash of the wall file
-  std::string pictures{};     ///< what they look like; may differ where machines do [120 bytes at most]
-  std::string plugins{};      ///< names, versions and hashes of its plugins; empty: none [250 bytes at most]
+  /// Options of the pictures, such as --look; may differ where machines do [120 bytes at most].
+  std::string pictures{};
+  std::string plugins{};  ///< names, versions and hashes of its plugins; empty: none [250 bytes at most]
 
   /// Hash of the script and the input log. A new leader continues a show only if this hash is the same.
   std::uint64_t show() const;

@@ -36,7 +36,7 @@ struct FollowerOptions {
   std::function<void(const std::string&)> tell;
   std::function<bool()> stop;                ///< the wait is no longer wanted
   std::function<bool()> leave{};             ///< no further order is to be applied
-  std::shared_ptr<const SavedScene> kept{};  ///< the scene that the previous follower kept
+  std::shared_ptr<const ReserveScene> kept{};  ///< the scene that the previous follower kept
   std::uint64_t played = 0;                  ///< the previous follower's session; 0: there was none
 };
 
@@ -90,7 +90,7 @@ public:
   /// Keeps the current scene; `last` is the frame simulated last. Any node that asks gets it.
   void keep(const TimeSignature& last, SavedScene scene);
   /// Returns the kept scene; null if there is none, or if it differs from the others' scene.
-  std::shared_ptr<const SavedScene> kept() const;
+  std::shared_ptr<const ReserveScene> kept() const;
   ClusterStats stats() const;
   void finish();
 
@@ -150,7 +150,7 @@ private:
   bool over_ = false;                       ///< the leader has ended the show
   bool plays_ = false;                      ///< there is a scene from which the show can go on
   bool differs_ = false;                    ///< but it is not that of the others
-  std::shared_ptr<const SavedScene> kept_;  ///< until there is another one
+  std::shared_ptr<const ReserveScene> kept_;  ///< until there is another one
   std::uint64_t given_ = 0;                 ///< session of the leader to which it was sent
   std::vector<std::thread> giving_;
   InputSample sample_;

@@ -117,7 +117,7 @@ const Order& WrittenOrder::write(const OrderNumbers& numbers, const FrameOrder& 
   decisions_.clear(), trackers_.clear();
   for (const LoadDecision& d : o.signature.load) decisions_.push_back({d.load, d.position, d.level});
   lend(decisions_, w.decisions);
-  w.last = o.last, w.shown = written(o.shown);
+  w.last = o.last, w.shown = written(o.presentation);
   w.still = static_cast<std::uint8_t>(o.still), w.stands_after = static_cast<std::uint8_t>(o.standsAfter);
   w.sampled = input != nullptr;
   const std::size_t count = input ? input->trackers.size() : 0;
@@ -158,7 +158,7 @@ std::optional<HeardOrder> readOrder(const Order& w) {
   const auto shown = cluster::read(w.shown);
   const auto still = readStandstill(w.still), standsAfter = readStandstill(w.stands_after);
   if (!shown || !still || !standsAfter) return {};
-  heard.order.shown = *shown, heard.order.still = *still, heard.order.standsAfter = *standsAfter;
+  heard.order.presentation = *shown, heard.order.still = *still, heard.order.standsAfter = *standsAfter;
   heard.order.last = w.last;
   heard.sampled = w.sampled;
   heard.input.time = w.time;

@@ -18,7 +18,7 @@ void send(Bus& bus, const SceneTransfer& transfer) {
   StatePart part{};
   part.to = transfer.to, part.session = transfer.session, part.serial = transfer.serial;
   part.frame = transfer.frame, part.time = transfer.time;
-  part.still = static_cast<std::uint8_t>(transfer.still), part.shown = written(transfer.shown);
+  part.still = static_cast<std::uint8_t>(transfer.still), part.shown = written(transfer.presentation);
   const std::vector<std::uint8_t>& bytes = transfer.scene.bytes;
   part.files = transfer.scene.files, part.size = bytes.size();
   do {
@@ -44,7 +44,7 @@ void IncomingScene::add(const StatePart& part) {
     transfer_.to = part.to, transfer_.session = part.session, transfer_.serial = part.serial;
     transfer_.frame = part.frame, transfer_.time = part.time, transfer_.scene.files = part.files;
     transfer_.still = readStandstill(part.still).value_or(Standstill::None);
-    transfer_.shown = read(part.shown).value_or(Presentation{});
+    transfer_.presentation = read(part.shown).value_or(Presentation{});
     size_ = part.size, received_ = 0;
   }
   if (part.serial != transfer_.serial || part.session != transfer_.session || part.size != size_) return;

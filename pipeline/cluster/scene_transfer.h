@@ -22,15 +22,15 @@ struct SceneTransfer {
   std::uint64_t to = 0;                   ///< an incarnation, or the leader's session
   std::uint64_t session = 0, serial = 0;  ///< the state is the scene after that order
   std::uint64_t frame = 0;                ///< simulated last
-  Nanoseconds time = 0;                   ///< of that frame
+  Nanoseconds time = 0;                   ///< time of frame `frame`
   Standstill still{};                     ///< whether the show stood then
-  Presentation shown{};                   ///< how that frame was shown
+  Presentation presentation{};            ///< how that frame was shown
   SavedScene scene;
 };
 
 /// A scene that a host keeps ready while it plays no show, so that a crashed leader does not lose it.
 /// `transfer` names its session and its last order.
-struct SavedScene {
+struct ReserveScene {
   SceneTransfer transfer;
   std::uint64_t show = 0;         ///< CompatibilityKey::show() of that session
   std::uint64_t framesShown = 0;  ///< Follower::framesShown_ then

@@ -87,9 +87,9 @@ void CpuRenderer::drawWhole(const DrawList& list, const std::function<bool()>& g
   const ShadowParameters shadow =
       shadows ? shadows->parameters(list.shadows, rung_.shadowTaps) : ShadowParameters{};
   {
-    // Bands of both eyes are drawn side by side: their time is told as one.
+    // Bands of both eyes are drawn side by side, so their time is reported as one.
     const SpanScope span(probe, Span::LeftEye);
-    drawBands(scene, shadows ? &shadow : nullptr);
+    drawBands(scene, shadows ? &shadow : nullptr, giveUp);
     count(list, Eye::Left, probe);
   }
   if (std::ranges::any_of(std::span(list.views).first(views_),
@@ -127,9 +127,9 @@ void CpuRenderer::prepare(const DrawList& list, const std::function<bool()>& giv
   }
   stopIf(giveUp);
   forAll([](const Picture& p) { return p.setup.placePieces(); },
-         [](Picture& p, std::size_t i) { p.setup.place(i); });
+         [](Picture& p, std::size_t i) { p.setup.place(i); }, giveUp);
   forAll([](const Picture& p) { return p.setup.setUpPieces(); },
-         [](Picture& p, std::size_t i) { p.setup.setUp(i); });
+         [](Picture& p, std::size_t i) { p.setup.setUp(i); }, giveUp);
   stopIf(giveUp);
 }
 
@@ -157,22 +157,28 @@ void CpuRenderer::begin(const DrawList& list, std::uint32_t view) {
   picture.setup.divide();
 }
 
-void CpuRenderer::drawBands(const SceneParameters& scene, const ShadowParameters* shadow) {
+void CpuRenderer::drawBands(const SceneParameters& scene, const ShadowParameters* shadow,
+                            const std::function<bool()>& giveUp) {
   forAll([](const Picture& p) { return p.setup.bands(); },
          [&](Picture& p, std::size_t band) {
            room_.bands().draw({&room_.kernels(), &p.setup, &scene, shadow, &p.view, rung_, p.rgba}, band);
-         });
+         },
+         giveUp);
 }
 
 void CpuRenderer::forAll(std::size_t (*pieces)(const Picture&),
-                         const std::function<void(Picture&, std::size_t)>& work) {
+                         const std::function<void(Picture&, std::size_t)>& work,
+                         const std::function<bool()>& giveUp) {
   std::vector<std::pair<Picture*, std::size_t>> all;
   for (std::size_t view = 0; view < views_; ++view) {
     Picture& picture = pictures_[view];
     if (!picture.drawn) continue;
     for (std::size_t i = 0, count = pieces(picture); i < count; ++i) all.emplace_back(&picture, i);
   }
-  room_.pool().run(all.size(), [&](std::size_t i) { work(*all[i].first, all[i].second); });
+  room_.pool().run(all.size(), [&](std::size_t i) {
+    stopIf(giveUp);
+    work(*all[i].first, all[i].second);
+  });
 }
 
 void CpuRenderer::count(const DrawList& list, Eye eye, FrameProbe* probe) {

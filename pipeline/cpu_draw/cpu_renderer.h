@@ -12,13 +12,13 @@
 /// Errors     as of a Renderer; draw() throws nothing but RunStopped.
 
 #include "pipeline/cpu_draw/mesh/cpu_mesh.h"
-#include "pipeline/cpu_draw/draw_pool.h"
 #include "pipeline/cpu_draw/picture_bands.h"
 #include "pipeline/cpu_draw/picture_rung.h"
 #include "pipeline/cpu_draw/picture_setup.h"
 #include "pipeline/cpu_draw/piece_costs.h"
 #include "pipeline/cpu_draw/shadow_store.h"
 #include "pipeline/draw_list/renderer.h"
+#include "pipeline/platform/draw_pool.h"
 #include "pipeline/shader/look.h"
 
 #include <cstdint>
@@ -83,12 +83,14 @@ private:
   void drawWhole(const DrawList& list, const std::function<bool()>& giveUp, FrameProbe* probe);
   void prepare(const DrawList& list, const std::function<bool()>& giveUp);
   void begin(const DrawList& list, std::uint32_t view);
-  void drawBands(const SceneParameters& scene, const ShadowParameters* shadow);
+  void drawBands(const SceneParameters& scene, const ShadowParameters* shadow,
+                 const std::function<bool()>& giveUp);
   void count(const DrawList& list, Eye eye, FrameProbe* probe);
   void sample(const DrawList& list, const SceneParameters& scene, const ShadowParameters* shadow,
               FrameProbe& probe);
-  /// Calls work(picture, piece) for each of the pieces of all pictures, on the pool.
-  void forAll(std::size_t (*pieces)(const Picture&), const std::function<void(Picture&, std::size_t)>& work);
+  /// Calls work(picture, piece) for each of the pieces of all pictures, on the pool. Asks `giveUp` before each.
+  void forAll(std::size_t (*pieces)(const Picture&), const std::function<void(Picture&, std::size_t)>& work,
+              const std::function<bool()>& giveUp);
   void report(std::string what);
 
   CpuRoom& room_;
@@ -96,7 +98,7 @@ private:
   PictureRung rung_;
   std::vector<Picture> pictures_;  ///< by view
   PieceCosts costs_;
-  std::size_t views_ = 0;  ///< of the list that is drawn
+  std::size_t views_ = 0;  ///< number of views in the current list
   ViewTotals totals_{};
   std::set<std::string> reported_;
   std::optional<Diagnostic> problem_;

@@ -7,10 +7,10 @@
 /// Same     A set depends on the keys and lists alone, not on sets that were drawn before it.
 /// Threads  any. Walls that draw the same frame get the same set; the first one draws it.
 
-#include "pipeline/cpu_draw/draw_pool.h"
 #include "pipeline/cpu_draw/kernels/kernel_data.h"
 #include "pipeline/cpu_draw/mesh/cpu_mesh.h"
 #include "pipeline/draw_list/draw_list.h"
+#include "pipeline/platform/draw_pool.h"
 
 #include <array>
 #include <memory>

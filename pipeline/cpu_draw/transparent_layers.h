@@ -27,6 +27,7 @@ private:
   };
   void collect(const PictureShading& picture, std::size_t band, VisibleBand& visible,
                const SurfaceBlocks& blocks);
+  /// Returns true if a pixel has some. `at`: (y - low) * width + x.
   bool has(std::size_t at) const { return begins_[at] != begins_[at + 1]; }
   Colour3 over(int row, int x, const BandColours& behind, int samples, const unsigned* shown);
   void sortByPixel(const PictureShading& picture, int low, std::size_t pixels);
@@ -41,7 +42,7 @@ private:
   std::vector<float> colours_;  ///< red, green, blue and alpha of each
   int width_ = 0;
   std::vector<unsigned> begins_, byPixel_;  ///< fragments of each pixel
-  std::vector<Layer> layers_;               ///< of one sample, nearest first
+  std::vector<Layer> layers_;               ///< layers of the current sample, nearest first
 };
 
 }  // namespace stadion

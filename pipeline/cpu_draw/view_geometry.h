@@ -18,7 +18,7 @@ struct ViewGeometry {
   /// last row is the depth and w is 1.
   std::array<std::array<double, 4>, 3> rows{};
   bool parallel = false;
-  float leastDepth = 0;  ///< of what lies before the eye
+  float leastDepth = 0;  ///< smallest depth before the eye
   float mostDepth = 0;   ///< at the near plane
   float farDepth = 0;    ///< at the far plane
 

@@ -13,7 +13,7 @@ namespace stadion {
 struct VolumePlanes {
   float normal[8][3];
   float offset[8];
-  float rounding[8];  ///< of the offset [m]
+  float rounding[8];  ///< rounding error of `offset` [m]
   unsigned count;
 };
 

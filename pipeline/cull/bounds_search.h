@@ -19,7 +19,7 @@ namespace stadion {
 /// The fastest form of the tests on this machine.
 const BoundsKernels& bestBounds();
 
-/// What is searched, relative to a place in World.
+/// A volume to search, relative to a place in World.
 struct SearchVolume {
   ConvexVolume volume;
   Vec3 origin = Vec3::Zero();

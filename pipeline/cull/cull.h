@@ -13,18 +13,19 @@
 
 namespace stadion {
 
-/// What the walls of a show share; borrowed.
+/// Parts that the walls of a show share; borrowed.
 struct CullParts {
   RoomCull& room;
   StillCasters* still = nullptr;         ///< null: no shadows are drawn
-  std::span<const WallPixels> pixels{};  ///< of the walls that show what the visitor sees
+  std::span<const WallPixels> pixels{};  ///< pictures of the walls that show what the visitor sees
   const MeshStore* meshes = nullptr;     ///< null: meshes are drawn in full
   FrameProbe* probe = nullptr;
-  bool oneSample = false;  ///< of each pixel: what lies between their middles is left out
+  /// Pixels have one sample each, so Cull leaves out objects that lie between the middles of pixels.
+  bool oneSample = false;
 };
 
 struct CullOptions {
-  EyeChoice eyes{};    ///< the same for all walls of a frame
+  EyeChoice eyes{};    ///< the chosen eyes; equal for all walls of a frame
   bool black = false;  ///< nothing is drawn, and no light is there
 };
 
@@ -34,7 +35,7 @@ public:
   /// Of wall number `wall` of the room.
   WallCull(const CullParts& parts, std::uint32_t wall);
 
-  /// But for its ticket. The items are filled last, and ListFilling is told, if there is one.
+  /// Fills all but the ticket. The items come last, and ListFilling, if there is one, hears of each.
   void fill(const SlotView& state, const CullOptions& options, DrawList& out);
 
 private:

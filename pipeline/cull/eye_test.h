@@ -36,7 +36,7 @@ public:
   }
 
 private:
-  static constexpr float kRounding = 4e-6f;  ///< of single precision, a few times over
+  static constexpr float kRounding = 4e-6f;  ///< rounding error of single precision, a few times over
   typedef float FourFloats __attribute__((vector_size(16)));
 
   /// The sides of a view's frustum: inside is x px + y py + z pz + offset >= 0.

@@ -27,7 +27,7 @@ namespace stadion {
 /// A wall of the show, as far as it matters to levels.
 struct WallPixels {
   Wall wall;
-  std::uint32_t width = 0, height = 0;  ///< of one eye's picture [pixels]
+  std::uint32_t width = 0, height = 0;  ///< size of one eye's picture [pixels]
 };
 
 class LevelChoice {
@@ -47,7 +47,7 @@ private:
   struct Seen {
     Vec3 towards;          ///< the wall's foot below the head, from the head; in World, unit
     double pixels = 0;     ///< D / p, of one radian in the wall's middle
-    double mostAngle = 0;  ///< of a corner of the wall
+    double mostAngle = 0;  ///< angle of the farthest corner of the wall from `towards`
   };
 
   const Mesh* mesh(MeshId id);
@@ -60,7 +60,7 @@ private:
   Vec3 head_ = Vec3::Zero();
   std::vector<Seen> walls_;  ///< once there is a level to choose
   const MeshStore& meshes_;
-  std::vector<std::pair<MeshId, const Mesh*>> known_;  ///< of this frame, by id
+  std::vector<std::pair<MeshId, const Mesh*>> known_;  ///< meshes that this frame has asked for, by id
 };
 
 }  // namespace stadion

@@ -13,7 +13,7 @@ class MovingBounds {
 public:
   /// The tree of the slot as it is now; valid until the next call. Expects the same slot each time.
   BoundsTree update(const SlotView& state);
-  /// What was read last was no whole frame's.
+  /// Marks the tree as void, because the slot changed while it was read.
   void forget() { stamps_.clear(); }
 
 private:
@@ -25,7 +25,7 @@ private:
   std::uint32_t capacity_ = 0;
   BoundsLayout layout_;
   std::vector<float> floats_;
-  std::vector<std::uint32_t> stamps_;   ///< that have been taken up
+  std::vector<std::uint32_t> stamps_;   ///< stamps of the slot at the last update
   std::vector<std::uint32_t> changed_;  ///< blocks of kInstancesAStamp
 };
 

@@ -1,17 +1,17 @@
 #pragma once
-/// What each wall of the room may see of a frame: found once, for all of them in one pass.
+/// Finds what each wall of the room may see of a frame, for all walls in one pass.
 ///
-/// The first wall that comes to a frame searches for all; the others take what it found. An instance is kept
-/// for a wall if its bounding sphere may touch what any of its views can see (unionFrustum). Trees of bounds
-/// (bounds_search.h) say of most things in single precision that they surely do or surely do not; of the rest
-/// ConvexVolume says so, in double precision. So the outcome is that of looking at every record, to the last
-/// one, on every machine.
+/// The first wall that reaches a frame searches for all walls, and the others take its result. The search
+/// keeps an instance for a wall if its bounding sphere may touch the volume that the wall's views see
+/// together (unionFrustum). In single precision, trees of bounds (bounds_search.h) decide the clear cases.
+/// ConvexVolume decides the rest in double precision. So the result is that of a test of every record, on
+/// every machine.
 ///
-/// Threads    any, at once: a thread that comes during a search waits for its end. No thread waits for a wall
+/// Threads    any, at once. A thread that comes during a search waits for its end. No thread waits for a wall
 ///            that does not come.
-/// Ownership  what is found is kept while a wall holds it; it points into the slot and its chunks and is
-///            good while the slot is under lease. Of a slot that has been taken away it is void, but can be
-///            read without harm; no other thread gets it.
+/// Ownership  a result is kept while a wall holds it. It points into the slot and its chunks, and is valid
+///            while the slot is leased. If the slot was taken away, the result is void, but reading it is
+///            harmless.
 
 #include "pipeline/cull/bounds_search.h"
 #include "pipeline/cull/moving_bounds.h"
@@ -27,11 +27,11 @@
 
 namespace stadion {
 
-/// What one wall may see.
+/// The part of a frame that one wall may see.
 struct WallSeen {
   bool looks = true;               ///< false: its camera is off
   std::optional<CameraView> from;  ///< where its camera stood when the room was searched
-  PlacedViews placed;              ///< its views then
+  PlacedViews placed;              ///< the wall's views at that time
   std::uint64_t tested = 0;  ///< bounds, of things and of groups, that were compared with this wall's view
   std::vector<const InstanceRecord*> records;  ///< in no particular order
 };
@@ -78,12 +78,14 @@ private:
 
   const std::vector<WallViews> walls_;
   std::mutex mutex_;
-  std::vector<std::unique_ptr<Found>> found_;  ///< one a slot, and one more for each that a lost reader holds
+  /// One for each slot, and one for each slot that a lost reader still holds.
+  std::vector<std::unique_ptr<Found>> found_;
   std::array<MovingBounds, kSlots> moving_;
   BoundsSearch search_;
-  std::vector<SearchVolume> volumes_;   ///< of the walls that look: one for each of their screens
-  std::vector<std::uint32_t> wallsOf_;  ///< by volume
-  std::vector<std::vector<const InstanceRecord*>*> recordsOf_;  ///< of its wall, by volume
+  /// Volumes of the walls whose camera is on: one for each of their screens.
+  std::vector<SearchVolume> volumes_;
+  std::vector<std::uint32_t> wallsOf_;                          ///< by volume
+  std::vector<std::vector<const InstanceRecord*>*> recordsOf_;  ///< by volume: the records of its wall
 };
 
 }  // namespace stadion

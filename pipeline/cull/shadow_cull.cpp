@@ -58,7 +58,7 @@ void ShadowCull::placeRing(std::size_t index, const Vec3& centre) {
   ring.moving.clear();
   ring.stillKey = 0;
   for (const double x : {c_L[0], c_L[1], c_L[2], axes_(2, 0), axes_(2, 1), axes_(2, 2)})
-    ring.stillKey = stirred(ring.stillKey ^ std::bit_cast<std::uint64_t>(x));
+    ring.stillKey = mixedBits(ring.stillKey ^ std::bit_cast<std::uint64_t>(x));
   ring.movingKey = 0;
   ring.movingArea = {1, 1, -1, -1};
 }

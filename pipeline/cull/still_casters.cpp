@@ -52,7 +52,7 @@ RingCasters castersOf(const RingPlace& place, const SlotView& state) {
 
 }  // namespace
 
-std::uint64_t stirred(std::uint64_t x) {  // the finaliser of MurmurHash3
+std::uint64_t mixedBits(std::uint64_t x) {  // the finaliser of MurmurHash3
   x = (x ^ (x >> 33)) * 0xff51afd7ed558ccd;
   x = (x ^ (x >> 33)) * 0xc4ceb9fe1a85ec53;
   return x ^ (x >> 33);
@@ -66,8 +66,8 @@ bool casts(const InstanceRecord& r) {
 std::uint64_t keyOf(const DrawItem& item) {
   std::uint64_t key = item.mesh;
   for (std::size_t k = 0; k < 12; k += 2)
-    key = stirred(key ^ (std::uint64_t{std::bit_cast<std::uint32_t>(item.model[k])} |
-                         std::uint64_t{std::bit_cast<std::uint32_t>(item.model[k + 1])} << 32));
+    key = mixedBits(key ^ (std::uint64_t{std::bit_cast<std::uint32_t>(item.model[k])} |
+                           std::uint64_t{std::bit_cast<std::uint32_t>(item.model[k + 1])} << 32));
   return key;
 }
 

@@ -20,28 +20,28 @@ struct RingPlace {
   std::size_t ring = 0;
   Mat3 axes = Mat3::Identity();  ///< rows: right, up, towards the light, in World
   Vec3 centre_L = Vec3::Zero();  ///< along the axes [m]
-  Vec3 centre_W = Vec3::Zero();  ///< the same in World [m]
+  Vec3 centre_W = Vec3::Zero();  ///< `centre_L` in World [m]
 
   bool operator==(const RingPlace& o) const {
     return ring == o.ring && axes == o.axes && centre_L == o.centre_L;
   }
-  /// Whether the thing casts a shadow into the ring that can be seen. `p`: its middle from the ring's, along
-  /// the axes.
+  /// Returns true if the thing casts a shadow into the ring that can be seen. `p`: its middle from the
+  /// ring's, along the axes.
   bool isReachedBy(const InstanceRecord& r, const Vec3& p) const;
-  /// The thing as it is drawn into the ring.
+  /// Returns the item that draws the instance into the ring.
   DrawItem itemOf(const InstanceRecord& r) const;
 };
 
-/// Whether it casts shadows at all.
+/// Returns true if the instance casts shadows.
 bool casts(const InstanceRecord& r);
-/// A number far from those of others near by.
-std::uint64_t stirred(std::uint64_t x);
-/// A number that follows from what is drawn and where.
+/// Returns a number in which every bit of x changes about half of the bits (a hash finaliser).
+std::uint64_t mixedBits(std::uint64_t x);
+/// Returns a hash of the mesh, its level and its place.
 std::uint64_t keyOf(const DrawItem& item);
 
 struct RingCasters {
   std::shared_ptr<const std::vector<DrawItem>> items;
-  std::uint64_t key = 0;  ///< the sum of theirs
+  std::uint64_t key = 0;  ///< sum of the items' keys
 };
 
 class StillCasters {

@@ -78,8 +78,9 @@ private:
   std::array<double, kTrackerAxes> axes_{}, padAxes_{};
   std::uint32_t buttons_ = 0, padButtons_ = 0;
   std::uint32_t pressed_ = 0;  ///< since the last sample: a short press must be seen once
-  std::uint32_t letGo_ = 0;    ///< and so must a release before another press
-  std::uint32_t down_ = 0;     ///< in the last sample
+  /// Buttons released since the last sample: a short release must be seen once, too.
+  std::uint32_t letGo_ = 0;
+  std::uint32_t down_ = 0;  ///< in the last sample
   /// Returns the buttons released and pressed again since then: up in this sample, down in the next.
   std::uint32_t newlyPressed() const { return down_ & letGo_ & pressed_; }
   Nanoseconds sampled_ = -1;

@@ -21,8 +21,8 @@ namespace stadion {
 struct OscMessage {
   static constexpr std::size_t kMostNumbers = 16;
 
-  std::string_view path;            ///< such as /tracker/head/pose
-  std::span<const double> numbers;  ///< its arguments, true as 1 and false as 0
+  std::string_view path;            ///< address, such as /tracker/head/pose
+  std::span<const double> numbers;  ///< arguments of the message, true as 1 and false as 0
   bool numeric = true;              ///< false: there were other arguments, or too many
   std::optional<Nanoseconds> sent;  ///< the time tag, by the sender's clock [ns]
   std::string_view from{};          ///< the sender's host, if there is a time tag

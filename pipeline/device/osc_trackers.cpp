@@ -9,7 +9,7 @@
 namespace stadion {
 namespace {
 
-constexpr std::size_t kMostStreams = 256;          ///< that are told apart
+constexpr std::size_t kMostStreams = 256;          ///< limit of streams that it distinguishes
 constexpr std::size_t kMostLate = 64;              ///< buttons and axes kept in case their sender has set its
                                                    ///< clock
 constexpr Nanoseconds kWorthTelling = 50'000'000;  ///< smaller corrections of a clock are not logged [ns]

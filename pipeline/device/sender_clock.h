@@ -47,7 +47,7 @@ private:
   Nanoseconds since_ = 0, least_ = 0;   ///< the start of the window, and the least offset in it
   std::optional<Nanoseconds> older_{};  ///< the last late stamp
   double period_ = 0;                   ///< between stamps, smoothed
-  int repeats_ = 0;                     ///< of the newest stamp
+  int repeats_ = 0;                     ///< how often the newest stamp has repeated
 };
 
 }  // namespace stadion

@@ -10,9 +10,9 @@
 /// Ownership   owns its GL objects; the function table, the mutex and the mesh store must outlive it. Meshes
 ///             are uploaded at their first use, and freed once the store has freed them.
 /// Threads     made, used and destroyed on the thread where its context is current. Renderers of a software
-///             rasteriser take turns: Mesa 22.3 (lp_scene_is_resource_referenced) looks without a lock whether
-///             its other contexts draw with a texture that is bound or read, and crashes if one of them ends a
-///             scene just then. They wait for their pixels together.
+///             rasteriser take turns: Mesa 22.3 (lp_scene_is_resource_referenced) looks without a lock
+///             whether its other contexts draw with a texture that is bound or read, and crashes if one of
+///             them ends a scene just then. They wait for their pixels together.
 /// Errors      each kind is returned once, never thrown; everything else is drawn.
 
 #include "pipeline/draw/gpu/gpu_scene.h"
@@ -52,7 +52,7 @@ public:
   std::optional<Diagnostic> draw(const DrawList& list, std::uint32_t view);
   std::optional<Diagnostic> read(std::uint32_t view, std::span<std::uint8_t> rgba) override;
 
-  /// Whether the driver has given up the context: the graphics card was reset, or is gone.
+  /// Returns true if the driver has given up the context, because the graphics card was reset or removed.
   bool isLost() const override { return contextIsLost_; }
   const ViewTotals& totals() const override { return totals_; }
   void forgetTotals() override { totals_ = {}; }
@@ -63,7 +63,7 @@ public:
   /// Of the view that was drawn last.
   const DrawCounts& counts() const { return scene_.calls().counts(); }
   std::size_t meshesHeld() const { return scene_.meshes().size(); }
-  /// Whether there are buffers for transparent objects: not before the first one is seen.
+  /// Returns true if there are buffers for transparent objects: not before the first one is seen.
   bool holdsLayers() const { return transparent_.holdsLayers(); }
 
 private:

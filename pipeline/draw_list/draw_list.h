@@ -21,15 +21,16 @@ namespace stadion {
 
 class ListFilling;
 
-/// One mesh to draw.
+/// A mesh to draw.
 struct DrawItem {
   std::array<float, 12> model;  ///< (3 x 4), row major: mesh coordinates to World axes relative to origin
   MeshId mesh = kNoMesh;
-  NodeRef owner;            ///< the node, for profiling
-  float distance = 0;       ///< of its centre from the viewer [m]
-  float pixels = 0;         ///< that its bounding sphere may cover in one view's picture, for profiling
-  std::uint32_t level = 0;  ///< 0 = all of the mesh; else Mesh::levels[level - 1]
-  std::uint32_t views = kAllViews;  ///< that may see it: bit v, DrawList::views[v]
+  NodeRef owner;       ///< the node, for profiling
+  float distance = 0;  ///< distance of the object's centre from the viewer [m]
+  /// Number of pixels that the object's bounding sphere may cover in one view's picture, for profiling.
+  float pixels = 0;
+  std::uint32_t level = 0;          ///< 0 = all of the mesh; else Mesh::levels[level - 1]
+  std::uint32_t views = kAllViews;  ///< views that may see the object: bit v stands for DrawList::views[v]
 
   static constexpr std::uint32_t kAllViews = ~0U;
 };
@@ -40,9 +41,9 @@ struct DrawLight {
   std::array<float, 3> position{0, 0, 0};    ///< relative to origin [m]
   std::array<float, 3> direction{0, 0, -1};  ///< the way the light goes, unit
   std::array<float, 3> colour{1, 1, 1};      ///< linear, intensity included
-  float range = 0;                           ///< where it has faded out [m]; 0 = it does not fade
-  float cosInner = 1, cosOuter = 0;          ///< of the spot's half angles
-  bool shadows = false;                      ///< directional: things stand in its way
+  float range = 0;                   ///< distance at which the light has faded out [m]; 0 = it does not fade
+  float cosInner = 1, cosOuter = 0;  ///< cosines of the spot's half angles
+  bool shadows = false;              ///< directional: things stand in its way
 };
 
 struct DrawSky {
@@ -54,34 +55,35 @@ struct DrawSky {
 };
 
 constexpr std::uint32_t kShadowTexels = 1024;  ///< a side of a ring of the shadow maps
-constexpr double kShadowDepth = 600;           ///< of a ring, along the light, from its middle either way [m]
+constexpr double kShadowDepth = 600;  ///< reach of a ring along the light, from its middle either way [m]
 
 /// A square across the light, and what casts shadows into it. Matrices are relative to the ring's middle.
 struct DrawShadowRing {
-  std::array<float, 3> offset{};  ///< of the list's origin from the ring's middle, along the axes [m]
-  std::shared_ptr<const std::vector<DrawItem>> still;  ///< the same for all walls; null = nothing
+  std::array<float, 3> offset{};  ///< offset of the list's origin from the ring's middle, along the axes [m]
+  /// Objects that stand still; shared by all walls, null = none.
+  std::shared_ptr<const std::vector<DrawItem>> still;
   std::vector<DrawItem> moving;
   std::uint64_t stillKey = 0, movingKey = 0;  ///< follow from what casts and from where the ring is
-  std::array<float, 4> movingArea{1, 1, -1,
-                                  -1};  ///< what moves covers: from x, y to x, y; the ring is -1 .. 1
+  /// Area that moving objects cover: least x, y, greatest x, y; the ring is -1 .. 1.
+  std::array<float, 4> movingArea{1, 1, -1, -1};
 };
 
 /// The light whose shadows are drawn, and the rings from the nearest, finest one outwards.
 struct DrawShadows {
-  std::int32_t light = -1;      ///< its index in the list; -1 = there are no shadows
+  std::int32_t light = -1;      ///< index of the light in the list; -1 = there are no shadows
   std::array<float, 9> axes{};  ///< (3 x 3), rows: right, up, towards the light; in World
   std::array<DrawShadowRing, kShadowRings> rings;
 };
 
-/// One view's camera.
+/// The camera of a view.
 struct DrawView {
   Mat4 view = Mat4::Identity();        ///< World axes relative to origin, to eye coordinates (looks along -z)
   Mat4 projection = Mat4::Identity();  ///< eye to clip; z in [0, w], w at the near plane, 0 at the far one
-  Eye eye = Eye::Left;                 ///< for which its picture is; Left also for one from the middle
+  Eye eye = Eye::Left;                 ///< eye that the picture is for; Left also for a view from the middle
 };
 
 struct DrawList {
-  static constexpr std::size_t kMostViews = 8;  ///< of a wall
+  static constexpr std::size_t kMostViews = 8;  ///< limit of the views of a wall
   static constexpr std::size_t kMaxLights = 16;
   static constexpr std::size_t kPortion = 1024;  ///< Draw takes opaque items up by so many
 

@@ -21,7 +21,7 @@ struct InstanceBatch {
   /// By view: all that it sees lies within these instances of the batch.
   std::array<std::uint32_t, DrawList::kMostViews> begins{}, ends{};
 
-  /// What a view draws of it.
+  /// Returns the instances of the batch that a view may see.
   InstanceBatch seenBy(std::uint32_t view) const {
     InstanceBatch seen = *this;
     seen.first += begins[view];

@@ -60,7 +60,7 @@ public:
     const std::lock_guard lock(mutex_);
     return void_ || (stopped_ && there_ != kAll);
   }
-  /// Whether the run ended before it was filled: what was drawn of it is no picture.
+  /// Returns true if the run ended before it was filled: what was drawn of it is no picture.
   bool isCutShort() const {
     const std::lock_guard lock(mutex_);
     return stopped_ && there_ != kAll;

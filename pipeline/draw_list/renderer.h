@@ -53,7 +53,7 @@ public:
 
   /// Draws all views of the list, which Cull may still be filling, and waits for the end of the drawing: the
   /// time around the call is the cost of the drawing. Returns a new problem, or nothing. Calls `giveUp` now
-  /// and then, if it is not empty. Once it returns true, RunStopped is thrown and the pictures are void.
+  /// and then, if it is not empty, on any thread. Once it returns true, RunStopped is thrown and the pictures are void.
   /// `probe` gets spans and counts; null = none.
   virtual std::optional<Diagnostic> draw(const DrawList& list, const std::function<bool()>& giveUp,
                                          FrameProbe* probe) = 0;
@@ -62,14 +62,14 @@ public:
   /// sRGB, alpha 255. Expects room for exactly that. Returns a new problem, or nothing.
   virtual std::optional<Diagnostic> read(std::uint32_t view, std::span<std::uint8_t> rgba) = 0;
 
-  /// Whether the renderer can never draw again, for example after a reset of the graphics card. Another
-  /// renderer must take its place.
+  /// Returns true if the renderer can never draw again, for example after a reset of the graphics card.
+  /// Another renderer must take its place.
   virtual bool isLost() const = 0;
 
   virtual const ViewTotals& totals() const = 0;
   virtual void forgetTotals() = 0;
 
-  /// What draws, for reports: for example the OpenGL version and the graphics card.
+  /// Returns a description of the renderer for reports: for example the OpenGL version and the graphics card.
   virtual std::string description() const = 0;
 };
 

@@ -16,7 +16,7 @@ struct FrameTicket {
   /// False: the walls skip this frame. It is neither culled nor drawn, and the last pictures stay. The swap
   /// still counts it as shown.
   bool drawn = true;
-  Presentation shown{};
+  Presentation presentation{};
   bool last = false;  ///< no frame follows it
   /// The measurement time of the head's pose with which its pictures are drawn. If that is unknown, the time
   /// of sampling.

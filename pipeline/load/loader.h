@@ -37,7 +37,7 @@ struct LoaderParts {
   Importer& importer;
   const AssetRoots& roots;
   const NodeRegistry& types;
-  NodeServices& services;  ///< of this show
+  NodeServices& services;  ///< services for the nodes of this show
   std::function<void(const Diagnostics&)> report;
   const std::atomic<bool>* stop = nullptr;  ///< once true, no call waits for a load any more
   Nanoseconds step = 0;                 ///< frame duration, to warn of shorter latencies [ns]; 0: no warning
@@ -132,7 +132,7 @@ private:
   std::deque<std::unique_ptr<LoadedScene>> garbage_;  ///< may be freed
   bool ending_ = false;
   std::map<std::uint32_t, Around> around_;  ///< the worker's own
-  bool live_ = false;                       ///< this and the next four are used by App only
+  bool live_ = false;                       ///< from here to `decided_`: used by App only
   LateLoad late_;
   std::function<void(bool)> waitsTold_;
   std::map<std::uint32_t, Nanoseconds> decided_;

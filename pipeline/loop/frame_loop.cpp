@@ -119,7 +119,7 @@ FrameLoop::FrameLoop(Stages& stages, const FrameLoopOptions& options, const std:
 
 FrameLoopOutcome FrameLoop::run() {
   // The caller may be at the bottom of a thread, so exceptions must not leave.
-  guard("the frame loop", kAllWalls, kNoFrame, [&]() -> Failure {
+  attempt("the frame loop", kAllWalls, kNoFrame, [&]() -> Failure {
     options_.mode == Mode::Sequential ? runSequential() : runPipelined();
     return {};
   });
@@ -142,7 +142,7 @@ void FrameLoop::runSequential() {
 
   while (well) {
     std::optional<FrameOrder> order;
-    well = guard("App", kAllWalls, nextIndex_, [&]() -> Failure { return order = nextOrder(), Failure(); });
+    well = attempt("App", kAllWalls, nextIndex_, [&]() -> Failure { return order = nextOrder(), Failure(); });
     if (!order) break;
     auto ticket = appStage(*order, 0);
     well = ticket.has_value();
@@ -181,7 +181,7 @@ void FrameLoop::Pipeline::app() {
   bool isWarm = walls_ == 0;
   if (!isWarm && !opened_.arrive([] {})) return;
   while (const auto order = loop_.nextOrder()) {
-    slots_.limitUnderWay(loop_.framesUnderWay(), loop_.lastWalls());
+    slots_.limitInFlight(loop_.mostInFlight(), loop_.wallsLeft());
     const auto slot = loop_.waited(Span::ForSlot, kNoFrame, kAllWalls, [&] { return slots_.beginWrite(); });
     if (!slot) return;
     const auto ticket = loop_.appStage(*order, *slot);
@@ -214,7 +214,7 @@ void FrameLoop::Pipeline::draw(std::size_t wall) {
     if (list->ticket.drawn && !std::exchange(isWarm, true) && !warmUpTogether(wall, *list)) return;
     if (!list->filling->isVoid() && !loop_.drawStage(wall, *list)) return;
     if (list->filling->isCutShort()) return;
-    slots_.drawn();
+    slots_.noteDrawn();
     if (!swapTogether(wall, list->ticket)) return;
     queues_[wall].giveEmpty(list);
   }
@@ -248,7 +248,7 @@ bool FrameLoop::Pipeline::swapTogether(std::size_t wall, const FrameTicket& tick
   bool shown = true;
   const auto show = [&] {
     shown = loop_.swapStage(ticket);
-    slots_.shown();
+    slots_.noteShown();
   };
   const auto arrive = [&] { return swap_.arrive(show); };
   return loop_.waited(Span::ForWalls, ticket.signature.frame, wall, arrive) && shown;
@@ -258,12 +258,12 @@ void FrameLoop::Pipeline::run() {
   std::vector<std::thread> threads;
   const auto start = [&](const char* what, std::size_t wall, std::function<void()> work) {
     threads.emplace_back([this, what, wall, work = std::move(work)] {
-      loop_.guard(what, wall, kNoFrame, [&]() -> Failure { return work(), Failure(); });
+      loop_.attempt(what, wall, kNoFrame, [&]() -> Failure { return work(), Failure(); });
       stopIfBroken();
     });
   };
   threads.reserve(1 + 2 * walls_);
-  loop_.guard("starting the threads", kAllWalls, kNoFrame, [&]() -> Failure {
+  loop_.attempt("starting the threads", kAllWalls, kNoFrame, [&]() -> Failure {
     for (std::size_t wall = 0; wall < walls_; ++wall) {
       start("Cull", wall, [this, wall] { cull(wall); });
       start("Draw", wall, [this, wall] { drawThenClose(wall); });
@@ -276,7 +276,7 @@ void FrameLoop::Pipeline::run() {
 }
 
 void FrameLoop::Pipeline::drawThenClose(std::size_t wall) {
-  loop_.guard("Draw", wall, kNoFrame, [&]() -> Failure { return draw(wall), Failure(); });
+  loop_.attempt("Draw", wall, kNoFrame, [&]() -> Failure { return draw(wall), Failure(); });
   stopIfBroken();
   loop_.closeStage(wall);
 }
@@ -315,7 +315,7 @@ Standstill FrameLoop::standstill() const {
 
 // Returns the frame to be shown, and whether it is the last. On the leader, also sends it to all hosts.
 FrameOrder FrameLoop::issued(FrameOrder order) {
-  if (options_.controls) order.shown = options_.controls->state().shown;
+  if (options_.controls) order.presentation = options_.controls->state().presentation;
   // A waiting show plays its first frame, and a paused one each single step. Then time stands still again.
   const bool stands =
       order.still != Standstill::None || (options_.controls && options_.controls->state().still());
@@ -355,14 +355,15 @@ bool FrameLoop::takeCommands() {
   return !state.nextGroup;
 }
 
-std::size_t FrameLoop::framesUnderWay() const {
-  const bool commanded = options_.controls && options_.controls->state().latency > 0;
-  return commanded ? static_cast<std::size_t>(options_.controls->state().latency) : options_.latency;
+std::size_t FrameLoop::mostInFlight() const {
+  const bool commanded = options_.controls && options_.controls->state().mostInFlight > 0;
+  return commanded ? static_cast<std::size_t>(options_.controls->state().mostInFlight)
+                   : options_.mostInFlight;
 }
 
-// With so few walls left to draw a frame, processors are idle. With many processors, half of the walls is
-// enough: a frame that begins too early is old when it is shown.
-std::size_t FrameLoop::lastWalls() const {
+// Returns the number of walls that may still draw the oldest frame when one frame more begins: processors are
+// idle then. It is at most half of the walls, since a frame that begins too early is old when it is shown.
+std::size_t FrameLoop::wallsLeft() const {
   const std::size_t processors = std::max(1u, std::thread::hardware_concurrency());
   return std::min(options_.walls / 2, processors - 1);
 }
@@ -388,7 +389,7 @@ bool FrameLoop::isPastEnd() const {
 
 /// Runs a piece of work. If it fails or throws, keeps the reason and returns false.
 template <class Work>
-bool FrameLoop::guard(const char* what, std::size_t wall, std::uint64_t frame, const Work& work) {
+bool FrameLoop::attempt(const char* what, std::size_t wall, std::uint64_t frame, const Work& work) {
   try {
     Failure f = work();
     return !f || fail(std::move(*f));
@@ -404,11 +405,11 @@ bool FrameLoop::guard(const char* what, std::size_t wall, std::uint64_t frame, c
   }
 }
 
-/// The same, and under a watch also if the stage writes to the published scene.
+/// Runs a stage as attempt() does. With --guard, it also fails if it writes to the published scene.
 template <class Work>
-bool FrameLoop::watched(const char* what, std::size_t wall, std::uint64_t frame, const Work& work) {
-  if (!options_.watch) return guard(what, wall, frame, work);
-  return guard(what, wall, frame, [&]() -> Failure {
+bool FrameLoop::attemptGuarded(const char* what, std::size_t wall, std::uint64_t frame, const Work& work) {
+  if (!options_.watch) return attempt(what, wall, frame, work);
+  return attempt(what, wall, frame, [&]() -> Failure {
     const WriteGuard::Stage stage;
     Failure f = work();
     const auto wrong = f ? std::nullopt : options_.watch->inScene(stage);
@@ -424,22 +425,21 @@ bool FrameLoop::fail(const char* what, std::size_t wall, std::uint64_t frame, co
   }
 }
 
-/// Returns true if a frame would be shown too late and is not drawn. Of such frames in a row, one a second is
-/// drawn.
-bool FrameLoop::passesOver(const FrameTicket& ticket) {
+/// Returns true if a frame is so late that it is not drawn. Of such frames in a row, one a second is drawn.
+bool FrameLoop::leavesUndrawn(const FrameTicket& ticket) {
   const bool late = (options_.everyTick || pacer_.catchesUp()) && options_.mode == Mode::Sequential &&
                     !options_.orders && !ticket.last && pacer_.behind();
-  passedOver_ = late && static_cast<double>(passedOver_) < options_.rate ? passedOver_ + 1 : 0;
-  return passedOver_ > 0;
+  undrawnInARow_ = late && static_cast<double>(undrawnInARow_) < options_.rate ? undrawnInARow_ + 1 : 0;
+  return undrawnInARow_ > 0;
 }
 
 std::optional<FrameTicket> FrameLoop::appStage(const FrameOrder& order, std::size_t slot) {
   const TimeSignature& now = order.signature;
   FrameTicket ticket{now, Clock::now()};
-  ticket.shown = order.shown;
+  ticket.presentation = order.presentation;
   if (order.still != Standstill::None) {
     const auto still = [&]() -> Failure { return stages_.still(now, slot), Failure(); };
-    if (!watched("App", kAllWalls, now.frame, still)) return std::nullopt;
+    if (!attemptGuarded("App", kAllWalls, now.frame, still)) return std::nullopt;
     ticket.last = ended_ = options_.orders ? order.last : noneFollows();
     ticket.drawn = order.drawn;
     ticket.posed = stages_.headMeasured().value_or(ticket.began);
@@ -448,12 +448,12 @@ std::optional<FrameTicket> FrameLoop::appStage(const FrameOrder& order, std::siz
   {
     const StageSpan span(times_.app, probe_, Span::App, now.frame);
     const auto app = [&]() -> Failure { return stages_.app(now, slot), Failure(); };
-    if (!watched("App", kAllWalls, now.frame, app)) return std::nullopt;
+    if (!attemptGuarded("App", kAllWalls, now.frame, app)) return std::nullopt;
   }
   ++outcome_.framesSimulated;
   ticket.posed = stages_.headMeasured().value_or(ticket.began);
   ticket.last = ended_ = options_.orders ? order.last : noneFollows();
-  ticket.drawn = order.drawn && stages_.wantsDrawn(ticket) && !passesOver(ticket);
+  ticket.drawn = order.drawn && stages_.wantsDrawn(ticket) && !leavesUndrawn(ticket);
   return ticket;
 }
 
@@ -464,14 +464,14 @@ bool FrameLoop::cullStage(std::size_t wall, std::size_t slot, const FrameTicket&
   if (ticket.drawn) {
     const StageSpan span(times_.cull[wall], probe_, Span::Cull, frame, numberOf(wall));
     const auto cull = [&]() -> Failure { return stages_.cull(wall, slot, list), Failure(); };
-    well = watched("Cull", wall, frame, cull);
+    well = attemptGuarded("Cull", wall, frame, cull);
   }
   return well;
 }
 
 bool FrameLoop::openStage(std::size_t wall) {
   const Clock::time_point began = Clock::now();
-  const bool well = guard("opening", wall, kNoFrame, [&] { return stages_.openWall(wall); });
+  const bool well = attempt("opening", wall, kNoFrame, [&] { return stages_.openWall(wall); });
   warmUps_[wall] += millisecondsSince(began);
   return well;
 }
@@ -480,7 +480,7 @@ bool FrameLoop::openStage(std::size_t wall) {
 bool FrameLoop::warmUpStage(std::size_t wall, const DrawList& list) {
   const Clock::time_point began = Clock::now();
   const std::uint64_t frame = list.ticket.signature.frame;
-  const bool well = guard("warming up", wall, frame, [&] { return stages_.warmUp(wall, list); });
+  const bool well = attempt("warming up", wall, frame, [&] { return stages_.warmUp(wall, list); });
   warmUps_[wall] += millisecondsSince(began);
   if (!well) broken_ = true;
   return well;
@@ -495,14 +495,14 @@ void FrameLoop::warmedUp(Clock::duration took) {
 }
 
 void FrameLoop::closeStage(std::size_t wall) {
-  guard("closing", wall, kNoFrame, [&]() -> Failure { return stages_.closeWall(wall), Failure(); });
+  attempt("closing", wall, kNoFrame, [&]() -> Failure { return stages_.closeWall(wall), Failure(); });
 }
 
 bool FrameLoop::drawStage(std::size_t wall, DrawList& list) {
   if (!list.ticket.drawn) return true;
   const std::uint64_t frame = list.ticket.signature.frame;
   StageSpan span(times_.draw[wall], probe_, Span::Draw, frame, numberOf(wall));
-  if (watched("Draw", wall, frame, [&] { return drawWall(wall, list); })) return true;
+  if (attemptGuarded("Draw", wall, frame, [&] { return drawWall(wall, list); })) return true;
   span.leaveOut();
   broken_ = true;  // stops the run even without a failure: the other walls would wait for this one
   return false;
@@ -526,10 +526,10 @@ bool FrameLoop::swapStage(const FrameTicket& ticket) {
   }
   {
     const StageSpan span(times_.swap, probe_, Span::Swap, now.frame);
-    if (!guard("Swap", kAllWalls, now.frame, [&] { return stages_.swap(now); })) return false;
+    if (!attempt("Swap", kAllWalls, now.frame, [&] { return stages_.swap(now); })) return false;
   }
   ++outcome_.framesShown;
-  notePassedOver(ticket);
+  countTicksWithoutFrame(ticket);
   if (ticket.drawn) noteShown(ticket);
   lastDrawn_ = ticket.drawn;
   return true;
@@ -548,15 +548,15 @@ void FrameLoop::noteShown(const FrameTicket& ticket) {
 }
 
 /// The first frame waits until the driver is ready, and frames begun meanwhile wait for it.
-void FrameLoop::notePassedOver(const FrameTicket& ticket) {
+void FrameLoop::countTicksWithoutFrame(const FrameTicket& ticket) {
   if (outcome_.framesShown == 1) ready_ = Clock::now();
   if (ticket.began < ready_) return;
   const TimeSignature& now = ticket.signature;
   if (lastShown_) {
     const auto ticks = std::llround(toSeconds(now.time - *lastShown_) * options_.rate);
     const auto passed = static_cast<std::uint64_t>(std::max(ticks, 1LL) - 1);
-    outcome_.ticksPassedOver += passed;
-    outcome_.mostPassedOver = std::max(outcome_.mostPassedOver, passed);
+    outcome_.ticksWithoutFrame += passed;
+    outcome_.mostTicksWithoutFrame = std::max(outcome_.mostTicksWithoutFrame, passed);
   }
   lastShown_ = now.time;
 }

@@ -39,12 +39,12 @@ struct FrameLoopOptions {
   /// same on machines of any speed. A sequential loop does not draw meanwhile.
   bool everyTick = false;
   std::size_t walls = 1;
-  /// Limit of frames in flight, in pipelined mode (FrameSlots::limitUnderWay); the operator may change it.
-  std::size_t latency = 0;
+  /// Limit of frames in flight, in pipelined mode (FrameSlots::limitInFlight); the operator may change it.
+  std::size_t mostInFlight = 0;
   bool drawBeginsEarly = true;  ///< in pipelined mode: while Cull still fills the list (ListFilling)
-  /// The show continues after this frame, which is that much earlier than the present one [ns], and catches
-  /// up (Pacer::startLate). Nothing: the show begins, and is late by as much.
+  /// The last frame of a show that continues; nothing: the show starts.
   std::optional<TimeSignature> after{};
+  /// Delay with which the show starts or continues; it catches up (Pacer::startLate) [ns].
   Nanoseconds late = 0;
   std::uint64_t frames = 0;  ///< 0 = until stopped
   Nanoseconds end = 0;       ///< last show time; 0 = until stopped
@@ -54,7 +54,7 @@ struct FrameLoopOptions {
   LoadDecisions degradation{};
   LoadDecider* decider = nullptr;        ///< makes these decisions in a live run; null = none are made
   Playback* playback = nullptr;          ///< pauses a live run or slows it down; null = never
-  OperatorControls* controls = nullptr;  ///< its commands are taken at the start of each frame; null = none
+  OperatorControls* controls = nullptr;  ///< commands, taken at the start of each frame; null = none
   /// The other hosts that play this show, which is then shown frame by frame; null = there are none.
   FrameOrders* orders = nullptr;
   /// Ends the run at the first write of a stage to what it may only read; null = nothing is watched. While it
@@ -64,12 +64,13 @@ struct FrameLoopOptions {
 
 struct FrameLoopOutcome {
   std::uint64_t framesSimulated = 0;
-  std::uint64_t framesShown = 0;      ///< frames that reached the swap, drawn or not (FrameTicket::drawn)
-  std::uint64_t framesDrawn = 0;      ///< frames among them with new pictures
-  std::uint64_t missedTicks = 0;      ///< ticks in which App began no frame
-  std::uint64_t ticksPassedOver = 0;  ///< between frames shown, as below, in all
-  /// Most ticks in a row between two shown frames that began after the first one was shown.
-  std::uint64_t mostPassedOver = 0;
+  std::uint64_t framesShown = 0;        ///< frames that reached the swap, drawn or not (FrameTicket::drawn)
+  std::uint64_t framesDrawn = 0;        ///< frames among them with new pictures
+  std::uint64_t missedTicks = 0;        ///< ticks in which App began no frame
+  std::uint64_t ticksWithoutFrame = 0;  ///< sum over all pairs of shown frames, as below
+  /// Greatest number of ticks between two shown frames that follow each other, without frames that began
+  /// before the first one was shown.
+  std::uint64_t mostTicksWithoutFrame = 0;
   bool stopped = false;    ///< by request, before all frames were done
   bool nextGroup = false;  ///< the operator asked to restart the show
   Failure failure;
@@ -101,14 +102,14 @@ private:
   template <class Wait>
   auto waited(Span what, std::uint64_t frame, std::size_t wall, const Wait& wait);
   bool takeCommands();
-  std::size_t framesUnderWay() const;
-  std::size_t lastWalls() const;
+  std::size_t mostInFlight() const;
+  std::size_t wallsLeft() const;
   FrameLoad loadOf(std::uint64_t frame);
   TimeSignature signatureAfter(std::uint64_t ticks, double speed);
   bool noneFollows();
   bool isPastEnd() const;
 
-  bool passesOver(const FrameTicket& ticket);
+  bool leavesUndrawn(const FrameTicket& ticket);
   std::optional<FrameTicket> appStage(const FrameOrder& order, std::size_t slot);
   bool cullStage(std::size_t wall, std::size_t slot, const FrameTicket& ticket, DrawList& list);
   bool openStage(std::size_t wall);
@@ -117,12 +118,12 @@ private:
   bool drawStage(std::size_t wall, DrawList& list);
   bool swapStage(const FrameTicket& ticket);
   void noteShown(const FrameTicket& ticket);
-  void notePassedOver(const FrameTicket& ticket);
+  void countTicksWithoutFrame(const FrameTicket& ticket);
   void closeStage(std::size_t wall);
   template <class Work>
-  bool guard(const char* what, std::size_t wall, std::uint64_t frame, const Work& work);
+  bool attempt(const char* what, std::size_t wall, std::uint64_t frame, const Work& work);
   template <class Work>
-  bool watched(const char* what, std::size_t wall, std::uint64_t frame, const Work& work);
+  bool attemptGuarded(const char* what, std::size_t wall, std::uint64_t frame, const Work& work);
   Failure drawWall(std::size_t wall, DrawList& list);
   bool fail(const char* what, std::size_t wall, std::uint64_t frame, const char* why) noexcept;
   bool fail(Reason why);
@@ -135,7 +136,7 @@ private:
   FrameTimes times_;
   FrameLoopOutcome outcome_;
   std::uint64_t nextIndex_ = 0;
-  std::uint64_t passedOver_ = 0;  ///< late frames in a row that were not drawn
+  std::uint64_t undrawnInARow_ = 0;  ///< late frames in a row that were not drawn
   FrameClock clock_;
   TimeSignature lastSignature_;
   bool begun_ = false;   ///< a frame has been simulated, on any host: the show can stand still at it
@@ -149,7 +150,7 @@ private:
   // Of the frame shown last; used by the thread that swaps.
   std::chrono::steady_clock::time_point lastSwap_{};
   bool lastDrawn_ = false;
-  std::optional<Nanoseconds> lastShown_;  ///< its show time
+  std::optional<Nanoseconds> lastShown_;  ///< show time of the frame shown last
 };
 
 }  // namespace stadion

@@ -20,7 +20,7 @@ enum class Standstill : std::uint8_t { None, Paused, Waiting };  ///< Waiting: f
 /// A frame, as the leader has decided it for all.
 struct FrameOrder {
   TimeSignature signature;
-  Presentation shown{};
+  Presentation presentation{};
   Standstill still = Standstill::None;        ///< if show time stands still, this is the last frame again
   Standstill standsAfter = Standstill::None;  ///< the state with which a new leader continues
   bool last = false;                          ///< no frame follows it

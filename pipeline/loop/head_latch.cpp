@@ -14,7 +14,7 @@ void HeadLatch::latch(const WallViews& wall, TimePoint seen, DrawList& list) {
   if (!taken.X_RH) return;
   list.viewer.set(list.viewer.rig(), *taken.X_RH);
   list.ticket.posed = taken.measured;
-  const Presentation& shown = list.ticket.shown;
+  const Presentation& shown = list.ticket.presentation;
   PlacedViews placed = place(list.viewer, wall, {shown.eyeSeparation, shown.swapEyes});
   placed.origin = list.origin;  // what is in the list lies around it
   placed.setUp(list);

@@ -24,7 +24,7 @@ namespace stadion {
 /// Counts of latched frames.
 struct LatchCounts {
   std::uint64_t latched = 0;  ///< had a newer pose
-  std::uint64_t beyond = 0;   ///< of these, the head was beyond the reach
+  std::uint64_t beyond = 0;   ///< frames in which the head was farther away than the reach
   double farthest = 0;        ///< [m]
   double widest = 0;          ///< [rad]
 };
@@ -36,8 +36,9 @@ public:
   /// Borrows the device, which must implement headSoon().
   HeadLatch(InputDevice& input, const HeadReach& reach) : input_(input), reach_(reach) {}
 
-  /// Looks at the list's wall from the newest head there is, carried on to `seen`, the time at which pictures
-  /// are expected to be (in the past: to now). The list stays as it is without newer data of the head.
+  /// Sets the eyes of the list's views to the newest head pose, predicted for `seen`: the time at which the
+  /// pictures are expected to be shown. If `seen` is past, predicts for now. Without newer head data, the
+  /// list stays unchanged.
   void latch(const WallViews& wall, TimePoint seen, DrawList& list);
 
   const LatchCounts& counts() const { return counts_; }

@@ -151,7 +151,7 @@ void ShowStages::still(const TimeSignature& now, std::size_t slot) {
 }
 
 void ShowStages::cull(std::size_t wall, std::size_t slot, DrawList& list) {
-  const Presentation& shown = list.ticket.shown;
+  const Presentation& shown = list.ticket.presentation;
   const bool visitors = !parts_.walls[wall].camera;  // else the view is an onlooker's
   const CullOptions options{.eyes = {shown.eyeSeparation, shown.swapEyes}, .black = visitors && shown.black};
   culls_[wall].fill(parts_.state.view(slot), options, list);

@@ -3,7 +3,6 @@
 
 #include "engine/input/input_device.h"
 #include "engine/scene/scene.h"
-#include "pipeline/cpu_draw/draw_pool.h"
 #include "pipeline/cull/cull.h"
 #include "pipeline/draw_list/draw_counts.h"
 #include "pipeline/draw_list/renderer.h"
@@ -12,6 +11,7 @@
 #include "pipeline/loop/swap_forecast.h"
 #include "pipeline/operator/operator_controls.h"
 #include "pipeline/picture/picture.h"
+#include "pipeline/platform/draw_pool.h"
 #include "pipeline/platform/processor_set.h"
 #include "pipeline/sound/sound_player.h"
 #include "pipeline/state/scene_state.h"
@@ -26,7 +26,7 @@
 
 namespace stadion {
 
-/// One wall's pictures of one frame, by view: left and right, or one for both.
+/// The pictures of a wall in a frame, by view: left and right, or one for both.
 struct EyePictures {
   std::uint64_t frame = 0;
   std::vector<Picture> eyes;
@@ -49,9 +49,11 @@ using AppObserver = std::function<void(const TimeSignature&, const InputSample&,
 /// Worker processes draw the walls (process/per_wall_process_renderer.h).
 struct WallWorkers {
   RendererKind renderer = RendererKind::OsMesa;
-  std::uint32_t rasteriserThreads = 0;  ///< of each process; the CPU renderer's have at least one
-  bool everyFrame = true;               ///< else the newest frame counts, and no wall waits for a late one
-  double rate = 60;                     ///< [1/s]
+  std::uint32_t rasteriserThreads =
+      0;  ///< rasteriser threads of each process; at least one for the CPU renderer
+  /// True: every frame counts. False: the newest frame counts, and no wall waits for a late one.
+  bool everyFrame = true;
+  double rate = 60;                                ///< [1/s]
   std::function<void(const std::string&)> tell{};  ///< receives reports about processes; on Draw threads
 };
 
@@ -128,7 +130,7 @@ private:
     std::uint32_t views = 0;
     std::uint64_t frame = 0;
     bool read = false;    ///< the pictures have been read back
-    ViewTotals totals{};  ///< of the whole show, when it has been closed
+    ViewTotals totals{};  ///< totals of the whole show, set when the wall is closed
     std::optional<std::chrono::steady_clock::time_point> posed{};  ///< the head's pose was measured then
     WallLateness late{};
     std::uint64_t lateNow = 0;  ///< frames in a row, up to this one
@@ -140,11 +142,11 @@ private:
   Failure readPictures(std::size_t wall);
 
   ShowParts parts_;
-  InputSample input_;  ///< of App's frame
+  InputSample input_;  ///< input of App's current frame
   ChangeSet changes_;
   bool published_ = false;  ///< the scene, whole
   StillCasters stillCasters_;
-  std::vector<WallPixels> wallPixels_;  ///< of the walls with the visitor's view
+  std::vector<WallPixels> wallPixels_;  ///< pictures of the walls with the visitor's view
   RoomCull room_;
   std::vector<WallCull> culls_;  ///< by wall, each used by its Cull only
   SoundScape heard_;
@@ -153,8 +155,9 @@ private:
   std::vector<EyePictures> pictures_;
   std::optional<HeadLatch> latch_;
   SwapForecast swaps_;
-  std::optional<std::chrono::steady_clock::time_point> measured_;  ///< of App's frame
-  std::atomic<std::chrono::steady_clock::time_point> began_{};     ///< the frame that is drawn now
+  /// Time at which the head pose of App's current frame was measured.
+  std::optional<std::chrono::steady_clock::time_point> measured_;
+  std::atomic<std::chrono::steady_clock::time_point> began_{};  ///< the frame that is drawn now
   std::atomic<std::uint64_t> shownFrame_ = 0;
   std::string drawnBy_;
 };

@@ -7,8 +7,8 @@ OperatorControls::OperatorControls(bool waits, double wallsEyeSeparation) : wait
   beginGroup();
 }
 
-void OperatorControls::startWith(std::size_t latency) {
-  if (latency > 0) state_.runLatency = static_cast<double>(latency);
+void OperatorControls::startWith(std::size_t mostInFlight) {
+  if (mostInFlight > 0) state_.runMostInFlight = static_cast<double>(mostInFlight);
 }
 
 void OperatorControls::beginGroup() {

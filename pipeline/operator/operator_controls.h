@@ -30,7 +30,7 @@ public:
   Playback& playback() { return playback_; }
 
   /// Sets the run's limit of frames in flight; 0: as many as there is room for.
-  void startWith(std::size_t latency);
+  void startWith(std::size_t mostInFlight);
   /// Begins a show from its start: it plays, or waits. Black walls, eyes and volume stay as they are.
   void beginGroup();
   /// Returns the number of groups so far, this one included.

@@ -35,15 +35,16 @@ bool OperatorState::obey(const OperatorCommand& command) {
   case OperatorAction::Start: waiting = false; return true;
   case OperatorAction::Pause: turn(paused, command); return true;
   case OperatorAction::Step: return paused;
-  case OperatorAction::Black: turn(shown.black, command); return true;
+  case OperatorAction::Black: turn(presentation.black, command); return true;
   case OperatorAction::NextGroup: nextGroup = true; return true;
-  case OperatorAction::SwapEyes: turn(shown.swapEyes, command); return true;
-  case OperatorAction::EyeSeparation: return set(shown.eyeSeparation, eyeSeparation(), kWidestEyes, command);
+  case OperatorAction::SwapEyes: turn(presentation.swapEyes, command); return true;
+  case OperatorAction::EyeSeparation:
+    return set(presentation.eyeSeparation, eyeSeparation(), kWidestEyes, command);
   case OperatorAction::FreezeHead: turn(headFrozen, command); return true;
   case OperatorAction::Volume: return set(volume, volume, 1, command);
   case OperatorAction::Latency: {
-    const double now = latency > 0 ? latency : runLatency;
-    return setWhole(latency, now, 1, kMostLatency, command);
+    const double now = mostInFlight > 0 ? mostInFlight : runMostInFlight;
+    return setWhole(mostInFlight, now, 1, kMostInFlight, command);
   }
   case OperatorAction::End: end = true; return true;
   }

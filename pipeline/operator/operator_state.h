@@ -12,16 +12,16 @@
 namespace stadion {
 
 struct OperatorState {
-  static constexpr double kWidestEyes = 1;   ///< [m]
-  static constexpr double kMostLatency = 4;  ///< [frames]
+  static constexpr double kWidestEyes = 1;    ///< [m]
+  static constexpr double kMostInFlight = 4;  ///< [frames]
 
   bool waiting = false;  ///< for Start
   bool paused = false;
   bool headFrozen = false;
-  double volume = 1;                 ///< from 0 to 1
-  double latency = 0;                ///< limit of frames in flight, a whole number; 0: as the run was started
-  double runLatency = kMostLatency;  ///< the limit at the run's start
-  Presentation shown;
+  double volume = 1;        ///< from 0 to 1
+  double mostInFlight = 0;  ///< limit of frames in flight, a whole number; 0: as the run was started
+  double runMostInFlight = kMostInFlight;  ///< the limit at the run's start
+  Presentation presentation;
   double wallsEyeSeparation = 0.064;  ///< from the wall file [m]
   bool nextGroup = false, end = false;
 
@@ -29,7 +29,9 @@ struct OperatorState {
   bool obey(const OperatorCommand& command);
   /// Returns true if show time stands still, except for single steps.
   bool still() const { return waiting || paused; }
-  double eyeSeparation() const { return shown.eyeSeparation < 0 ? wallsEyeSeparation : shown.eyeSeparation; }
+  double eyeSeparation() const {
+    return presentation.eyeSeparation < 0 ? wallsEyeSeparation : presentation.eyeSeparation;
+  }
 };
 
 }  // namespace stadion

@@ -39,7 +39,7 @@ Address addressOf(std::string_view path) {
 
 /// The maximum that OperatorState accepts.
 double mostOf(OperatorAction figure) {
-  if (figure == OperatorAction::Latency) return OperatorState::kMostLatency;
+  if (figure == OperatorAction::Latency) return OperatorState::kMostInFlight;
   return figure == OperatorAction::Volume ? 1 : OperatorState::kWidestEyes;
 }
 

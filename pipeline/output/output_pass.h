@@ -32,7 +32,7 @@ private:
   std::uint32_t width_ = 0, height_ = 0;
 };
 
-/// One wall on the window.
+/// A pane of the window: the picture of one wall.
 struct Pane {
   const PictureTexture* left = nullptr;
   const PictureTexture* right = nullptr;  ///< null = as left
@@ -40,7 +40,7 @@ struct Pane {
   std::uint32_t width = 0, height = 0;    ///< [pixels]
   EyeMix mix = EyeMix::Left;
   OutputShape shape;
-  std::int32_t firstRow = 0;  ///< of Interlaced: the monitor's row that shows the top row of the window
+  std::int32_t firstRow = 0;  ///< for Interlaced: the monitor's row that shows the top row of the window
 };
 
 class OutputPass {
@@ -53,9 +53,9 @@ public:
   /// From now on draws only there, from the upper left corner of the content; without a width everywhere
   /// again.
   void clip(std::int32_t x, std::int32_t y, std::uint32_t width, std::uint32_t height);
-  /// Lays a picture with transparency over what is there.
+  /// Lays a picture with transparency over the target's picture.
   void overlay(const PictureTexture& picture, std::int32_t x, std::int32_t y);
-  /// What has been drawn, from the buffer that was drawn to.
+  /// Reads the pixels of the back buffer.
   Picture read() const;
 
 private:

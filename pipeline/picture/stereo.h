@@ -16,7 +16,7 @@ enum class StereoLayout {
   TopBottom,   ///< twice as high, left eye on top
   Anaglyph,    ///< red-cyan glasses: red is the left eye's luminance, green and blue are the right eye's
   Interlaced,  ///< even rows (from the top, from 0) left, odd ones right
-  Off          ///< one eye only, drawn without separation
+  Off          ///< one eye only, from the middle between the eyes
 };
 
 /// "pair", "side-by-side", "top-bottom", "anaglyph", "interlaced", "off".

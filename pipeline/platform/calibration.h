@@ -25,7 +25,7 @@ struct MeasuredSetting {
 /// The settings that were tried for a number of walls.
 struct MeasuredRoom {
   std::size_t walls = 0;
-  std::uint32_t width = 0, height = 0;  ///< of one eye's picture [pixels]
+  std::uint32_t width = 0, height = 0;  ///< size of one eye's picture [pixels]
   std::string look;                     ///< full or plain
   std::vector<MeasuredSetting> settings;
 };
@@ -36,7 +36,7 @@ struct MachineCalibration {
   std::vector<MeasuredRoom> rooms;
 };
 
-/// One file may hold several machines: those that share a home folder.
+/// The figures of a calibration file. It may hold several machines: those that share a home folder.
 struct Calibration {
   std::vector<MachineCalibration> machines;
 

@@ -10,14 +10,16 @@
 namespace stadion {
 
 struct DrawSetting {
-  bool processes = false;               ///< one for each wall; else threads of the program itself
-  std::uint32_t rasteriserThreads = 0;  ///< of each process; 0: pixels are made by the thread that draws
-  bool pinned = false;                  ///< each wall is drawn on processors of its own
+  /// True: each wall is drawn by a process, false: by a thread of the program itself.
+  bool processes = false;
+  /// Rasteriser threads of each process; 0: the drawing thread makes the pixels.
+  std::uint32_t rasteriserThreads = 0;
+  bool pinned = false;  ///< true: each wall has processors of its own
 
   bool operator==(const DrawSetting&) const = default;
 };
 
-/// What the user asks for on every machine; nothing: the best setting is chosen.
+/// Settings that the user asks for on every machine. Nothing: the best setting is chosen.
 struct DrawWishes {
   std::optional<bool> processes;
   std::optional<std::uint32_t> rasteriserThreads;

@@ -10,10 +10,10 @@ namespace stadion {
 
 struct Machine {
   std::string processor;         ///< name given by its maker
-  std::uint32_t cores = 0;       ///< that this process may use
+  std::uint32_t cores = 0;       ///< cores that this process may use
   std::uint32_t processors = 0;  ///< hardware threads that it may use
-  std::string rasteriserBuild;   ///< of OSMesa's library: another version of Mesa has another one
-  std::string rasteriser{};      ///< its own description; for people, not compared
+  std::string rasteriserBuild;   ///< build of OSMesa's library; differs between versions of Mesa
+  std::string rasteriser{};  ///< description that the rasteriser gives of itself; for people, not compared
 
   /// Returns true if figures from one machine hold on the other.
   bool isLike(const Machine& other) const;

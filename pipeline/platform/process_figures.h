@@ -10,7 +10,7 @@ namespace stadion {
 
 struct ProcessFigures {
   std::uint64_t residentBytes = 0;  ///< memory in use (RSS)
-  std::uint64_t heapBytes = 0;      ///< of it, allocated by the program and not freed
+  std::uint64_t heapBytes = 0;      ///< memory that the program has allocated and not freed
   std::size_t handles = 0;          ///< open file descriptors
   std::size_t threads = 0;
 };

@@ -23,7 +23,8 @@ public:
   /// Restricts the calling thread to these processors. Returns false, and changes nothing, if the system
   /// refuses.
   bool bindThisThread() const { return bindThread(0); }
-  /// The same for a thread of any process, by its number. A process's first thread has the process's number.
+  /// Restricts a thread of any process, given by its number, to these processors. A process's first thread
+  /// has the process's number.
   bool bindThread(int thread) const;
 
   bool operator==(const ProcessorSet&) const = default;

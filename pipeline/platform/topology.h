@@ -24,7 +24,7 @@ public:
   Topology(Topology&&) noexcept;
   Topology& operator=(Topology&&) noexcept;
 
-  std::string model() const;            ///< of the processor, as named by its maker
+  std::string model() const;            ///< name of the processor, given by its maker
   std::size_t cores() const;            ///< number of cores, which do not share units
   std::size_t hardwareThreads() const;  ///< processors, as the system counts them
 

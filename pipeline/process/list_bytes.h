@@ -23,7 +23,7 @@ struct MeshPlace {
   std::uint64_t offset = 0, bytes = 0;
 };
 
-/// What the process must learn about meshes before it draws the list.
+/// Changes of the meshes that a process must know before it draws the list.
 struct ListNews {
   std::vector<MeshPlace> meshes;
   std::vector<MeshId> gone;  ///< freed by the show, which may use their ids again

@@ -39,7 +39,7 @@ private:
   worker::ProcessorPlaces places_;
   bool bindsProcesses_;  ///< to one at a time; else they have threads for more, or processors of their own
   std::vector<std::unique_ptr<Wall>> walls_;
-  std::unique_ptr<PerWallProcessRenderer> views_;  ///< each as a wall with one view
+  std::unique_ptr<PerWallProcessRenderer> views_;  ///< draws each view as a wall with one view
 };
 
 }  // namespace stadion

@@ -91,7 +91,7 @@ Failure PerWallProcessRenderer::start(Wall& wall) {
   return {};
 }
 
-/// It is gone, or is to go. What is told: the first death, that there are more, and no more than that.
+/// The process crashed, or must end. Reports the first crash, and once that more follow.
 void PerWallProcessRenderer::died(Wall& wall, const std::string& how) {
   wall.process.stop();
   wall.pid = 0;
@@ -108,7 +108,7 @@ void PerWallProcessRenderer::died(Wall& wall, const std::string& how) {
   }
 }
 
-/// Waits until the process is idle; false if it is gone, or busy still.
+/// Waits until the process is idle. Returns false if it ended or is still busy.
 bool PerWallProcessRenderer::await(Wall& wall, milliseconds atMost) {
   const auto deadline = Clock::now() + atMost;
   for (;;) {
@@ -217,7 +217,7 @@ Failure PerWallProcessRenderer::drawEvery(Wall& wall, const DrawList& list, bool
                 std::to_string(1 + kMostStarts) + " processes died of it; the last one " + how);
 }
 
-/// Sees what has become of a process without waiting: one that is gone or hangs is replaced when it is time.
+/// Looks at a process without waiting. When it is time, replaces one that ended or hangs.
 Failure PerWallProcessRenderer::lookAfter(Wall& wall) {
   const State was = wall.process.state();
   if (was == State::Opening || was == State::Busy) {

@@ -27,14 +27,16 @@ namespace stadion {
 struct PerWallProcessParts {
   const MeshStore& meshes;
   std::vector<PictureSize> walls;
-  std::vector<std::string> names;  ///< of the walls
+  std::vector<std::string> names;  ///< names of the walls
   RenderQuality quality{};
   RendererKind renderer = RendererKind::OsMesa;
-  std::uint32_t rasteriserThreads = 0;  ///< of each process; 0: none but the one that draws
+  /// Rasteriser threads of each process; 0: the drawing thread makes the pixels.
+  std::uint32_t rasteriserThreads = 0;
   bool everyFrame = true;
-  double rate = 60;                                ///< [1/s]
-  std::function<bool()> giveUp{};                  ///< once true, drawing ends with RunStopped
-  std::function<void(const std::string&)> tell{};  ///< what became of a process; on its wall's Draw thread
+  double rate = 60;                ///< [1/s]
+  std::function<bool()> giveUp{};  ///< once true, drawing ends with RunStopped
+  /// Receives reports about a process; called on its wall's Draw thread.
+  std::function<void(const std::string&)> tell{};
   std::filesystem::path program = worker::wallProgram();
   std::vector<ProcessorSet> processors{};  ///< by wall: those that its process may use; none: all of them
 };

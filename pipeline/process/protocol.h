@@ -36,11 +36,11 @@ struct OrderHead {
   std::uint32_t magic = kMagic, version = kVersion;
   Order order = Order::Open;
   // Of Open.
-  std::uint32_t width = 0, height = 0;  ///< of one view's picture [pixels]
+  std::uint32_t width = 0, height = 0;  ///< size of one view's picture [pixels]
   RendererKind renderer = RendererKind::OsMesa;
   std::uint32_t rasteriserThreads = 0;  ///< 0: the thread that draws makes the pixels, too
   RenderQuality quality{};
-  ProcessorSet processors{};  ///< that it may use; empty: all
+  ProcessorSet processors{};  ///< processors that the process may use; empty: all
   // Of Draw.
   std::uint32_t read = 0;    ///< 1: one answer for drawing and reading, so no crash can fall between them
   std::uint32_t warmUp = 0;  ///< 1: what it draws is not counted
@@ -52,7 +52,7 @@ struct AnswerHead {
   Order to = Order::Open;
   std::uint32_t failed = 0;  ///< the text says why
   std::uint32_t textBytes = 0;
-  ViewTotals totals{};  ///< of Draw: since the worker began
+  ViewTotals totals{};  ///< totals since the worker began; for Draw
 };
 
 }  // namespace stadion::worker

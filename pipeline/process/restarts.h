@@ -21,11 +21,11 @@ public:
   static constexpr Milliseconds kShortest{250}, kLongest{30'000};
 
   enum class Death { First, Second, Further };
-  /// It has died, or could not be started.
+  /// Notes that the process died or could not be started.
   Death died(Clock::time_point now);
-  /// Whether the next one may be started.
+  /// Returns true if the next one may be started.
   bool due(Clock::time_point now) const { return now >= next_; }
-  /// It has drawn a frame. True when the wall can be said to be back.
+  /// Notes that the process has drawn a frame. Returns true if the wall may be reported as back.
   bool drew();
   /// Deaths in a row.
   std::size_t deaths() const { return deaths_; }

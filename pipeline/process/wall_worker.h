@@ -28,17 +28,17 @@ namespace stadion::worker {
 struct WorkerSetting {
   std::filesystem::path program;  ///< stadion-wall
   RendererKind renderer = RendererKind::OsMesa;
-  std::uint32_t width = 0, height = 0;  ///< of one view's picture [pixels]
+  std::uint32_t width = 0, height = 0;  ///< size of one view's picture [pixels]
   RenderQuality quality{};
   std::uint32_t rasteriserThreads = 0;  ///< 0: it rasterises on the thread that draws
-  ProcessorSet processors{};            ///< that it may use; empty: all
+  ProcessorSet processors{};            ///< processors that the process may use; empty: all
 };
 
-/// What the system says of a process.
+/// The state of a process, as the system reports it.
 struct ProcessStatus {
   double processorSeconds = -1;  ///< used so far; negative: not known. It stands still while it hangs
   char state = '?';  ///< as in /proc: R runs, or would if there was a processor; T stopped, Z dead
-  int end = 0;       ///< of a dead one, as waitpid() has it
+  int end = 0;       ///< exit status of a dead process, as from waitpid()
 };
 
 /// `stadion-wall` of this copy of Stadion (helperProgram).
@@ -53,7 +53,7 @@ public:
 
   enum class State {
     Down,     ///< there is no process
-    Opening,  ///< it makes its context
+    Opening,  ///< the process makes its context
     Idle,
     Busy,  ///< with a list, or with pictures
   };
@@ -67,7 +67,7 @@ public:
   // For an idle one:
   /// `read`: and then the pictures.
   void draw(const DrawList& list, bool read);
-  /// The same, not counted.
+  /// Draws the list as draw() does, but its totals do not count.
   void warmUp(const DrawList& list);
   void readPictures();
 
@@ -78,10 +78,10 @@ public:
   bool hear(std::chrono::milliseconds atMost);
 
   const AnswerHead& answer() const { return answer_; }
-  const std::string& text() const { return text_; }  ///< of the answer
+  const std::string& text() const { return text_; }  ///< text of the answer
   const std::string& end() const { return end_; }    ///< "was killed by signal 9 (Killed)"
   std::span<const std::byte> picture(std::uint32_t view) const;
-  /// Whether picture() is that of the list that was drawn last, also when the process is gone.
+  /// Returns true if picture() shows the list that was drawn last, even if the process has ended.
   bool holdsPictures() const { return holdsPictures_; }
 
   /// When it was heard last and had nothing to say.
@@ -113,12 +113,12 @@ private:
   State state_ = State::Down;
   StillKeys known_;
   std::unordered_map<MeshId, Sent> sent_;
-  std::uint64_t freedCount_ = 0;  ///< of the store, when it was last looked at
+  std::uint64_t freedCount_ = 0;  ///< MeshStore's count of freed meshes at the last order
   ProcessStatus status_;
   AnswerHead answer_{};
   std::string text_, end_;
   int started_ = 0;
-  bool reads_ = false, holdsPictures_ = false;  ///< what it is at gives pictures; they are there
+  bool reads_ = false, holdsPictures_ = false;  ///< the order gives pictures; the pictures have arrived
 };
 
 }  // namespace stadion::worker

@@ -24,7 +24,7 @@ struct ShadingLight {
 };
 struct Shading {
   float normals[9];  ///< (3 x 3), row major: from normals in the mesh to normals in World, of any length
-  float base[3], emissive[3];  ///< of the material
+  float base[3], emissive[3];  ///< colours of the material
   float ambient[3];
   const ShadingLight* lights;
   unsigned lightCount;

@@ -42,12 +42,12 @@ public:
   SmallObjectRasterizer(std::uint32_t width, std::uint32_t height,
                         const RasterKernels& kernels = bestRaster());
 
-  /// Whether things that are lit so can be drawn here.
+  /// Returns true if things that are lit so can be drawn here.
   static bool serves(const DrawView& eye, const SceneBlock& scene);
 
   /// An empty picture of that colour, for an eye and a scene that are served.
   void begin(const DrawView& eye, const SceneBlock& scene, const std::array<float, 3>& background);
-  /// What is drawn next, and where it stands. False: it is not small.
+  /// Places the mesh to draw next. Returns false if it is not small.
   bool place(const CullerMesh& mesh, const MeshShading& shading, const InstanceMatrix& model);
   /// Draws triangles of the placed object, from number `first` on, with their vertices within [firstVertex,
   /// endVertex). Returns how many passed the culler.

@@ -24,8 +24,8 @@ const CullKernels& bestCuller();
 
 /// A mesh, coordinate by coordinate and corner by corner; all levels, in the order of their indices.
 struct CullerMesh {
-  std::vector<float> x, y, z;         ///< of its vertices; room for a multiple of eight
-  std::vector<std::int32_t> a, b, c;  ///< of its triangles, and seven past the last one
+  std::vector<float> x, y, z;         ///< by vertex: coordinates; padded to a multiple of eight
+  std::vector<std::int32_t> a, b, c;  ///< by triangle: corners; seven more follow the last one
 
   CullerMesh(const Mesh& mesh, std::span<const std::uint32_t> indices);
 };
@@ -44,8 +44,8 @@ public:
   void clear() { used_ = 0; }
   /// Through whose eye things are seen from now on.
   void look(const DrawView& eye);
-  /// What has been drawn for this eye so far: its depths, 1 at the near plane and 0 at the far one (height x
-  /// width), rows from the bottom. What is behind is left out from now on.
+  /// Removes from now on triangles behind a picture drawn earlier for this eye. `depths`: 1 at the near
+  /// plane, 0 at the far one (height x width), rows from the bottom.
   void hideBehind(std::span<const float> depths);
   /// Places the next mesh.
   void place(const CullerMesh& mesh, const InstanceMatrix& model);

@@ -27,8 +27,9 @@ namespace stadion {
 
 class Journal {
 public:
-  static constexpr std::size_t kStandardLimit = std::size_t{4} << 20U;  ///< of each file [byte]
-  static constexpr int kOlder = 3;                                      ///< files that are kept beside it
+  /// Limit of the size of each file [byte].
+  static constexpr std::size_t kStandardLimit = std::size_t{4} << 20U;
+  static constexpr int kOlder = 3;  ///< files that are kept beside it
 
   static Result<std::unique_ptr<Journal>> open(std::string file, std::size_t limit = kStandardLimit);
   /// Opens a file that may not exist yet. Lines are lost until it can be written.
@@ -53,7 +54,7 @@ private:
 
   std::string file_;
   std::size_t limit_;
-  mutable std::mutex mutex_;                           ///< of the next ones
+  mutable std::mutex mutex_;                           ///< guards the members below
   std::chrono::steady_clock::time_point heldUntil_{};  ///< another program holds the lock, and not for a line
   std::uint64_t lost_ = 0;                             ///< lines lost that the file does not mention yet
   bool incomplete_ = false;

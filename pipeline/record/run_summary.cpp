@@ -262,7 +262,7 @@ void addTimes(Json& j, const RunSummary& s) {
 
 /// Frames that were shown late, and the measures that keep the head's pose young.
 void addLateness(Json& j, const RunSummary& s) {
-  j["most_passed_over"] = s.mostPassedOver;
+  j["most_passed_over"] = s.mostTicksWithoutFrame;
   j["late_walls"] = Json::object();
   for (const WallLate& w : s.lateWalls)
     j["late_walls"][w.wall] = Json{{"frames", w.frames}, {"in_a_row", w.inARow}};

@@ -66,13 +66,13 @@ struct DrawnCounts {
   std::uint64_t frames = 0, calls = 0, instances = 0, triangles = 0;
 };
 
-/// This host's part in a cluster.
+/// The part of this host in a cluster.
 struct ClusterSummary {
   std::string node;
-  std::size_t nodes = 0;  ///< of the cluster
+  std::size_t nodes = 0;  ///< number of nodes in the cluster
   bool leads = false;
   std::uint64_t orders = 0;  ///< frames that it has ordered (leader) or received (follower)
-  double orderBytes = 0;     ///< of each, on average; known to the leader only
+  double orderBytes = 0;     ///< mean size of an order [byte]; known to the leader only
   std::uint64_t mostOrderBytes = 0;
   /// Waits of frames for which all others waited for this host: from the end of its drawing to the permission
   /// to show [ms].
@@ -97,7 +97,7 @@ struct MeasuredDistance {
 
 /// How a node kept its budget.
 struct BudgetKept {
-  std::string node, file;  ///< its path, the script
+  std::string node, file;  ///< path of the node, script
   std::uint32_t line = 0;
   double budget = 0;           ///< [ms]; 0 = it has none, but degrades to save the frame
   double mean = 0, worst = 0;  ///< [ms]
@@ -142,19 +142,19 @@ struct RunSummary {
   std::uint32_t width = 0, height = 0;
   double rate = 0;                ///< [frames/s]
   std::uint64_t frames = 0;       ///< shown
-  std::uint64_t framesDrawn = 0;  ///< of these; times cover only drawn frames
-  double seconds = 0;             ///< of show time
-  double elapsedSeconds = 0;      ///< of real time
-  std::uint64_t groups = 1;       ///< of visitors; the other figures describe the last one
-  double uptimeSeconds = 0;       ///< of all groups and the pauses between them
+  std::uint64_t framesDrawn = 0;  ///< frames that were drawn; times cover only these
+  double seconds = 0;             ///< duration in show time
+  double elapsedSeconds = 0;      ///< duration in real time
+  std::uint64_t groups = 1;       ///< groups of visitors; the other figures describe the last one
+  double uptimeSeconds = 0;       ///< real time of all groups and the pauses between them
   HowDrawn howDrawn{};
   double warmUpMs = 0;  ///< before the first frame is drawn: contexts, shaders, uploads; counted here only
   std::uint64_t lateFrames = 0;
   Distribution frameMs;  ///< from one frame shown to the next
   std::vector<StageTimes> stages;
-  std::uint64_t mostPassedOver = 0;  ///< ticks in a row without a frame on any wall
-  std::vector<WallLatency> latency;  ///< motion to image
-  std::vector<WallLate> lateWalls;   ///< walls that were late at least once
+  std::uint64_t mostTicksWithoutFrame = 0;  ///< ticks in a row without a frame on any wall
+  std::vector<WallLatency> latency;         ///< motion to image
+  std::vector<WallLate> lateWalls;          ///< walls that were late at least once
   std::optional<LateLatched> latched;
   std::optional<double> aimedAt;  ///< prediction at the end: time after a frame's start [ms]
   std::uint64_t lastFrame = 0;    ///< the frame of the hashes
@@ -170,9 +170,10 @@ struct RunSummary {
   std::vector<Happening> happened;         ///< the first ones, at most kMostHappenings
   std::vector<MeasuredDistance> measured;  ///< the first ones, at most kMostHappenings
   std::uint64_t happenedCount = 0;         ///< all of them
-  std::vector<BudgetKept> budgets;         ///< of nodes with a budget or with degradations
-  std::vector<Obeyed> obeyed;              ///< of a replay: degradations that its log orders
-  std::optional<StressFelt> stress;        ///< of the whole show; nothing = stress was not controlled
+  std::vector<BudgetKept> budgets;         ///< budgets and costs of nodes with a budget or with degradations
+  std::vector<Obeyed> obeyed;              ///< degradations that a replay took from its log
+  /// Stress control over the whole show; nothing = stress was not controlled.
+  std::optional<StressFelt> stress;
   std::optional<ClusterSummary> cluster;
 };
 

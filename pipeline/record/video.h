@@ -20,7 +20,7 @@
 namespace stadion {
 
 struct VideoOptions {
-  std::uint32_t width = 0, height = 0;  ///< of every frame [pixels]
+  std::uint32_t width = 0, height = 0;  ///< size of every frame [pixels]
   double rate = 60;                     ///< [frames/s]
   std::size_t queue = 8;                ///< frames that may wait
   std::string ffmpeg = "ffmpeg";        ///< programs, found along PATH

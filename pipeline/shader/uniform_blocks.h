@@ -17,7 +17,7 @@ namespace stadion {
 
 using Float4 = std::array<float, 4>;
 
-/// One eye.
+/// The view's uniform block: camera of one eye.
 struct ViewBlock {
   std::array<float, 16> viewProjection;  ///< (4 x 4), column major
   Float4 eye;                            ///< where the eye is [m]; w: the clip z of the far plane, for w = 1

@@ -72,11 +72,11 @@ private:
 
   std::mutex mutex_;
   std::condition_variable changed_;
-  SoundScape next_;  ///< this and the following are shared
+  SoundScape next_;  ///< from here to `ending_`: shared, under the mutex
   SoundMix nextMix_;
   bool fresh_ = false, busy_ = false, ending_ = false;
 
-  bool opened_ = false;  ///< this and the following are used by the thread only
+  bool opened_ = false;  ///< from here on: used by the thread only
   std::unique_ptr<SoundDevice> device_;
   double volume_ = -1;
   std::map<NodeRef, Playing> playing_;

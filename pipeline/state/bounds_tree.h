@@ -19,8 +19,8 @@ namespace stadion {
 /// Positions of the levels in a tree with room for `capacity` spheres, counted in floats.
 struct BoundsLayout {
   static constexpr std::uint32_t kWide = 8;         ///< nodes side by side
-  static constexpr std::size_t kSphereFloats = 32;  ///< of eight: x, y, z, radius
-  static constexpr std::size_t kBoxFloats = 48;     ///< of eight: least x, y, z, greatest x, y, z
+  static constexpr std::size_t kSphereFloats = 32;  ///< floats for eight spheres: x, y, z, radius
+  static constexpr std::size_t kBoxFloats = 48;  ///< floats for eight boxes: least x, y, z, greatest x, y, z
   static constexpr std::uint32_t kMostLevels = 11;
 
   std::array<std::size_t, kMostLevels> at{};

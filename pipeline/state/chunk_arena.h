@@ -19,14 +19,14 @@
 
 namespace stadion {
 
-constexpr std::size_t kSlots = 3;
+constexpr std::size_t kSlots = 3;  ///< slots of the published scene: one to write, two to read
 
-/// One chunk as the stages see it.
+/// A chunk as the stages see it.
 struct ChunkView {
   std::span<const InstanceRecord> records;
-  std::span<const std::uint64_t> hidden;  ///< one bit per record, for the requested slot: the object has
-                                          ///< left the chunk
-  BoundsTree bounds;                      ///< of all shown records, including those that have left
+  /// One bit per record, for the requested slot: set if the object has left the chunk.
+  std::span<const std::uint64_t> hidden;
+  BoundsTree bounds;  ///< bounds of all shown records, including those that have left
 };
 
 class ChunkArena {
@@ -37,7 +37,7 @@ public:
   ChunkId add(std::span<const InstanceRecord> records);
   void free(ChunkId id);
   ChunkView find(ChunkId id, std::size_t slot) const;
-  /// The same bits as ChunkView::hidden, for App; empty if there is no such chunk.
+  /// Returns ChunkView::hidden of the chunk for App to write; empty if there is no such chunk.
   std::span<std::uint64_t> hidden(ChunkId id, std::size_t slot);
 
   /// From now on find() returns places in a second mapping, which is read-only. Returns all of it. Earlier

@@ -23,12 +23,12 @@ std::optional<std::size_t> FrameSlots::writable() {
 }
 
 bool FrameSlots::mayBegin(std::uint64_t begun) const {
-  return mostUnderWay_ == 0 || begun < shown_ + mostUnderWay_ + (ending() ? 1 : 0);
+  return mostInFlight_ == 0 || begun < framesShown_ + mostInFlight_ + (oldestIsNearlyDrawn() ? 1 : 0);
 }
 
 /// Returns true if few enough walls still draw the oldest frame.
-bool FrameSlots::ending() const {
-  return drawn_ > 0 && drawn_ + last_ >= cursor_.size();
+bool FrameSlots::oldestIsNearlyDrawn() const {
+  return wallsDrawn_ > 0 && wallsDrawn_ + wallsLeft_ >= cursor_.size();
 }
 
 std::optional<std::size_t> FrameSlots::beginWrite() {
@@ -106,24 +106,24 @@ bool FrameSlots::release(const Lease& lease) {
   return true;
 }
 
-void FrameSlots::limitUnderWay(std::size_t frames, std::size_t last) {
+void FrameSlots::limitInFlight(std::size_t frames, std::size_t wallsLeft) {
   const std::lock_guard lock(mutex_);
-  if (mostUnderWay_ == frames && last_ == last) return;  // the case in nearly every frame
-  mostUnderWay_ = frames, last_ = last;
+  if (mostInFlight_ == frames && wallsLeft_ == wallsLeft) return;  // the case in nearly every frame
+  mostInFlight_ = frames, wallsLeft_ = wallsLeft;
   changed_.notify_all();
 }
 
-void FrameSlots::drawn() {
+void FrameSlots::noteDrawn() {
   const std::lock_guard lock(mutex_);
-  const bool was = ending();
-  ++drawn_;
-  if (mostUnderWay_ > 0 && ending() != was) changed_.notify_all();
+  const bool was = oldestIsNearlyDrawn();
+  ++wallsDrawn_;
+  if (mostInFlight_ > 0 && oldestIsNearlyDrawn() != was) changed_.notify_all();
 }
 
-void FrameSlots::shown() {
+void FrameSlots::noteShown() {
   const std::lock_guard lock(mutex_);
-  ++shown_;
-  drawn_ = 0;
+  ++framesShown_;
+  wallsDrawn_ = 0;
   changed_.notify_all();
 }
 

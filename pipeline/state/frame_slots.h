@@ -44,15 +44,15 @@ public:
   /// Ends the lease. Returns false if it was past its deadline and the slot was taken away: the work is void.
   bool release(const Lease& lease);
 
-  /// Limits the frames in flight. Frames are counted until the swap, from App (Every) or from their selection
-  /// (Latest). A lower limit shows younger frames and overlaps the stages less. 0 = as many as there is room
-  /// for. The limit may change at any time. One frame more may begin once at most `last` walls still draw the
-  /// oldest frame: the processors would be idle otherwise.
-  void limitUnderWay(std::size_t frames, std::size_t last = 0);
+  /// Limits the frames in flight; 0 = no limit besides the slots. A frame counts until the swap, from App
+  /// (Every) or from its selection (Latest). With a lower limit, pictures show younger poses, and the stages
+  /// overlap less. One frame more may begin as soon as at most `wallsLeft` walls still draw the oldest frame,
+  /// because processors would be idle otherwise. The limit may change at any time.
+  void limitInFlight(std::size_t frames, std::size_t wallsLeft = 0);
   /// Reports that a wall has drawn its frame and waits for the others.
-  void drawn();
+  void noteDrawn();
   /// Reports that all walls have shown a frame.
-  void shown();
+  void noteShown();
 
   /// Ends writing: the readers finish the frames that exist.
   void finish();
@@ -79,16 +79,16 @@ private:
   std::optional<std::size_t> writable();
   std::optional<std::size_t> choose() const;
   bool mayBegin(std::uint64_t begun) const;
-  bool ending() const;
+  bool oldestIsNearlyDrawn() const;
 
   std::mutex mutex_;
   std::condition_variable changed_;
   std::array<Slot, kSlots> slots_;
-  std::vector<std::uint64_t> cursor_;  ///< per wall: the serial it wants next
+  std::vector<std::uint64_t> cursor_;  ///< by wall: serial of the frame that it leases next
   std::vector<Selection> selections_;  ///< a few, the oldest first; a deque would allocate now and then
-  std::uint64_t nextSerial_ = 0, writes_ = 0, shown_ = 0;
-  std::size_t mostUnderWay_ = 0, last_ = 0;
-  std::size_t drawn_ = 0;  ///< walls that have drawn the oldest frame under way
+  std::uint64_t nextSerial_ = 0, writes_ = 0, framesShown_ = 0;
+  std::size_t mostInFlight_ = 0, wallsLeft_ = 0;
+  std::size_t wallsDrawn_ = 0;  ///< walls that have drawn the oldest frame in flight
   Delivery delivery_;
   std::chrono::milliseconds deadline_;
   bool finished_ = false, stopped_ = false;

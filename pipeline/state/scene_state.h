@@ -28,7 +28,7 @@ constexpr std::uint32_t kMoves = 1U << 31;
 /// Number of instances, consecutive by id, that share one stamp.
 constexpr std::size_t kInstancesAStamp = 64;
 
-/// One frame's state, read-only. Valid while the lease on its slot is held.
+/// The state of a frame, read-only. Valid while the lease on its slot is held.
 struct SlotView {
   const TimeSignature* signature = nullptr;
   const ViewerRecord* viewer = nullptr;
@@ -36,7 +36,8 @@ struct SlotView {
   const ShadowRecord* shadows = nullptr;
   std::span<const LightRecord> lights;
   std::span<const InstanceRecord> instances;  ///< by InstanceId; radius < 0 = not there
-  /// One for each kInstancesAStamp instances. It changes whenever one of them changes in this slot.
+  /// By block of kInstancesAStamp instances: a number that changes whenever an instance of the block changes
+  /// in this slot.
   std::span<const std::atomic<std::uint32_t>> stamps;
   std::span<const ChunkId> chunks;  ///< shown
   const ChunkArena* arena = nullptr;
@@ -74,8 +75,8 @@ public:
   /// Writes frame `changes.signature.frame` into `slot`. Returns the number of records copied, including
   /// missed ones. Expects at most kMaxLights lights and kMaxChunks chunks (the scene ensures this).
   std::size_t publish(std::size_t slot, const ChangeSet& changes);
-  /// The same in parts: begin(), then take() with any number of instances, each once, then finish() with the
-  /// rest.
+  /// Publishes a frame in parts: begin(), then take() with any number of instances, each once, then finish()
+  /// with the rest.
   void begin(std::size_t slot);
   void take(std::span<const ChangeSet::Instance> block) override;
   std::size_t finish(const ChangeSet& changes);
@@ -86,7 +87,8 @@ public:
   void guard(WriteGuard& guard);
   /// Before the guard goes.
   void unguard();
-  /// What stands at an address that the guard has caught. By the thread that wrote there, in its stage.
+  /// Returns the record at an address that the guard has caught. Call it on the thread that wrote there, in
+  /// its stage.
   PublishedPlace placeOf(const void* address) const;
   /// Returns the number of changes noted for slots that were not written since. Each slot has at most one for
   /// each moved instance and one for each object that has left a visible chunk, however long the show runs.
@@ -97,7 +99,7 @@ private:
   struct Slot;
   /// The changes that a slot has missed since it was last written. Used by App only.
   struct Missed {
-    std::vector<InstanceId> instances;                      ///< each once, as marks_ records
+    std::vector<InstanceId> instances;  ///< instances that changed; marks_ ensures that each is here once
     std::map<ChunkId, std::vector<std::uint32_t>> statics;  ///< objects that left a chunk, while it is shown
   };
 
@@ -119,7 +121,7 @@ private:
   /// The state of an instance, and the slots that have missed it. Used by App only.
   struct Marks {
     enum class Known : std::uint8_t { Absent, Still, Moves } known = Known::Absent;
-    std::uint8_t missedBy = 0;  ///< one bit a slot
+    std::uint8_t missedBy = 0;  ///< slots that have missed the instance, one bit each
   };
   std::vector<Marks> marks_;  ///< by InstanceId
   std::uint64_t stillVersion_ = 0;

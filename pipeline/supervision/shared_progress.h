@@ -49,7 +49,7 @@ public:
     Nanoseconds time = 0;       ///< show time [ns]
     std::uint64_t history = 0;  ///< hash of the states up to then
     std::uint64_t bytes = 0;
-    std::uint64_t at = 0;  ///< its position, set by keep()
+    std::uint64_t at = 0;  ///< position of the snapshot, set by keep()
   };
 
   /// For the supervisor.

@@ -51,11 +51,11 @@ enum class Key : std::uint32_t {
 struct WindowEvent {
   enum class Kind { Key, Button, Move, Wheel, PointerEntered, FocusLost, Close };
   Kind kind = Kind::Key;
-  Key key = Key::Unknown;    ///< of Key
-  std::uint32_t button = 0;  ///< of Button: 0 left, 1 right, 2 middle
-  bool down = false;         ///< of Key and Button: pressed, else released
-  bool shift = false;        ///< of Key, Button and Wheel: held meanwhile
-  double x = 0, y = 0;       ///< of Move: the pointer's place; of Wheel: the rotation, y away from the user
+  Key key = Key::Unknown;    ///< the key; for Key
+  std::uint32_t button = 0;  ///< the button; for Button: 0 left, 1 right, 2 middle
+  bool down = false;         ///< pressed, else released; for Key and Button
+  bool shift = false;        ///< the shift key was held; for Key, Button and Wheel
+  double x = 0, y = 0;       ///< for Move: the pointer's place; for Wheel: the rotation, y away from the user
 };
 
 /// How pictures get into a window.
@@ -66,15 +66,15 @@ enum class WindowSurface {
 
 struct WindowPlan {
   std::string title;
-  /// Without an X server, and with `quadBuffer`, it is OpenGl all the same.
+  /// The way of pictures into the window. Without an X server, and with `quadBuffer`, it is always OpenGl.
   WindowSurface surface = WindowSurface::OpenGl;
-  std::uint32_t width = 800, height = 600;  ///< of the content; a full screen has the monitor's size
+  std::uint32_t width = 800, height = 600;  ///< size of the content; a full screen has the monitor's size
   bool frame = true;                        ///< a title bar, and edges for resizing
   bool placed = false;                      ///< at x, y of the screen, or of the named monitor
   std::int32_t x = 0, y = 0;
-  std::string monitor;        ///< its name, or its number from 1; empty = any
+  std::string monitor;        ///< name of the monitor, or its number from 1; empty = any
   bool fullscreen = false;    ///< alone on its monitor
-  std::uint32_t refresh = 0;  ///< of a full screen [1/s]; 0 = as it is
+  std::uint32_t refresh = 0;  ///< refresh rate of a full screen [1/s]; 0 = unchanged
   bool pointer = true;        ///< shows the mouse pointer over it
   bool quadBuffer = false;    ///< a left and a right back buffer
 };
@@ -141,7 +141,7 @@ struct GamepadState {
   std::uint32_t buttons = 0;    ///< bits: A, B, X, Y, left and right bumper
 };
 
-/// One connection to a window system. While it lasts, the screen saver and DPMS wait (screen_saver.h).
+/// A connection to a window system. While it lasts, the screen saver and DPMS wait (screen_saver.h).
 class WindowSystem {
 public:
   virtual ~WindowSystem() = default;

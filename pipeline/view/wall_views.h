@@ -31,10 +31,10 @@ struct View {
   ViewPoint from = ViewPoint::Middle;
 };
 
-/// Whether they have the same corners.
+/// Returns true if they have the same corners.
 bool isSameScreen(const Wall& a, const Wall& b);
 
-/// What a flat wall shows: a view for each eye, or one from the middle.
+/// Returns the views of a flat wall: one for each eye, or one from the middle.
 std::vector<View> viewsOf(const Wall& screen, bool stereo);
 
 struct WallViews {
@@ -42,7 +42,7 @@ struct WallViews {
   std::vector<View> views{};  ///< 1 to DrawList::kMostViews
   DepthRange depth{};
   double eyeSeparation = 0.064;             ///< [m]
-  std::uint32_t width = 800, height = 600;  ///< of the picture of each view [pixels]
+  std::uint32_t width = 800, height = 600;  ///< size of the picture of each view [pixels]
   const FreeCamera* camera = nullptr;       ///< looks in place of the visitor; `views` is one, and not used
   HeadReach reach{};                        ///< how far the visitor's head may go after Cull
 };
@@ -57,8 +57,8 @@ struct EyeChoice {
 struct PlacedViews {
   struct Placed {
     const Wall* screen = nullptr;
-    Vec3 eye = Vec3::Zero();   ///< in R [m]
-    Eye picture = Eye::Left;   ///< for which eye its picture is; Left also for one from the middle
+    Vec3 eye = Vec3::Zero();  ///< in R [m]
+    Eye picture = Eye::Left;  ///< eye that the picture is for; Left also for a view from the middle
   };
   std::array<Placed, DrawList::kMostViews> views;
   std::uint32_t count = 0;
@@ -69,8 +69,8 @@ struct PlacedViews {
 
   /// The end of the views from number `first` on that look through the same screen.
   std::uint32_t endOfScreen(std::uint32_t first) const;
-  /// What the views first .. end can see together, wherever their eyes go, relative to the origin. Expects
-  /// that they look through the same screen.
+  /// Returns the volume that the views first .. end can see together, wherever their eyes go, relative to the
+  /// origin. Expects that they look through the same screen.
   ConvexVolume volume(std::uint32_t first, std::uint32_t end) const;
   void setUp(DrawList& list) const;
 };

@@ -20,12 +20,14 @@ struct GlWallRendererParts {
   const MeshStore& meshes;
   std::vector<PictureSize> walls;
   RenderQuality quality{};
-  WallContexts* contexts = nullptr;  ///< that outlive it; null: it makes its own
-  std::function<bool()> giveUp{};    ///< see Renderer::draw
+  /// Contexts to use, which must outlive this; null: the walls make their own.
+  WallContexts* contexts = nullptr;
+  std::function<bool()> giveUp{};  ///< see Renderer::draw
   FrameProbe* probe = nullptr;
   std::vector<ProcessorSet> processors{};  ///< by wall: those that its Draw thread may use; none: all of them
-  std::vector<std::string> names{};        ///< of the walls, for messages
-  std::function<void(const std::string&)> tell{};  ///< of a context that was lost; on Draw threads
+  std::vector<std::string> names{};        ///< names of the walls, for messages
+  /// Receives reports about lost contexts; called on Draw threads.
+  std::function<void(const std::string&)> tell{};
 };
 
 class GlWallRenderer final : public WallRenderer {

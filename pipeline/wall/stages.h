@@ -52,10 +52,10 @@ public:
 
   /// Advances the show to the signature's time and publishes it into `slot`.
   virtual void app(const TimeSignature& now, std::size_t slot) = 0;
-  /// The show is paused after frame `now`: publishes what there is once more. A scene that was put back while
-  /// it is paused has not been published yet.
+  /// The show is paused after frame `now`: publishes the scene once more. A scene that was restored during
+  /// the pause has not been published yet.
   virtual void still(const TimeSignature& now, std::size_t slot) { (void)now, (void)slot; }
-  /// Whether this frame is needed; else it is neither culled nor drawn. Asked after app().
+  /// Returns true if this frame is needed; else it is neither culled nor drawn. Asked after app().
   virtual bool wantsDrawn(const FrameTicket&) const { return true; }
   /// Fills `list` with what wall `wall` shows of the frame in `slot`, in all its views.
   virtual void cull(std::size_t wall, std::size_t slot, DrawList& list) = 0;
@@ -63,7 +63,8 @@ public:
   /// When the head's pose was measured that app() or still() has just taken. If that is not known, the start
   /// of the frame counts. On the App thread.
   virtual std::optional<std::chrono::steady_clock::time_point> headMeasured() const { return {}; }
-  /// The same of the picture that the wall shows, asked while all are swapped; nothing: that of the frame.
+  /// Returns the measurement time of the head pose in the picture that the wall shows, asked while all are
+  /// swapped. Nothing: that of the frame counts.
   virtual std::optional<std::chrono::steady_clock::time_point> posed(std::size_t wall) const {
     (void)wall;
     return {};

@@ -48,7 +48,7 @@ private:
   struct Context {
     std::unique_ptr<Target> target;
     std::unique_ptr<Renderer> renderer;
-    std::uint32_t width = 0, height = 0;  ///< of its pictures [pixels]
+    std::uint32_t width = 0, height = 0;  ///< size of the context's pictures [pixels]
     RenderQuality quality;
     std::atomic<std::thread::id> currentOn;  ///< the thread on which it is current
   };

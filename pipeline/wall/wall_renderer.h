@@ -44,7 +44,7 @@ public:
   virtual Failure read(std::size_t wall, std::uint32_t view, std::span<std::uint8_t> rgba) = 0;
   virtual void close(std::size_t wall) = 0;
 
-  /// What the wall was drawn with so far. After draw().
+  /// Returns totals of what the wall has drawn so far. Call it after draw().
   virtual ViewTotals totals(std::size_t wall) const = 0;
   /// Describes what draws the wall: the version of OpenGL, or the kernels of the CPU renderer. After open().
   virtual std::string drawnBy(std::size_t wall) const = 0;

@@ -147,7 +147,7 @@ std::string LoadGovernor::stageText(const NodeCost& cost) const {
 
 std::string LoadGovernor::titleOf(NodeRef node) const {
   const auto name = names_.find(node);
-  return name ? fmt::format("\"{}\" {}:{}", name->path, name->file, name->line) : "a node that has gone";
+  return name ? fmt::format("\"{}\" {}:{}", name->path, name->file, name->line) : "a removed node";
 }
 
 std::optional<Overrun> LoadGovernor::overrunOf(std::uint64_t frame) const {

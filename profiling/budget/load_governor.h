@@ -27,8 +27,8 @@ namespace stadion {
 struct GovernorOptions {
   double rate = 60;                ///< [1/s]
   bool paced = true;               ///< frames come by the clock: a frame longer than its period is late
-  bool pipelined = true;           ///< else the stages' times add up
-  bool acts = true;                ///< else it only reports
+  bool pipelined = true;           ///< true: stages overlap; false: their times add up
+  bool acts = true;                ///< true: nodes degrade; false: overruns are only reported
   bool drawnElsewhere = false;     ///< other processes draw: its cost by node is not known
   std::vector<std::string> walls;  ///< names
   StressOptions stress;
@@ -92,7 +92,7 @@ private:
     BudgetReport report;
     double sum = 0;
     double toldAt = -1e9;      ///< [s]
-    double toldMs = 0;         ///< its cost then
+    double toldMs = 0;         ///< cost of the node at the last report [ms]
     std::uint64_t untold = 0;  ///< overruns since then
     std::uint32_t wanted() const { return std::max(policy.wanted(), forFrame); }
   };
@@ -100,7 +100,7 @@ private:
   struct StageTimes {
     double app = 0;
     std::map<std::uint32_t, double> cull, draw;  ///< by wall
-    bool sampled = false;                        ///< its drawing was sampled, and took longer for it
+    bool sampled = false;                        ///< drawing was sampled, and took longer for it
   };
 
   /// By file, line and path: a node that is loaded repeatedly is one node.

@@ -21,18 +21,18 @@ namespace stadion {
 struct GovernedNode {
   NodeRef node;
   NodeTerms terms;
-  bool drawn = false;  ///< it, or a node below it, may be drawn
+  bool drawn = false;  ///< the node, or a node below it, may be drawn
 };
 
 /// The cost of such a node in one frame.
 struct NodeCost {
   LoadCost cost;
   LoadCost sure;  ///< the part that two samples in a row confirm
-  /// Its drawing was sampled since the last change of how it is drawn.
+  /// The node's drawing was sampled since the last change of how it is drawn.
   bool known = true;
-  bool drawKnown = true;         ///< its drawing was sampled, or it was never visible
+  bool drawKnown = true;         ///< the node's drawing was sampled, or the node was never visible
   Span dearest = Span::App;      ///< the most expensive stage
-  std::uint32_t wall = kNoWall;  ///< of that stage
+  std::uint32_t wall = kNoWall;  ///< wall of that stage
 };
 
 class NodeCosts {

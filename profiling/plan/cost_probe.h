@@ -34,7 +34,7 @@ public:
 private:
   struct Moment {
     double own = 0;      ///< processor time of this thread [ms]
-    double process = 0;  ///< of all threads
+    double process = 0;  ///< processor time of all threads
     double time = 0;
     static Moment now();
   };
@@ -52,8 +52,8 @@ private:
   std::size_t portion_;
   std::uint32_t wall_ = 0;
   Moment began_, fillBegan_;
-  double fill_ = 0;                   ///< of the newest Span::Fill: Cull's last one writes the list
-  std::vector<Moment> picturesEnd_;   ///< of the wall that is being drawn
+  double fill_ = 0;                   ///< time of the newest Span::Fill: Cull's last one writes the list
+  std::vector<Moment> picturesEnd_;   ///< times at which the pictures of the current wall ended
   double inTurn_ = 0, rastered_ = 0;  ///< in all
   std::map<std::uint64_t, Seen> frames_;
 };

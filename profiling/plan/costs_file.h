@@ -25,13 +25,13 @@ struct ShowCosts {
   std::string renderer = "gl";  ///< or "cpu"; a file without it was measured with OpenGL
   std::size_t eyes = 2;
   std::vector<std::string> walls;  ///< names
-  double cores = 1;                ///< of the machine where it was measured
-  double rasterThreads = 1;        ///< that the rasteriser had there
+  double cores = 1;                ///< cores of the machine where the costs were measured
+  double rasterThreads = 1;        ///< threads that the rasteriser had on that machine
   bool waitsInTurn = true;         ///< CostProbe
   std::vector<FrameCost> frames;
 };
 
-/// One line.
+/// Returns the costs as a line of JSON.
 std::string toJson(const ShowCosts& costs);
 /// Also reads a larger object that has it as "costs". `name` appears in errors.
 Result<ShowCosts> readCosts(const std::string& text, const std::string& name);

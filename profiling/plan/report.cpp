@@ -94,8 +94,8 @@ std::string planText(const Plan& p) {
                                  p.machine.cores, p.machine.cores == 1 ? "" : "s");
   if (p.machines > 1) text += fmt::format(" on each of {} machines", p.machines);
   if (p.rasterisers > 1) text += ", walls as processes";
-  if (p.pipelined && p.latency > 0)
-    text += fmt::format(", {} frame{} in flight", p.latency, p.latency == 1 ? "" : "s");
+  if (p.pipelined && p.mostInFlight > 0)
+    text += fmt::format(", {} frame{} in flight", p.mostInFlight, p.mostInFlight == 1 ? "" : "s");
   if (p.pipelined && !p.drawBeginsEarly) text += ", Draw apart from Cull";
   if (p.pacing == Pacing::Free)
     return text + (p.newest ? ", live, as fast as it goes" : ", every frame, as fast as it goes");
@@ -133,7 +133,7 @@ Json planJson(const Plan& p) {
           {"pace", pacing},
           {"rate_hz", p.rate},
           {"newest", p.newest},
-          {"latency", p.latency},
+          {"latency", p.mostInFlight},
           {"cull_draw", p.drawBeginsEarly ? "overlap" : "apart"}};
 }
 

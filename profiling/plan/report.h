@@ -18,7 +18,7 @@ struct Question {
 Machine machineWith(double cores, const ShowCosts& costs);
 
 std::string reportText(const ShowCosts& costs, const Question& question);
-/// One JSON object on one line: "costs", "plan", "forecast", "table", "remedies".
+/// Returns a line with a JSON object: "costs", "plan", "forecast", "table", "remedies".
 std::string reportJson(const ShowCosts& costs, const Question& question);
 
 }  // namespace stadion::plan

@@ -92,7 +92,7 @@ private:
     const std::size_t walls = wallsOf(machine), arrived = arrivedOf_[machine];
     const auto processors = static_cast<std::size_t>(std::max(1.0, plan_.machine.cores));
     const bool ending = arrived > 0 && arrived + std::min(walls / 2, processors - 1) >= walls;
-    return plan_.latency == 0 || serial < rounds_ + plan_.latency + (ending ? 1 : 0);
+    return plan_.mostInFlight == 0 || serial < rounds_ + plan_.mostInFlight + (ending ? 1 : 0);
   }
   std::size_t wallsOf(std::size_t machine) const {
     return (plan_.walls - machine + machines_ - 1) / machines_;

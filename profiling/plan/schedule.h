@@ -20,8 +20,8 @@ namespace stadion::plan {
 
 /// A picture's part of Draw.
 struct PictureCost {
-  double calls = 0;   ///< of the drawing thread
-  double raster = 0;  ///< of the rasteriser's threads together, afterwards
+  double calls = 0;   ///< processor time of the drawing thread
+  double raster = 0;  ///< processor time of the rasteriser's threads together, afterwards
   double atOnce = 1;  ///< number of them that work at a time; few in a picture of few tiles
 };
 
@@ -31,10 +31,10 @@ struct WallCost {
   double cullBesideDraw = 0;          ///< the last part of `cull`: Draw may begin before it
 };
 
-/// What a frame costs.
+/// The costs of a frame.
 struct FrameCost {
   double app = 0;
-  double appHelpers = 0;  ///< of threads that work for App meanwhile
+  double appHelpers = 0;  ///< processor time of threads that work for App meanwhile
   std::vector<WallCost> walls;
   double swap = 0;
 };
@@ -61,7 +61,7 @@ struct Plan {
   bool newest = false;  ///< the walls show the newest frame, as in a live show; else every frame
   /// Limit of frames in flight, if pipelined; 0: as many as the stages hold. Counted from App, or if the newest
   /// frame is shown from Cull.
-  std::size_t latency = 0;
+  std::size_t mostInFlight = 0;
   bool drawBeginsEarly = true;  ///< Draw begins with the first part of a list while Cull fills the rest
   std::size_t frames = 60;
 };
@@ -70,7 +70,7 @@ enum class Doing : std::uint8_t {
   App,
   Cull,
   Calls,   ///< Draw, in its turn
-  Raster,  ///< of the rasteriser
+  Raster,  ///< the rasteriser makes pixels
   Swap,
   ForTurn,    ///< Draw waits for other walls' calls
   ForPixels,  ///< Draw waits for the rasteriser

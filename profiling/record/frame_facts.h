@@ -19,7 +19,7 @@ namespace stadion {
 /// Measurements of one stage.
 struct StageFacts {
   float ms = 0;                ///< duration, without waiting for its turn
-  float processor = 0;         ///< of its own thread
+  float processor = 0;         ///< processor time of the stage's own thread
   float turn = 0;              ///< Draw: waited for other walls that use the rasteriser
   float loading = 0;           ///< App: files; Draw: models and textures being uploaded
   std::uint32_t switches = 0;  ///< number of times that the system gave its processor to others
@@ -27,12 +27,12 @@ struct StageFacts {
   /// Time in which its thread was ready but had no processor. For Draw, the rasteriser's thread with the
   /// longest wait counts, too.
   float delayed = 0;
-  float late = 0;  ///< the same, between the thread's previous stage and this one
+  float late = 0;  ///< such a delay between the thread's previous stage and this one
   float at = 0;    ///< start, relative to the previous frame's swap; negative: before it
 };
 
 enum class Cause : std::uint32_t {
-  None,  ///< it was not late
+  None,  ///< the frame was not late
   App,
   Cull,
   Draw,
@@ -72,9 +72,9 @@ struct FrameRecord {
   Span stage = Span::App;    ///< the stage of the cause
   std::uint32_t wall = 0;    ///< the wall of the cause
   std::uint32_t holder = 0;  ///< Cause::Turn: the wall that had the rasteriser
-  char name[112] = {};       ///< of the most expensive node in App, with its file and line
+  char name[112] = {};       ///< name of the most expensive node in App, with its file and line
   char most[112] = {};       ///< Cull and Draw: of the node with the most to cull or to draw there
-  char over[112] = {};       ///< of the node with the worst budget overrun, if there is one
+  char over[112] = {};       ///< name of the node with the worst budget overrun, if there is one
   float overMs = 0, overBudget = 0;
 
   NodeRef dearest() const { return {node[0], node[1]}; }

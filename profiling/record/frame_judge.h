@@ -19,8 +19,8 @@ public:
   /// `rate` in frames a second: 0 = frames are not paced, none is late. `shown` gets each frame, in the order
   /// in which they were shown. `sequential`: the stages' times add up.
   FrameJudge(double rate, std::size_t walls, const NodeNames& names, Shown shown, bool sequential = false)
-      : budget_(rate > 0 ? static_cast<float>(1e3 / rate) : 0),
-        walls_(walls), names_(names), shown_(std::move(shown)), sequential_(sequential) {}
+      : budget_(rate > 0 ? static_cast<float>(1e3 / rate) : 0), walls_(walls), names_(names),
+        shown_(std::move(shown)), sequential_(sequential) {}
 
   using SpanReader::take;
   void take(std::size_t track, const SpanRecord& record) override;
@@ -62,7 +62,7 @@ private:
   std::uint64_t sampledUntil_ = 0;  ///< frames before it include the cost of sampling
   std::map<std::uint64_t, Open> open_;
   std::map<std::size_t, Pending> pending_;    ///< by track
-  ProfileClock::time_point lastApp_{};        ///< when it began
+  ProfileClock::time_point lastApp_{};        ///< time at which the last App stage began
   std::map<std::uint32_t, NodeRef> largest_;  ///< by wall: the known node with the most to draw
   struct Culled {
     double ms = 0;

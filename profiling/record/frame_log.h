@@ -70,7 +70,7 @@ public:
 struct FrameLogOptions {
   bool samples = true;  ///< shares and drawing too; drawing: as setSamples() says
   bool shares = false;  ///< shares even without drawing
-  bool whole = true;    ///< of drawing: also the totals to be explained
+  bool whole = true;    ///< samples of drawing also measure the totals to be explained
   std::uint64_t sampleEvery = 16;
   std::uint64_t from = 4;  ///< first frame for readers of costs: first use of data is slow
 };
@@ -118,7 +118,7 @@ private:
   /// The next sample of a wall's drawing.
   struct Due {
     std::uint64_t frame = 0;  ///< the next drawn frame from this one on
-    bool some = false;        ///< its eyes have been drawn alone; the next sample draws some batches alone
+    bool some = false;        ///< the eyes have been drawn alone; the next sample draws some batches alone
   };
 
   void measureOverhead();

@@ -16,7 +16,7 @@ namespace stadion {
 
 struct FrameBudget {
   double appMs = 0;
-  double cullMs = 0, drawMs = 0;  ///< of the slowest wall
+  double cullMs = 0, drawMs = 0;  ///< costs of the slowest wall
   double framesPerSecond = 0;
 };
 

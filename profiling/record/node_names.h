@@ -21,7 +21,8 @@ struct NodeName {
   std::string file;
   std::uint32_t line = 0;
   std::string_view type = "object";  ///< the name of its node type
-  NodeRef parent;     ///< what it is placed below, in a sub-scene at least the scene node; invalid = World
+  /// The node below which the node is placed, in a sub-scene at least the scene node; invalid = World.
+  NodeRef parent;
   double budget = 0;  ///< [ms]; 0 = none
   bool unloaded = false;
   bool operator==(const NodeName&) const = default;
@@ -39,7 +40,7 @@ public:
 private:
   struct File {
     std::string name;
-    NodeRef owner;                ///< of the first load
+    NodeRef owner;                ///< owner of the file's first load
     std::vector<NodeName> nodes;  ///< by position
     bool there = true;
   };

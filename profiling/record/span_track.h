@@ -27,10 +27,10 @@ struct SpanOverhead {
 /// The system's figures of a thread.
 struct ThreadUse {
   double processor = 0;        ///< [ms]
-  std::uint64_t switches = 0;  ///< it lost its processor to others
+  std::uint64_t switches = 0;  ///< times that the thread lost its processor to others
   std::uint64_t faults = 0;    ///< pages that had to be fetched
-  double delayed = 0;  ///< [ms] ready but without a processor; for Draw also the rasteriser's threads
-  double late = 0;     ///< [ms] the same, between the thread's previous stage and this one
+  double delayed = 0;          ///< [ms] ready but without a processor; for Draw also the rasteriser's threads
+  double late = 0;             ///< [ms] the same, between the thread's previous stage and this one
 
   static ThreadUse now() {
     rusage use{};
@@ -64,11 +64,11 @@ struct SpanRecord {
   std::uint32_t wall = kNoWall;
   NodeRef node;
   Span what = Span::App;
-  std::uint8_t depth = 0;   ///< 0 = in no other
-  bool whole = true;        ///< of a frame in which every node's spans are recorded (FrameLog)
-  double took = 0;          ///< [ms] without recording
-  double own = 0;           ///< [ms] of it outside its parts
-  ThreadUse use;            ///< of stages
+  std::uint8_t depth = 0;  ///< 0 = in no other
+  bool whole = true;  ///< the span belongs to a frame in which every node's spans are recorded (FrameLog)
+  double took = 0;    ///< [ms] without recording
+  double own = 0;     ///< [ms] of it outside its parts
+  ThreadUse use;      ///< resource use of the thread; for stages
   Allocations allocations;  ///< parts included
   bool disturbed = false;   ///< some of these were the probe's own
 };
@@ -202,7 +202,7 @@ private:
   std::array<Open, kDeepest> open_;
   Light light_;
   RunDelay delay_;
-  double stageEnded_ = -1;          ///< its delay when the last stage ended [ms]; -1 = there was none
+  double stageEnded_ = -1;  ///< delay of the thread at the end of the last stage [ms]; -1 = there was none
   std::vector<double> beforeDraw_;  ///< the delays at that time
   bool whole_ = true, disturbed_ = false;
   std::uint64_t counted_ = 0;

@@ -25,10 +25,10 @@ struct BaselineCase {
   std::map<std::uint64_t, std::string>
       fields;  ///< of nodes after some frames, by frame; absent in older files
   std::map<std::string, std::vector<double>> times;  ///< by stage, round by round
-  KeptStages frames;                                 ///< of these rounds; absent in files of version 1
-  std::map<std::string, double> instructions;        ///< by stage
-  std::string countedBy = "callgrind";               ///< the source of the instructions
-  CostsByNode nodeTimes, nodeInstructions;           ///< to name the node that changed
+  KeptStages frames;  ///< times of all frames in these rounds; absent in files of version 1
+  std::map<std::string, double> instructions;  ///< by stage
+  std::string countedBy = "callgrind";         ///< the source of the instructions
+  CostsByNode nodeTimes, nodeInstructions;     ///< to name the node that changed
 };
 
 using Baseline = std::map<std::string, BaselineCase>;  ///< by playedName

@@ -30,9 +30,9 @@ namespace stadion::regression {
 struct Metrics {
   bool state = true;          ///< state hashes of all frames, exactly
   bool images = true;         ///< hashes of the last frame's pictures, exactly
-  bool counts = true;         ///< of nodes, messages, draw calls and so on, exactly
+  bool counts = true;         ///< counts of nodes, messages, draw calls and so on, exactly
   bool instructions = false;  ///< by callgrind, without the rasteriser's
-  bool times = false;         ///< of stages, by rank test
+  bool times = false;         ///< times of stages, by rank test
 
   bool none() const { return !state && !images && !counts && !instructions && !times; }
 };
@@ -57,12 +57,11 @@ struct SuiteCase {
   std::uint64_t frames = 0;             ///< 0: to the end of the input log
   Metrics metrics;
   Tolerances tolerances;
-  std::uint64_t rounds = 12;  ///< of times, at least 12: with fewer, chance cannot be excluded
+  std::uint64_t rounds = 12;  ///< rounds for times, at least 12: with fewer, chance cannot be excluded
 };
 
-/// What a case is called once it has been played, in baselines, histories and reports: CASE/MODE, and
-/// CASE/MODE/plain in the plain look. Another look draws something else at another cost, so it has another
-/// name.
+/// Returns the name of a played case in baselines, histories and reports: CASE/MODE, and CASE/MODE/plain in
+/// the plain look. Another look draws something else at another cost, so it has another name.
 std::string playedName(const SuiteCase& played, const std::string& mode);
 
 struct Suite {

@@ -21,7 +21,7 @@ struct FrameRow {
   std::uint64_t frame = 0;
   float period = 0;  ///< since the previous swap; 0 = unknown
   float app = 0;
-  bool sampled = false;  ///< its drawing or that of the frame before
+  bool sampled = false;  ///< drawing of this frame or of the frame before was sampled
   Cause cause = Cause::None;
 };
 
@@ -42,7 +42,9 @@ public:
   std::vector<FrameFacts> late() const;
 
 private:
-  std::span<const float> stages(std::size_t row) const { return std::span(stages_).subspan(row * walls_, walls_); }
+  std::span<const float> stages(std::size_t row) const {
+    return std::span(stages_).subspan(row * walls_, walls_);
+  }
 
   std::vector<FrameRow> rows_;
   std::size_t walls_ = 0;

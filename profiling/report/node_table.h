@@ -13,7 +13,7 @@ namespace stadion {
 struct TableNode {
   NodeName name;
   std::size_t parent = 0;        ///< index in the table; its own index = placed in World
-  const NodeRow* row = nullptr;  ///< its costs; null: no costs of its own
+  const NodeRow* row = nullptr;  ///< costs of the node; null: it has no costs of its own
   NodeRow rest;                  ///< instead: the sum of the nodes without a place in the table
   std::size_t restCount = 0;
 };

@@ -64,7 +64,7 @@ function histogram(d) {
   const step = niceStep(end - d.from, 5);
   for (let v = Math.ceil(d.from / step) * step; v <= end; v += step)
     s.append(svg("text", {class: "quiet", x: x(v), y: H - 4, "text-anchor": "middle"}, plain(v)));
-  // Marks that stand close are told on two heights.
+  // Labels of close marks stand on two heights.
   let lastX = [-100, -100];
   for (const [name, v] of [["median", d.median], ["mean", d.mean], ["p95", d.p95], ["p99", d.p99]].sort((a, b) => a[1] - b[1])) {
     const at = x(v), row = at - lastX[0] > 44 ? 0 : 1;

@@ -37,7 +37,7 @@ struct BodyFigures {
   std::string name, file;
   std::uint32_t line = 0;
   std::string shape;
-  double share = 0;                ///< of its dynamics node's time, a frame
+  double share = 0;                ///< share of its dynamics node's time, a frame
   std::optional<double> cost;      ///< measured: time saved without it; empty if below the noise
   std::optional<double> error;     ///< greatest, against the most accurate model [m]
   std::optional<double> endError;  ///< in the last frame [m]

@@ -26,19 +26,19 @@ struct NodeRow {
   double settle = 0;                       ///< applying its changes
   double publish = 0;                      ///< publishing its records into the slot
   double app = 0;                          ///< the sum of these
-  double visitP95 = 0, visitMost = 0;      ///< of the frames in which App visited it
+  double visitP95 = 0, visitMost = 0;      ///< visit times in the frames in which App visited the node [ms]
   double visits = 0;                       ///< a frame
-  double drawingP95 = 0, drawingMost = 0;  ///< of its time drawn alone, on one wall for one eye
+  double drawingP95 = 0, drawingMost = 0;  ///< times of drawing the node alone, on one wall for one eye [ms]
   std::uint64_t drawings = 0;              ///< number of these drawings
   double allocations = 0, bytes = 0;       ///< memory that App allocated for it, a frame
   std::vector<NodeOnWall> walls;
-  double cull = 0, draw = 0;  ///< of all walls and eyes
+  double cull = 0, draw = 0;  ///< costs on all walls, for all eyes
   /// False: some wall with the node has not been sampled yet; the figures cover the other walls.
   bool cullMeasured = true, drawMeasured = true;
-  /// It was drawn alone, but too fast for the clock: its 0 means less than can be measured.
+  /// The node was drawn alone, but too fast for the clock: its 0 means less than can be measured.
   bool drawTooLittle = false;
   bool drawKnown() const { return drawMeasured && !(drawTooLittle && draw <= 0); }
-  double total = 0;  ///< of the measured costs
+  double total = 0;  ///< sum of the measured costs
   double share = 0;  ///< relative to all stages of all walls
 };
 
@@ -65,7 +65,7 @@ struct CountRow {
 /// The part of a stage that is explained.
 struct Explained {
   std::string stage;    ///< app, cull, draw, alone
-  double measured = 0;  ///< of all walls and eyes
+  double measured = 0;  ///< cost on all walls, for all eyes
   double nodes = 0;
   double named = 0;  ///< by parts of the stage itself
   /// Returns the explained part: 0 if costs were found but the total is unknown; 1 if the stage was empty.
@@ -77,7 +77,7 @@ struct Explained {
 struct ShowFigures {
   std::uint64_t frames = 0;
   std::vector<std::string> walls;
-  std::vector<std::size_t> eyes;  ///< of each wall: 1, 2; 0 if nothing was drawn
+  std::vector<std::size_t> eyes;  ///< number of eyes by wall: 1, 2; 0 if nothing was drawn
   std::vector<NodeRow> nodes;     ///< the most expensive first
   std::vector<StageRow> stages;
   std::vector<CountRow> counts;

@@ -31,7 +31,7 @@ namespace stadion {
 
 /// A node's cost on one wall, for both eyes.
 struct WallCost {
-  std::map<Span, std::uint64_t> shares;  ///< of tests, fillings and so on, in sampled frames
+  std::map<Span, std::uint64_t> shares;  ///< time of tests, fillings and so on, in sampled frames
   std::array<double, 2> draw{};          ///< drawn alone, in all, by eye
   std::array<std::uint64_t, 2> drawn{};
   void add(const WallCost& other);
@@ -43,7 +43,7 @@ struct NodeProfile {
   double settle = 0;               ///< order and messages of its visit; applying its changes
   std::uint64_t published = 0;     ///< number of times, in sampled frames
   CostSeries visit;                ///< all phases of a frame together, in frames with a visit
-  CostSeries drawing;              ///< each time it was drawn alone, on one wall for one eye
+  CostSeries drawing;              ///< times of drawing the node alone, on one wall for one eye
   std::map<std::uint32_t, WallCost> walls;
   void add(const NodeProfile& other);
 };
@@ -134,7 +134,7 @@ private:
   std::map<NodeRef, Visit> visits_;                      ///< unfinished visits
   std::map<std::size_t, std::vector<NodeRef>> called_;   ///< by thread: since its last Span::Mail
   std::vector<NodeRef> visited_;                         ///< in App's current frame
-  std::vector<SpanRecord> rounds_;  ///< in it, the spans of Mail without a receiver
+  std::vector<SpanRecord> rounds_;                       ///< in it, the spans of Mail without a receiver
   std::map<std::pair<Span, std::uint32_t>, SpanTotal> spans_;
   std::map<std::pair<std::uint32_t, std::uint32_t>, EyeCost> eyes_;
   std::map<std::uint32_t, std::uint64_t> sampled_;

@@ -17,7 +17,7 @@ namespace stadion {
 struct SoakSample {
   std::uint32_t process = 0;  ///< number of the process
   std::uint64_t visit = 0;    ///< number of the opening of the show
-  std::uint64_t frame = 0;    ///< of the whole soak
+  std::uint64_t frame = 0;    ///< number of the frame in the whole soak
   std::uint64_t residentBytes = 0, heapBytes = 0;
   std::uint64_t handles = 0, threads = 0;
 };

@@ -24,7 +24,7 @@ struct TraceOfHost {
 struct AlignedHost {
   std::string host;
   double shiftUs = 0;            ///< added to its times, relative to the first host [us]
-  std::size_t commonFrames = 0;  ///< by which it is aligned; 0: not aligned
+  std::size_t commonFrames = 0;  ///< frames by which the host is aligned; 0: not aligned
 };
 
 /// Writes the merged trace into `file`. Expects at least one trace.

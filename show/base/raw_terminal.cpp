@@ -43,7 +43,7 @@ extern "C" void endBySignal(int signal) {
   errno = error;
 }
 
-/// Ctrl-Z: the program stands still in here until it is told to go on.
+/// Ctrl-Z: the program stops in here until a signal continues it.
 extern "C" void standStill(int signal) {
   const int error = errno;
   set(savedTerminal.before);

@@ -33,7 +33,7 @@ public:
   /// No more frames follow.
   virtual void progressOver() {}
 
-  /// One of them as a function, for parts that need no more. The reporter must outlive them.
+  /// The functions above as values, for parts that need no more. The reporter must outlive them.
   Say sayFunction() {
     return [this](const std::string& line) { say(line); };
   }

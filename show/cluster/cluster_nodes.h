@@ -67,7 +67,7 @@ private:
     unsigned starts = 0;
     int died = 0;                ///< how it ended before it was restarted the first time
     bool asked = false;          ///< by us, to end
-    bool waitsForFiles = false;  ///< it was reported that its files differ
+    bool waitsForFiles = false;  ///< the node was reported as waiting for other files
     Clock::time_point begun{}, notBefore{};
     worker::Restarts restarts{};
     Descriptor said{};
@@ -97,7 +97,7 @@ private:
   std::chrono::milliseconds patience_;
   const std::atomic<bool>* stop_ = nullptr;
   std::deque<Node> nodes_;
-  std::unique_ptr<SharedProgress> progress_;  ///< of the leader; null: it is not watched
+  std::unique_ptr<SharedProgress> progress_;  ///< progress of the leader; null: the leader is not watched
   Nanoseconds hangsAfter_ = 0;
   std::optional<HangWatch> watch_{};
   std::optional<Clock::time_point> goneSince_{};   ///< the leader

@@ -114,7 +114,7 @@ bool ClusterSession::join(ShowOptions& show, Diagnostics& findings) {
   operator_.emplace();
   operator_->paused = underWay->still == Standstill::Paused;
   operator_->waiting = underWay->still == Standstill::Waiting;
-  operator_->shown = underWay->shown;
+  operator_->presentation = underWay->presentation;
   return true;
 }
 

@@ -44,8 +44,8 @@ public:
   /// The files differ, or the snapshot that was sent cannot be restored with them. A follower may come again
   /// when they are equal.
   void refuseFiles(Diagnostics& findings);
-  /// The same for the leader: the show restarts for all machines, with the files of this one. `found`: the
-  /// reason. False, with findings: there is no network.
+  /// Restarts the show for all machines, with the files of the leader. `found`: the reason. Returns false,
+  /// with findings, if there is no network.
   bool restartShow(const Diagnostics& found, Diagnostics& findings);
   /// The show has been opened. The leader waits for the followers, until the operator hurries. `takeKeys`
   /// brings keys of windows into `asked`; it returns false if a window was lost. False, with findings: there
@@ -55,7 +55,7 @@ public:
   /// Adds the orders of the other machines, and the operator's decisions about a show that goes on. After
   /// begin().
   void addTo(FrameLoopOptions& loop, OperatorConsole& console);
-  /// What the show's parts sample: the same on all machines. After begin().
+  /// Returns the input that the show's parts sample: it is the same on all machines. Call it after begin().
   InputDevice* inputOf(Player& player);
   void simulated(const TimeSignature& now);
   /// The run has ended because no order came, and the show is to be joined again.
@@ -94,13 +94,13 @@ private:
       planted_;  ///< the frame after which a bit is changed, to see whether that is found
   Player* player_ = nullptr;
   bool goesOn_ = false, over_ = false, otherFiles_ = false;
-  std::uint64_t files_ = 0;                ///< with which it went on elsewhere
+  std::uint64_t files_ = 0;                ///< hash of the files with which the show went on elsewhere
   std::optional<TimeSignature> after_;     ///< the show goes on after that
-  std::optional<OperatorState> operator_;  ///< and what had been decided about it
+  std::optional<OperatorState> operator_;  ///< the operator's decisions about that show
   TimeSignature last_;                     ///< simulated
   std::unique_ptr<cluster::ClusterLeader> lead_;
   std::unique_ptr<cluster::Follower> follower_;
-  std::shared_ptr<const cluster::SavedScene> kept_;  ///< of the show that the follower before played
+  std::shared_ptr<const cluster::ReserveScene> kept_;  ///< of the show that the follower before played
 };
 
 }  // namespace stadion

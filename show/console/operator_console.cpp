@@ -73,7 +73,7 @@ void OperatorConsole::beginGroup(Player& player, RunWatch& watch) {
     if (changed) changed(controls_->state());
   };
   // What stands already stands from the first frame on.
-  const Presentation& shown = controls_->state().shown;
+  const Presentation& shown = controls_->state().presentation;
   if (shown.black) watch.order(0, {OperatorAction::Black, 1, false});
   if (shown.swapEyes) watch.order(0, {OperatorAction::SwapEyes, 1, false});
   if (shown.eyeSeparation >= 0) watch.order(0, {OperatorAction::EyeSeparation, shown.eyeSeparation, false});
@@ -86,18 +86,19 @@ void OperatorConsole::resume(const OperatorState& decided) {
   const auto order = [&](OperatorAction action, double value) { queue().post({action, value, false}); };
   if (state().waiting && !decided.waiting) queue().post({OperatorAction::Start, {}, false});
   if (decided.paused) order(OperatorAction::Pause, 1);
-  if (decided.shown.black) order(OperatorAction::Black, 1);
-  if (decided.shown.swapEyes) order(OperatorAction::SwapEyes, 1);
-  if (decided.shown.eyeSeparation >= 0) order(OperatorAction::EyeSeparation, decided.shown.eyeSeparation);
+  if (decided.presentation.black) order(OperatorAction::Black, 1);
+  if (decided.presentation.swapEyes) order(OperatorAction::SwapEyes, 1);
+  if (decided.presentation.eyeSeparation >= 0)
+    order(OperatorAction::EyeSeparation, decided.presentation.eyeSeparation);
   if (decided.volume != 1) order(OperatorAction::Volume, decided.volume);
-  if (decided.latency > 0) order(OperatorAction::Latency, decided.latency);
+  if (decided.mostInFlight > 0) order(OperatorAction::Latency, decided.mostInFlight);
 }
 
 // What came of it, whatever it was before.
 void OperatorConsole::writeDown(std::uint64_t frame, const OperatorCommand& command, RunWatch& watch) const {
   const OperatorState& s = controls_->state();
-  const double value = command.action == OperatorAction::Black      ? s.shown.black
-                       : command.action == OperatorAction::SwapEyes ? s.shown.swapEyes
+  const double value = command.action == OperatorAction::Black      ? s.presentation.black
+                       : command.action == OperatorAction::SwapEyes ? s.presentation.swapEyes
                        : command.action == OperatorAction::Volume   ? s.volume
                                                                     : s.eyeSeparation();
   watch.order(frame, {command.action, value, false});
@@ -141,7 +142,7 @@ void OperatorConsole::addTo(ShowParts& parts, FrameLoopOptions& loop) {
   parts.tell = reporter_.sayFunction();
   parts.controls = loop.controls = controls_.get();
   loop.playback = &controls_->playback();
-  controls_->startWith(loop.latency);
+  controls_->startWith(loop.mostInFlight);
   parts.giveUp = [controls = controls_.get(), before = std::move(parts.giveUp)] {
     return controls->leaving() || (before && before());
   };
@@ -163,15 +164,15 @@ void OperatorConsole::tell(const OperatorCommand& command, Nanoseconds showTime)
   case OperatorAction::Step:
     if (settings_.play.windows) return;  // the windows' session reports the picture
     break;
-  case OperatorAction::Black: what += onOff(s.shown.black); break;
-  case OperatorAction::SwapEyes: what += onOff(s.shown.swapEyes); break;
+  case OperatorAction::Black: what += onOff(s.presentation.black); break;
+  case OperatorAction::SwapEyes: what += onOff(s.presentation.swapEyes); break;
   case OperatorAction::FreezeHead:
     what += onOff(s.headFrozen);
     if (!visitorIsLive_) what += " (without effect: the head is a record's)";
     break;
   case OperatorAction::EyeSeparation: what += fmt::format(" {:.4f} m", s.eyeSeparation()); break;
   case OperatorAction::Volume: what += fmt::format(" {:.0f} %", 100 * s.volume); break;
-  case OperatorAction::Latency: what += fmt::format(" {:.0f}", s.latency); break;
+  case OperatorAction::Latency: what += fmt::format(" {:.0f}", s.mostInFlight); break;
   default: break;
   }
   say(fmt::format("operator: {} ({})", what, clockText(uptime())));

@@ -31,7 +31,7 @@ public:
                                                Diagnostics& findings);
   ~OperatorConsole();
 
-  /// What a live run keeps from group to group; null: this run is for one group.
+  /// Returns the resources that a live run keeps from group to group; null: this run is for one group.
   ReusableResources* kept() { return live_ ? &kept_ : nullptr; }
 
   /// The first show is open: opens sounds, keys and the OSC port. False, with the reason in the findings, if
@@ -76,7 +76,7 @@ private:
   bool visitorIsLive_ = false;
   Clock::time_point opened_ = Clock::now();
   Clock::time_point asked_{};  ///< when the present group was asked for
-  Clock::time_point ready_{};  ///< its show could begin
+  Clock::time_point ready_{};  ///< time at which the present group's show could begin
   bool groupIsNew_ = false;
   ReusableResources kept_;
   AssetRoots roots_;

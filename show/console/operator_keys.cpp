@@ -84,7 +84,7 @@ void OperatorKeys::listen() {
     pollfd waiting{terminal_->file(), POLLIN, 0};
     if (poll(&waiting, 1, kLookForEnd) <= 0) continue;
     char key = 0;
-    // A terminal that has gone says so for ever: there will be no more keys.
+    // A closed terminal reports that for ever: no more keys will come.
     if ((waiting.revents & POLLIN) == 0 || read(terminal_->file(), &key, 1) != 1) return;
     if (key == kEscape) {  // an arrow or the like: its other characters are no keys of ours
       tcflush(terminal_->file(), TCIFLUSH);

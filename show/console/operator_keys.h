@@ -20,9 +20,9 @@
 
 namespace stadion {
 
-/// What a key asks for; nothing if it is none of ours.
+/// Returns the command of a key; nothing if the key has none.
 std::optional<OperatorCommand> operatorCommandOf(char key);
-/// The same, of a key that was pressed in a window.
+/// Returns the command of a key that was pressed in a window.
 std::optional<OperatorCommand> operatorCommandOf(Key key);
 /// All keys, a line or two.
 std::string operatorKeysHelp();

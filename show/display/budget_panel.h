@@ -20,7 +20,7 @@ struct HudFigures {
   double speed = 1;
   bool paused = false;
   FrameBudget budget;
-  std::vector<std::string> given;  ///< what the show and nodes give up at the moment, a line each
+  std::vector<std::string> given;  ///< present savings of the show and its nodes, a line each
   std::uint64_t dropped = 0;       ///< frames that were due, but have not been shown
 };
 

@@ -27,9 +27,9 @@ enum class Health {
 std::string_view nameOf(Health health);
 
 struct DoctorFinding {
-  std::string topic;  ///< one of doctorTopics()
+  std::string topic;  ///< topic, one of doctorTopics()
   Health health = Health::Works;
-  std::string found;  ///< what is there
+  std::string found;  ///< the state that was found
   std::string lacks;  ///< what cannot work without it; empty: nothing is lacking
   std::string mend;   ///< a command; empty: none is needed, or none helps
   bool asked = false;
@@ -46,13 +46,15 @@ struct NetworkPort {
 
 /// How the machine is examined. A Result's error says why something is missing.
 struct DoctorProbes {
-  std::function<bool(const std::string&)> hasProgram;           ///< along PATH
-  std::function<std::string(const std::string&)> helper;        ///< path of a program of Stadion; empty: none
-  std::function<std::string()> cpuRenderer;                     ///< its kernels and threads
-  std::function<Result<std::string>()> softwareGl, hardwareGl;  ///< what OSMesa or EGL says of itself
-  std::function<Result<std::string>()> sound;                   ///< the device's name
-  std::function<Result<std::vector<std::string>>(const std::string& screen)> monitors;  ///< of an X screen
-  std::function<Result<std::string>()> windowPixels;  ///< how windows without OpenGL get their pictures
+  std::function<bool(const std::string&)> hasProgram;     ///< along PATH
+  std::function<std::string(const std::string&)> helper;  ///< path of a program of Stadion; empty: none
+  std::function<std::string()> cpuRenderer;               ///< kernels and threads of the CPU renderer
+  std::function<Result<std::string>()> softwareGl,
+      hardwareGl;                              ///< description that OSMesa or EGL gives of itself
+  std::function<Result<std::string>()> sound;  ///< the device's name
+  std::function<Result<std::vector<std::string>>(const std::string& screen)>
+      monitors;                                       ///< names of the monitors of an X screen
+  std::function<Result<std::string>()> windowPixels;  ///< way of pictures into windows without OpenGL
   std::function<std::optional<bool>()> swapGroups;    ///< nothing: not known without a display
   std::function<bool()> realtime;                     ///< whether a thread may become a real-time thread
   std::function<std::vector<NetworkPort>()> network;
@@ -61,21 +63,21 @@ struct DoctorProbes {
 };
 DoctorProbes probesOfThisMachine();
 
-/// What must work.
+/// The requirements of a show.
 struct DoctorNeeds {
   std::vector<std::string> topics;        ///< asked for; empty: nothing in particular
-  std::vector<const WallFile*> walls;     ///< whose outputs must be there
+  std::vector<const WallFile*> walls;     ///< wall files whose outputs must be there
   std::vector<std::string> interfaces{};  ///< names or addresses of network interfaces that must be there
 };
 
-/// One finding for each topic, at least.
+/// Returns at least one finding for each topic.
 std::vector<DoctorFinding> examine(const DoctorProbes& probes, const DoctorNeeds& needs);
 /// False if something that was asked for does not work.
 bool canWork(std::span<const DoctorFinding> findings);
 
 /// A table, with a line below each finding that something mends.
 std::string toText(std::span<const DoctorFinding> findings);
-/// One JSON object on one line.
+/// Returns a line with a JSON object.
 std::string toJson(std::span<const DoctorFinding> findings);
 
 }  // namespace stadion

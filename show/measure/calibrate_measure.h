@@ -12,15 +12,15 @@ namespace stadion {
 
 struct CalibrationRun {
   DrawSetting setting{};
-  std::string folder;  ///< in which the show lies (writeCalibrationShow)
+  std::string folder;  ///< folder of the show (writeCalibrationShow)
   std::string walls = "cave4", size = "800x600", look = "full";
-  double seconds = 1;  ///< that are measured, after the frames in which programs are compiled
+  double seconds = 1;  ///< measured time, after the frames in which programs are compiled
 };
 
 struct CalibrationFigures {
   double framesPerSecond = 0;
   double cpuMs = 0;        ///< a frame, of this process and those that draw for it
-  std::string rasteriser;  ///< as it describes itself
+  std::string rasteriser;  ///< description that the rasteriser gives of itself
 };
 
 /// The findings say more about a failure.

@@ -4,9 +4,9 @@
 /// The finest model of a body collides as its own mesh (as the box or convex body that the mesh is to
 /// rounding, as its hull if it is not closed, or as the shape that it is said to have in truth), with exact
 /// impacts and with the steps of lasting contact divided by eight. The same show is played with one body's
-/// model changed at a time, and the body's places are compared frame by frame. The contact scheme of the whole
-/// show, `impact=`, is such a model too. Fields, masses by density, and the drag area stay what the script
-/// says: what a body is not hooked to is no part of any model.
+/// model changed at a time, and the body's places are compared frame by frame. The contact scheme of the
+/// whole show, `impact=`, is such a model too. Fields, masses by density, and the drag area stay what the
+/// script says: what a body is not hooked to is no part of any model.
 ///
 /// Errors   of place: how far the node's origin is from where it is with the finest model [m].
 /// Costs    processor time a frame. A model's is what the body's dynamics node takes more with it than
@@ -31,7 +31,8 @@ struct FidelityOptions {
 
 /// A body played with one model.
 struct TriedModel {
-  std::string name;  ///< what an author would write or do: "shape=box", "without air"
+  /// Name of the model: what an author would write or do, such as "shape=box", "without air".
+  std::string name;
   BodyModel model;
   bool asIs = false, finest = false, simpler = false;
   bool played = false;               ///< false: the model cannot be fitted like that
@@ -57,7 +58,8 @@ struct Fidelity {
   std::size_t lookedAt() const;
 };
 
-/// `progress` is told what is being played. Nothing, with the findings, if the show cannot be played.
+/// Calls `progress` with each show that it plays. Returns nothing, with the findings, if the show cannot be
+/// played.
 std::optional<Fidelity> measureFidelity(const FidelityOptions& options, Diagnostics& findings,
                                         const std::function<void(const std::string&)>& progress);
 

@@ -20,11 +20,11 @@ struct FlownObject {
   std::optional<Vec3> nose;  ///< as the script says it
 };
 
-/// What goes before what the script says, or what follows from the model filled evenly.
+/// Properties that replace those of the script or of the evenly filled model.
 struct StatedMatter {
   std::optional<double> mass;   ///< [kg]
-  std::optional<Vec3> centre;   ///< of mass, in the model's coordinates [m]
-  std::optional<Vec2> moments;  ///< of inertia, along the axis of symmetry and across it [kg m2]
+  std::optional<Vec3> centre;   ///< centre of mass, in the model's coordinates [m]
+  std::optional<Vec2> moments;  ///< moments of inertia, along the axis of symmetry and across it [kg m2]
 };
 
 /// With the mass, centre and moments that a show would give it. A script that is part of a show is read with

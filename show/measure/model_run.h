@@ -17,13 +17,14 @@ namespace stadion {
 
 /// How one body is modelled in a run; the others are as the script says.
 struct BodyModel {
-  NodeRef body;                         ///< invalid: all as the script says
-  std::string shape;                    ///< as the language writes it; empty: as the script says
-  std::optional<double> dragArea;       ///< so that another shape does not change the drag [m2]
-  std::vector<std::string> without;     ///< fields that it is not hooked to
-  std::uint32_t fineness = 1;           ///< of the whole show's dynamics, as in World::setFineness
-  std::optional<ImpactScheme> impacts;  ///< of the whole show's dynamics; empty: as the script says
-  bool absent = false;                  ///< not simulated at all: what the show costs without it
+  NodeRef body;                      ///< invalid: all as the script says
+  std::string shape;                 ///< as the language writes it; empty: as the script says
+  std::optional<double> dragArea;    ///< drag area, so that another shape does not change the drag [m2]
+  std::vector<std::string> without;  ///< fields that it is not hooked to
+  std::uint32_t fineness = 1;        ///< fineness of the whole show's dynamics (World::setFineness)
+  /// Impact scheme of the whole show's dynamics; empty: as the script says.
+  std::optional<ImpactScheme> impacts;
+  bool absent = false;  ///< not simulated at all: what the show costs without it
 };
 
 /// A field that a body is hooked to when it is first seen.
@@ -32,13 +33,13 @@ struct HookedField {
   std::string_view type;  ///< the name of its node type
 };
 
-/// What a body is, and what it did.
+/// A body of a played show: its properties and its motion.
 struct PlayedBody {
   std::string name, file;
   std::uint32_t line = 0;
   ShapeKind shape = ShapeKind::Mesh;
   bool chosen = false;   ///< by shape=auto
-  double deviation = 0;  ///< of the shape from the model [m]
+  double deviation = 0;  ///< deviation of the shape from the model [m]
   std::size_t triangles = 0;
   std::string exact;    ///< box or convex, if its model is just that to rounding; else empty
   double dragArea = 0;  ///< [m2]
@@ -46,7 +47,7 @@ struct PlayedBody {
   NodeRef dynamics;                           ///< the node that moves it
   ImpactScheme::Kind impacts{};               ///< how that node finds impacts
   std::array<std::uint64_t, 7> modes{};       ///< frames in each BodyMode
-  std::array<std::uint64_t, 3> flights{};     ///< of those in flight, by FlightClass
+  std::array<std::uint64_t, 3> flights{};     ///< frames in flight, by FlightClass
   std::uint64_t arcs = 0;                     ///< begun
   std::vector<std::optional<Pose>> places{};  ///< in each frame, of bodies that are watched
 };
@@ -54,8 +55,8 @@ struct PlayedBody {
 struct PlayedShow {
   std::uint64_t frames = 0;
   double rate = 60;
-  std::map<NodeRef, PlayedBody> bodies;      ///< that a dynamics node moves
-  std::map<NodeRef, double> milliseconds{};  ///< that each dynamics node took in all
+  std::map<NodeRef, PlayedBody> bodies;      ///< bodies that a dynamics node moves
+  std::map<NodeRef, double> milliseconds{};  ///< total time of each dynamics node
 };
 
 /// Plays the show, of the model's body alone noting places, or, without one, of all bodies all but places.

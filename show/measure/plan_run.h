@@ -17,13 +17,13 @@ struct PlanRunOptions {
   std::size_t walls = 1;  ///< the first ones of the wall file
 };
 
-/// What the frames of a show cost.
+/// The costs of a show's frames.
 struct MeasuredCosts {
   std::vector<std::map<std::uint64_t, plan::FrameCost>> runs;
   bool waitsInTurn = true;
 };
 
-/// What came of playing it.
+/// The measured results of playing a show.
 struct PlayedTimes {
   double period = 0;   ///< from swap to swap, the middle one [ms]
   double latency = 0;  ///< from the poses to the swap [ms]

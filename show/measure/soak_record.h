@@ -37,7 +37,7 @@ struct SoakCounts {
   std::uint64_t wrongSteps = 0;   ///< frames that were not one tick after the one before
   std::uint64_t wrongHashes = 0;  ///< states that differ from what the same frame had before
   std::uint64_t compared = 0;     ///< states that were compared
-  double seconds = 0;             ///< that it has taken
+  double seconds = 0;             ///< duration of the soak so far
 };
 
 class SoakRecord {
@@ -50,11 +50,11 @@ public:
 
   SoakCounts counts;
   const std::vector<SoakSample>& samples() const { return samples_; }
-  /// Those that have played.
+  /// Returns the number of processes that have played.
   std::uint32_t processes() const { return processes_; }
-  /// What has failed at the end of a run, this one's included.
+  /// Returns the failures at the end of each run, this one included.
   const std::vector<std::string>& failed() const { return failed_; }
-  /// This process plays, too.
+  /// Counts this process.
   void begin() { process_ = processes_++; }
   /// With the counts as they are now.
   void add(SoakSample sample);
@@ -62,7 +62,7 @@ public:
   void addCounts();
   /// Likewise, and what fails, but for what the counts tell.
   void end(const std::vector<std::string>& failed);
-  /// Whether that frame of the show had this history of states before; the first time it is noted.
+  /// Returns true if that frame of the show had this history of states before; the first time it is noted.
   bool agrees(const std::string& show, std::uint64_t frame, std::uint64_t history);
   /// Something could not be written.
   bool incomplete() const { return incomplete_; }

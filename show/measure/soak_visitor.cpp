@@ -12,7 +12,7 @@ namespace {
 
 constexpr double kThrowEvery = 4, kHoldsFor = 1.2, kSwing = 0.4;  ///< [s]
 constexpr double kSilentEvery = 19, kSilentFor = 1.1;             ///< all trackers [s]
-constexpr double kMadEvery = 5;                                   ///< what cannot be is said [s]
+constexpr double kMadEvery = 5;                                   ///< interval of impossible values [s]
 
 double phaseOf(double t, double period) {
   return t - period * static_cast<double>(static_cast<std::int64_t>(t / period));

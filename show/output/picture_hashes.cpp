@@ -27,7 +27,7 @@ void cutHalfLine(const std::string& file) {
   in.seekg(from).read(end.data(), size - from);
   if (!in || end.ends_with('\n')) return;
   const std::size_t whole = end.rfind('\n') + 1;  // 0 if there is none
-  std::error_code none;                           // if it cannot be cut it cannot be written: that is told
+  std::error_code none;  // a file that cannot be cut cannot be written, which is reported
   std::filesystem::resize_file(file, static_cast<std::uintmax_t>(from) + whole, none);
 }
 

@@ -8,7 +8,8 @@
 /// machine's frame N + 1 is before another one's of frame N.
 ///
 /// Threads  one at a time.
-/// Errors   add() says what could not be written; what is there then ends with a whole line but for the last.
+/// Errors   add() reports what could not be written. All lines of the file are then whole, except for the
+///          last.
 
 #include "pipeline/loop/show_stages.h"
 #include "pipeline/picture/stereo.h"

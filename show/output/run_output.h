@@ -33,7 +33,7 @@ struct RunOutputOptions {
   PictureChoice pictures;
   bool sheets = false;  ///< a contact sheet beside each frame's pictures
   bool video = false;
-  bool hashes = false;   ///< of every picture
+  bool hashes = false;   ///< write hashes of every picture
   bool further = false;  ///< the run goes on with one that wrote into the folder
   double rate = 60;
   StereoLayout layout = StereoLayout::Pair;
@@ -54,7 +54,7 @@ public:
   void finish(const std::vector<EyePictures>& walls);
 
   const std::vector<std::string>& files() const { return files_; }      ///< the ones worth naming
-  const std::vector<std::string>& remarks() const { return remarks_; }  ///< what did not go as asked
+  const std::vector<std::string>& remarks() const { return remarks_; }  ///< things that did not work as asked
   /// Why pictures could not be written, if so. After finish().
   const Failure& failure() const { return failure_; }
   std::size_t picturesWritten() const { return written_; }

@@ -14,7 +14,8 @@ struct DrawSettings {
   RendererSettings renderer{};
   StereoLayout layout = StereoLayout::Pair;
   std::optional<bool> processes{};  ///< a process for each wall, or a thread; null: what measured faster
-  std::optional<bool> pinned{};     ///< each wall on processors of its own; null: what measured faster
+  /// True: each wall is drawn on processors of its own; null: the setting that measured faster.
+  std::optional<bool> pinned{};
   std::optional<unsigned> rasteriserThreads{};  ///< if the environment gives them
   std::optional<Nanoseconds> ahead{};           ///< how far the head is predicted, as HeadTiming has it
   std::optional<HeadReach> latch{};             ///< Draw takes the newest pose of the head, within this reach

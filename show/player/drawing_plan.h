@@ -17,13 +17,13 @@ namespace stadion {
 
 class Diagnostics;
 
-/// What is known of the machine that the program runs on.
+/// The known properties of this machine.
 struct KnownMachine {
   std::uint32_t processors = 1;
   std::optional<MachineCalibration> measured{};  ///< nothing: it has not been calibrated
 };
 
-/// Reads the calibration. A file that is damaged, or about other machines, is told as a warning and counts
+/// Reads the calibration. A file that is damaged, or about other machines, causes a warning and counts
 /// for nothing.
 KnownMachine knownMachine(Diagnostics& findings);
 
@@ -47,7 +47,7 @@ public:
   /// Threads of this program's rasteriser, for in-process and worker-process walls alike.
   std::uint32_t rasteriserThreadsHere() const { return here_.setting.rasteriserThreads; }
 
-  /// This program must draw after all.
+  /// Notes that this program must draw after all.
   void drawHere(const std::string& why);
 
 private:

@@ -12,7 +12,7 @@ bool PlaySettings::repeats(const Player& player) const {
 
 FrameLoopOptions PlaySettings::loopOptions(const Player& player) const {
   FrameLoopOptions l = player.loopOptions();
-  l.latency = latency;
+  l.mostInFlight = mostInFlight;
   l.drawBeginsEarly = drawBeginsEarly;
   l.delivery = everyFrameCounts(player) ? Delivery::Every : Delivery::Latest;
   const bool newest = l.delivery == Delivery::Latest;

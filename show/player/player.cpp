@@ -41,7 +41,7 @@ std::function<void(const Diagnostics&)> onlyNews(std::function<void(const Diagno
     std::mutex mutex;
     std::set<std::string> texts;
   };
-  constexpr std::size_t kMost = 10'000;  // then it is said as often as it happens
+  constexpr std::size_t kMost = 10'000;  // beyond that, reports each one
   return [report = std::move(report), said = std::make_shared<Said>()](const Diagnostics& findings) {
     Diagnostics news;
     {

@@ -31,7 +31,7 @@ struct ShowOptions {
   std::string look = "full";
   std::string size;  ///< empty = as the wall file says, else 800x600
   double rate = 60;
-  bool rateGiven = false;    ///< else a recorded run's own rate counts more
+  bool rateGiven = false;    ///< true: `rate` was given; false: a recorded run's own rate counts more
   std::uint64_t frames = 0;  ///< 0 = by `seconds`
   double seconds = 0;        ///< 0 = to the end of the input
   std::string input;         ///< empty = beside the script if there is one; "none"
@@ -39,9 +39,9 @@ struct ShowOptions {
   /// The walls of the room that are drawn here; empty = all.
   std::vector<std::string> onlyWalls;
   std::vector<std::string> plugins;     ///< files of node types, which `types` holds
-  SharedTypes types = standardNodes();  ///< that its scripts may use
+  SharedTypes types = standardNodes();  ///< node types that the scripts may use
   std::size_t appThreads = 0;           ///< 0 = as many as there are processors, 8 at most
-  DynamicsVariation variation;          ///< of the script's models
+  DynamicsVariation variation;          ///< variation of the script's models
   /// The scripts that are played; null: as they are on disk when the show is opened.
   std::shared_ptr<const ScriptTexts> texts;
   /// The snapshot that the show continues from (SceneSnapshot::save()); null: it starts from the beginning.
@@ -69,8 +69,8 @@ public:
                                         std::function<void(const Diagnostics&)> report = {},
                                         const std::atomic<bool>* stop = nullptr,
                                         ImportedMeshes* kept = nullptr);
-  /// The same in two steps: all but the scene, and that. Only the second one reads the show's files. A player
-  /// whose scene could not be opened is of no use.
+  /// Makes a player in two steps: all but the scene, then the scene. Only the second step reads the show's
+  /// files. A player whose scene could not be opened is of no use.
   static std::unique_ptr<Player> prepare(const ShowOptions& options, Diagnostics& findings,
                                          std::function<void(const Diagnostics&)> report,
                                          const std::atomic<bool>* stop, ImportedMeshes* kept);
@@ -83,7 +83,7 @@ public:
   Nanoseconds end() const { return end_; }
   /// Frames a second: as asked, else as the input log was recorded.
   double rate() const { return rate_; }
-  /// Whether the input log holds what a clock decided: then every frame is played as it was recorded.
+  /// Returns true if the input log holds what a clock decided: then every frame is played as it was recorded.
   bool obeysLog() const { return !decisions_.empty(); }
   bool inputFound() const { return inputFound_; }
   /// Mode, rate, walls, length, and what the input log decided. Plays every frame, as fast as possible.
@@ -132,7 +132,7 @@ private:
   std::unique_ptr<Scene> scene_;
   std::unique_ptr<InputDevice> input_;
   InputDevice* live_ = nullptr;    ///< counts more than input_
-  WallFile walls_;                 ///< that are drawn here
+  WallFile walls_;                 ///< walls that are drawn here
   std::vector<WallEntry> others_;  ///< the room's others
   ShowOptions options_;
   RunDecisions decisions_;
@@ -141,7 +141,7 @@ private:
   Nanoseconds end_ = 0;
   bool inputFound_ = false;
   std::string inputName_;
-  std::vector<std::string> trackers_;  ///< that the input log names
+  std::vector<std::string> trackers_;  ///< trackers that the input log names
 };
 
 }  // namespace stadion

@@ -11,7 +11,7 @@ namespace stadion {
 
 struct ReusableResources {
   ImportedMeshes models;
-  WallContexts contexts;  ///< they use the models, and go first
+  WallContexts contexts;  ///< contexts of the walls; they use the models, so they are destroyed first
 };
 
 }  // namespace stadion

@@ -1,5 +1,5 @@
 #pragma once
-/// Notices that a script, or a sub-scene that it names, has been saved, or is gone.
+/// Notices that a script, or a sub-scene that it names, was saved or removed.
 ///
 /// It is asked again and again, a few times a second.
 ///
@@ -19,11 +19,11 @@ class ScriptWatch {
 public:
   ScriptWatch(std::string script, std::vector<std::string> assetRoots, SharedTypes types);
 
-  /// What has happened to which file since the last time it said so, in words. A file that is saved must have
-  /// stayed as it is since it was asked before: an editor may write in several goes. One that is gone must be
-  /// so for kGoneFor more times: an editor may put another in its place.
+  /// Returns a description of what happened to which file since the last description. A file counts as saved
+  /// if it did not change since the call before: an editor may write in several steps. A file counts as gone
+  /// after kGoneFor more calls: an editor may put another in its place.
   std::optional<std::string> changed();
-  /// What there is now counts as known.
+  /// Takes the present files as known.
   void settle();
 
   static constexpr int kGoneFor = 4;

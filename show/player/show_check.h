@@ -19,7 +19,7 @@ Diagnostics checkShow(const std::string& file, const std::vector<std::string>& a
                       const std::atomic<bool>* giveUp = nullptr,
                       std::shared_ptr<const ScriptTexts> texts = nullptr);
 
-/// The same of language and names alone: no asset is read, so it is quick.
+/// Checks language and names alone: no asset is read, so it is quick.
 Diagnostics checkScripts(const std::string& file, const std::vector<std::string>& assetRoots,
                          SharedTypes types, std::shared_ptr<const ScriptTexts> texts = nullptr);
 

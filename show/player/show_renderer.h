@@ -8,8 +8,8 @@
 /// Threads    opened before the program starts other threads; then any.
 
 #include "engine/base/diagnostic.h"
-#include "pipeline/cpu_draw/draw_pool.h"
 #include "pipeline/draw_list/renderer.h"
+#include "pipeline/platform/draw_pool.h"
 #include "pipeline/target/target.h"
 
 #include <cstdint>

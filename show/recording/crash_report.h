@@ -6,7 +6,7 @@
 
 namespace stadion {
 
-/// A file with the last frames, which the report of a crash tells of while this is there.
+/// A file with the last frames. While this object lives, a crash report names the file.
 ///
 /// Threads  any; of more than four at a time the others are not told of.
 class ToldInCrash {

@@ -13,7 +13,7 @@ BlackBoxOptions unaskedLastFrames(std::vector<std::string> walls);
 BlackBoxOptions lastFramesOf(const PlaySettings& play, const std::string& file, const Player& player,
                              std::vector<std::string> walls);
 
-/// Whether `file`, if it has a name, can hold last frames. The findings say why not.
+/// Returns true if `file`, if it has a name, can hold last frames. The findings say why not.
 bool lastFramesCanBeKept(const std::string& file, Diagnostics& findings);
 
 /// How many frames were late, why, and where the last ones are; empty if none was and the run did not fail.

@@ -6,7 +6,7 @@
 
 namespace stadion {
 
-/// Whether what is drawn has a budget: then samples of drawing are taken.
+/// Returns true if what is drawn has a budget: then samples of drawing are taken.
 bool hasDrawnBudgets(const Scene& scene);
 
 /// In a live run overruns go to `say` and are acted upon; in another run they are counted. `walls` are the

@@ -127,7 +127,7 @@ private:
       "; the show is played without; --black-box FILE says where they could be, if frames come late";
   ShowRecording() = default;
 
-  /// What recording takes of all threads, a frame.
+  /// Returns the time that recording takes on all threads, a frame [ms].
   double recordingMs() const {
     double spans = 0;
     for (const auto& [key, total] : profile_.spans()) spans += static_cast<double>(total.ms.count());
@@ -141,7 +141,7 @@ private:
   ShowProfile profile_{&names_};
   std::unique_ptr<LoadGovernor> governor_;
   std::unique_ptr<BlackBox> box_;
-  std::optional<ToldInCrash> told_;  ///< its file
+  std::optional<ToldInCrash> told_;  ///< names the file of the black box in a crash message
   std::unique_ptr<TraceFile> trace_;
   std::unique_ptr<ReportRecording> report_;
   std::unique_ptr<FrameLog> log_;

@@ -130,7 +130,7 @@ private:
       result_.fault = other.fault, result_.refused = other.refused;
       return;
     }
-    // What an older build does not tell of cannot be compared.
+    // Figures that an older build lacks cannot be compared.
     RunFacts known = *last_.facts;
     const auto keep = [](NamedFacts& mine, const NamedFacts& theirs) {
       std::erase_if(mine, [&](const auto& fact) { return !theirs.contains(fact.first); });

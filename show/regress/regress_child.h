@@ -2,7 +2,7 @@
 /// A `stadion` program, ours or another build's, run to play a case of a suite.
 ///
 /// Threads  one at a time.
-/// Errors   in the result, as a sentence; Ctrl-C ends the child and is told.
+/// Errors   in the result, as a sentence; Ctrl-C ends the child, and the result says so.
 
 #include "profiling/regression/spans/facts.h"
 #include "profiling/regression/suite.h"
@@ -17,12 +17,12 @@ namespace stadion {
 
 struct ChildResult {
   int status = -1;       ///< exit status; 128 + signal
-  std::string out, err;  ///< what it said
+  std::string out, err;  ///< output of the program
   std::string fault;     ///< why it did not do what was asked; empty: it did
   bool missing = false;  ///< there is no such program
 };
 
-/// What `fault` to tell of a child that valgrind was to run.
+/// Returns the text of `fault` for a child under valgrind.
 constexpr const char* kNoValgrind = "there is no valgrind; install it: apt install valgrind";
 
 /// Runs the words to the end, with our environment and `environment` ("NAME=value"); past the limit, or once

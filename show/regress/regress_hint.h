@@ -6,7 +6,7 @@
 
 namespace stadion {
 
-/// What two builds tell of the nodes of a case. Builds that cannot be asked tell nothing.
+/// The nodes of a case in two builds; empty for builds that cannot report them.
 class ProfileOfBoth {
 public:
   ProfileOfBoth(const regression::SuiteCase& c, const std::string& before, const std::string& now,

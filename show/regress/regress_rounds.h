@@ -17,7 +17,7 @@ struct MeasuredProgram {
 
 struct MeasuredRounds {
   std::vector<regression::Round> rounds;  ///< all that were asked for; `before` is empty of one program
-  std::vector<double> calibrationMs;      ///< of each round
+  std::vector<double> calibrationMs;      ///< calibration times of each round
   std::string fault{};
 };
 
@@ -33,7 +33,7 @@ struct MeasuringOptions {
 MeasuredRounds measureRounds(const regression::SuiteCase& c, const std::string& mode,
                              const MeasuredProgram& before, const MeasuredProgram& now,
                              const MeasuringOptions& options);
-/// One program, with the calibration kernel before and after each run.
+/// Measures one program, with the calibration kernel before and after each run.
 MeasuredRounds measureRounds(const regression::SuiteCase& c, const std::string& mode,
                              const MeasuredProgram& now, const MeasuringOptions& options);
 
@@ -43,8 +43,8 @@ struct CountedInstructions {
   bool refused = false;  ///< the fault is the user's: valgrind is missing
 };
 
-/// What counts instructions: the processor, all of the thread that plays, at hardly any cost; or callgrind,
-/// those of our own program, slowly. Their counts cannot be compared with each other.
+/// The counter of instructions. Hardware: the processor counts all of the playing thread, at hardly any cost.
+/// Callgrind counts those of our own program, slowly. Their counts cannot be compared with each other.
 enum class CountedBy { Hardware, Callgrind };
 std::string_view nameOf(CountedBy by);
 

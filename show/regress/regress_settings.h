@@ -14,10 +14,10 @@ struct RegressSettings {
   std::string program;              ///< the one to try
   std::chrono::seconds limit{600};  ///< for each of its processes
   bool instructions = false;        ///< callgrind counts where the processor cannot
-  regression::Metrics asked{};      ///< what is compared, and kept in a baseline
+  regression::Metrics asked{};      ///< metrics to compare, and to keep in a baseline
 };
 
-/// What a suite is compared with.
+/// The reference of a comparison.
 struct RegressReference {
   std::string program;                             ///< another one; empty: none
   std::optional<regression::Baseline> baseline{};  ///< nothing: none

@@ -18,7 +18,7 @@ public:
   ~OpenSession();
 
   bool open(Diagnostics& findings);
-  /// What follows once a show has been played.
+  /// The step after a show has been played.
   enum class Then { Ends, NextGroup, Rejoin };
   Then playOnce(std::optional<SessionReport>& report);
   /// Creates the next group's show; only the files that were read are reused. Returns false if there is

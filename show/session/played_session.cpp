@@ -76,8 +76,8 @@ void OpenSession::fillReport(SessionReport& report, const FrameLoopOutcome& outc
   summary.frames = outcome.framesShown, summary.framesDrawn = outcome.framesDrawn;
   // If the newest frame counts, the frames that App had no time for are among those not shown.
   const bool byTicks = s.play.loopOptions(*player_).pace != Pace::Free;
-  summary.lateFrames = byTicks ? std::max(outcome.missedTicks, outcome.ticksPassedOver) : 0;
-  summary.mostPassedOver = outcome.mostPassedOver;
+  summary.lateFrames = byTicks ? std::max(outcome.missedTicks, outcome.ticksWithoutFrame) : 0;
+  summary.mostTicksWithoutFrame = outcome.mostTicksWithoutFrame;
   if (const LatchCounts* c = state_.stages->latched())
     summary.latched = LateLatched{c->latched, c->beyond, c->farthest, c->widest};
   if (s.draw.ahead) summary.aimedAt = 1e3 * toSeconds(state_.stages->aimedAt());

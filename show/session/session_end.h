@@ -16,7 +16,7 @@ enum class SessionEnd {
   NoShow,      ///< no show could be opened, or no next one
 };
 
-/// What the process tells its parent.
+/// Returns the exit status of the process.
 inline int statusOf(SessionEnd end) {
   switch (end) {
   case SessionEnd::Played: return kPlayed;

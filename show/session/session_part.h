@@ -22,10 +22,11 @@
 
 namespace stadion {
 
-/// What the parts of a session share. A pointer is null if the session has no such thing, or not yet.
+/// The state that the parts of a session share. A pointer is null if the session has no such thing, or not
+/// yet.
 struct SessionState {
   SessionSettings settings;  ///< as asked for; the cluster file completes them
-  Reporter& reporter;        ///< the journal hears what it is told
+  Reporter& reporter;        ///< the journal receives its lines, too
   const std::atomic<bool>& stop;
 
   RunJournal* journal = nullptr;
@@ -37,7 +38,7 @@ struct SessionState {
   RunWatch* watch = nullptr;
   const ShowRenderer* renderer = nullptr;
   const DrawingPlan* drawing = nullptr;
-  const ShowStages* stages = nullptr;  ///< of the show that is played
+  const ShowStages* stages = nullptr;  ///< stages of the played show
   const FrameLoop* loop = nullptr;
   LiveBudget* budget = nullptr;  ///< receives the costs of frames while they are shown
 

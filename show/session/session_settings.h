@@ -20,7 +20,7 @@ struct SessionSettings {
   ClusterSettings cluster;
   SupervisionSettings supervision;
 
-  /// What decides whether threads or processes draw so many walls.
+  /// Returns what decides between threads and processes for so many walls.
   DrawingNeeds drawingNeeds(std::size_t walls) const;
   /// The processes that draw the walls; null if this process draws them.
   std::optional<WallWorkers> workers(const Player& player, const DrawSetting& setting, RendererKind renderer,

@@ -40,7 +40,7 @@ public:
   const SessionReport* report() const { return report_ ? &*report_ : nullptr; }
   /// Expects an open show.
   const Player& player() const;
-  /// Whether another machine leads the show.
+  /// Returns true if another machine leads the show.
   bool follows() const;
 
 private:

@@ -41,7 +41,7 @@ public:
   void firstPicture(const std::string& gl);
   /// A late frame, in words.
   void late(const std::string& text);
-  /// The run is over; `status` is that of its process. Returns kRefused instead of a good one if lines were
+  /// The run is over; `status` is its exit code. Returns kRefused instead of a good one if lines were
   /// lost.
   int ended(int status);
 
@@ -58,7 +58,7 @@ private:
 
   std::unique_ptr<Journal> file_;
   Reporter& reporter_;
-  std::mutex mutex_;  ///< of the next ones
+  std::mutex mutex_;  ///< guards the members below
   std::optional<Journal::Place> place_{};
   std::uint64_t shown_ = 0, shownBefore_ = 0, late_ = 0, lateBefore_ = 0;
   std::string lastLate_;

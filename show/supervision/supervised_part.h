@@ -54,13 +54,13 @@ private:
   bool keeps_ = true;  ///< the scene, for the next player
   OperatorState operator_;
   bool wentOn_ = false, catchesUp_ = false;
-  Nanoseconds begun_ = 0;     ///< when it went on, by machineClock()
+  Nanoseconds begun_ = 0;     ///< time at which the show continued, by machineClock()
   Nanoseconds due_ = 0;       ///< the show time where it would have been then
   Nanoseconds nextKept_ = 0;  ///< machineClock()
   Nanoseconds step_ = 0;      ///< the longest time that keeping may take unnoticed
   bool told_ = false;
-  std::size_t bytes_ = 0, times_ = 0;  ///< of the scene as it was kept; how often
-  Nanoseconds longest_ = 0;            ///< that keeping it took
+  std::size_t bytes_ = 0, times_ = 0;  ///< size of the saved scene; number of saves
+  Nanoseconds longest_ = 0;            ///< longest time that a save took
 };
 
 }  // namespace stadion

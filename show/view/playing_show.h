@@ -29,7 +29,7 @@ struct ShowPlace {
   std::set<std::string> loaded;  ///< scene nodes of the show's own file whose files are there
 };
 
-/// What a show plays into, and what outlives it.
+/// The surroundings of a played show, which outlive it.
 struct ShowSurroundings {
   const SessionSettings& settings;
   ShowRenderer& renderer;
@@ -44,7 +44,7 @@ struct ShowSurroundings {
   std::function<void()> ended;  ///< the show has come to its end; on its own thread
   /// Once true the show ends, or, while it is still being opened, is given up. One for each show.
   std::shared_ptr<std::atomic<bool>> stopping = std::make_shared<std::atomic<bool>>(false);
-  /// What is played; null: the scripts as they are on disk when the show is opened.
+  /// Texts of the scripts; null: the scripts as they are on disk when the show is opened.
   std::shared_ptr<const ScriptTexts> texts{};
   bool recorded = true;  ///< --record-input counts
 };
@@ -80,7 +80,7 @@ public:
   Nanoseconds time() const { return time_; }
   /// Why it could not go on, if so. After stop().
   const Failure& failure() const { return outcome_.failure; }
-  /// Whether it ended because the operator asked for the next group. After stop().
+  /// Returns true if it ended because the operator asked for the next group. After stop().
   bool nextGroup() const { return outcome_.nextGroup && !outcome_.failure; }
   std::string drawnBy() const { return stages_ ? stages_->drawnBy() : ""; }
 

@@ -1,7 +1,7 @@
 #pragma once
 /// A show that is read again while the one before it plays on.
 ///
-/// Its scripts are read once and checked first, so that a slip of the keyboard is told at once, not when
+/// Its scripts are read once and checked first, so that a mistake is reported at once, not when
 /// every asset has been read, and what plays then is what was checked. Nothing is recorded of it before it
 /// plays.
 ///
@@ -25,7 +25,7 @@ public:
   ~ShowReload();
 
   bool done() const { return done_; }
-  /// What was read; null if it has errors, which are in the findings. Expects done().
+  /// Returns the show that was opened; null if it has errors, which are in the findings. Expects done().
   std::unique_ptr<PlayingShow> take(Diagnostics& findings);
 
 private:

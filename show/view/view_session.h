@@ -29,11 +29,11 @@
 
 namespace stadion {
 
-/// What is known of a viewed show when it is over.
+/// The results of a viewed show.
 struct ViewReport {
   RunSummary summary{};
   Vec3 rig = Vec3::Zero();    ///< where the rig stands [m]
-  std::uint64_t frames = 0;   ///< that were simulated
+  std::uint64_t frames = 0;   ///< number of simulated frames
   std::uint64_t dropped = 0;  ///< ticks without a frame
   std::string lateFrames{};   ///< how many frames were late and why; empty if none was
 };
@@ -51,7 +51,7 @@ public:
 private:
   using Clock = std::chrono::steady_clock;
 
-  /// Shows in the window what the reporter is told while the show plays.
+  /// Shows the reporter's lines in the window while the show plays.
   class HudReporter final : public Reporter {
   public:
     HudReporter(Reporter& to, ViewHud& hud) : to_(to), hud_(hud) {}
@@ -121,7 +121,7 @@ private:
   std::atomic<bool> ended_ = false;
   bool quit_ = false, stale_ = true;
   bool begins_ = true;  ///< nothing of this show has been shown yet
-  bool over_ = false;   ///< it has ended, and the one after it has errors
+  bool over_ = false;   ///< the show has ended, and the one after it has errors
   /// Single frames were asked for: the first number that has not been told of.
   std::optional<std::uint64_t> steppedFrom_;
   SessionEnd end_ = SessionEnd::Played;

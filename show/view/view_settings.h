@@ -14,7 +14,7 @@ struct ViewSettings {
   SessionSettings session{};  ///< script, walls, rate, input, records
   bool oneWindow = true;      ///< a window with the room unfolded; else a window for each wall
   WindowStereo stereo = WindowStereo::Mono;
-  std::uint32_t width = 1200, height = 800;  ///< of the window at the start
+  std::uint32_t width = 1200, height = 800;  ///< size of the window at the start
   std::string shots = "screenshots";         ///< folder for screenshots
   bool hud = false;                          ///< the frame budget is shown from the start
 };

@@ -28,7 +28,7 @@ public:
   /// Why nothing can be shown any more; nothing while it can.
   std::optional<std::string> lost() const { return system_->lost(); }
 
-  /// What happened since it was asked last, and in which window.
+  /// Returns the events since the last call, with the window of each.
   std::vector<std::pair<std::size_t, WindowEvent>> takeEvents();
   /// The walls' pictures, by wall, then the overview's. They must stay until others are taken.
   void take(const std::vector<EyePictures>& pictures);

@@ -79,6 +79,11 @@ TEST(ProgramLauncher, TheMeasurementsAreBuiltWhenTheyAreFirstCalled) {
   House house;
   house.start({"nodes"});
   house.forgetCalls();
+  EXPECT_EQ(house.start({"plan", "show.evs"}).out, "<plan><show.evs>");
+  EXPECT_TRUE(has(house.calls(), "--target stadion-measure")) << house.calls();
+  house.forgetCalls();
+  EXPECT_EQ(house.start({"profile", "show.evs"}).out, "<profile><show.evs>");
+  EXPECT_EQ(house.calls(), "");
   EXPECT_EQ(house.start({"bench", "walls"}).out, "<bench><walls>");
   EXPECT_TRUE(has(house.calls(), "--target programs")) << house.calls();
   house.forgetCalls();

@@ -14,8 +14,12 @@
 namespace stadion {
 namespace {
 
-std::string benchPath() {
-  return std::filesystem::path(stadionPath()).replace_filename("stadion-bench");
+/// All that have commands, with their names.
+std::map<std::string, std::string> programs() {
+  std::map<std::string, std::string> paths;
+  for (const char* name : {"stadion", "stadion-measure", "stadion-bench"})
+    paths[name] = std::filesystem::path(stadionPath()).replace_filename(name);
+  return paths;
 }
 
 /// An option of a command, as the program itself has it.
@@ -25,7 +29,7 @@ struct OptionUse {
 
 std::vector<OptionUse> allUses() {
   std::vector<OptionUse> uses;
-  for (const std::string& program : {stadionPath(), benchPath()}) {
+  for (const auto& [name, program] : programs()) {
     std::istringstream lines(runProgram({{program, "manual", "uses"}}).out);
     for (OptionUse use; std::getline(lines, use.name, '\t');) {
       std::string shown;
@@ -194,9 +198,9 @@ TEST(Completion, KnowsCommandsOptionsAndValues) {
 }
 
 TEST(ManPage, HasEachOptionOnce) {
-  for (const std::string& program : {stadionPath(), benchPath()}) {
+  for (const auto& [name, program] : programs()) {
     const std::string page = runProgram({{program, "manual", "man"}}).out;
-    EXPECT_TRUE(page.starts_with(program == stadionPath() ? ".TH stadion 1" : ".TH stadion-bench 1"));
+    EXPECT_TRUE(page.starts_with(".TH " + name + " 1")) << page.substr(0, 40);
     const std::string entry = "\n.TP\n.B \\-\\-json\n";
     ASSERT_NE(page.find(entry), std::string::npos);
     EXPECT_EQ(page.find(entry), page.rfind(entry));

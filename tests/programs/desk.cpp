@@ -127,6 +127,7 @@ std::unique_ptr<Display> Display::open(std::vector<std::string> screens, std::ve
   for (std::size_t i = 0; i < screens.size(); ++i) {
     run.words.insert(run.words.end(), {"-screen", std::to_string(i), screens[i]});
   }
+  run.words.insert(run.words.end(), more.begin(), more.end());
   return start(run);
 }
 
@@ -148,7 +149,6 @@ std::unique_ptr<Display> Display::openWithMonitor() {
 /// It looks for a free number by itself and says which.
 std::unique_ptr<Display> Display::start(const ProgramRun& server) {
   std::unique_ptr<Display> display(new Display);
-  run.words.insert(run.words.end(), more.begin(), more.end());
   display->server_ = std::make_unique<RunningProgram>(server);
   const auto numbered = [&] { return display->server_->out().find('\n') != std::string::npos; };
   if (!until([&] { return numbered() || !display->server_->runs(); }) || !numbered()) return nullptr;

@@ -7,7 +7,7 @@ namespace stadion::importer {
 
 struct Imported {
   Mesh mesh;
-  std::string notes;  ///< one a line
+  std::string notes;  ///< notes for the author, one a line
 };
 
 /// Throws Refusal when the file is missing, broken or beyond the limits.

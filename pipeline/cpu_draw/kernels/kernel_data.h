@@ -44,7 +44,7 @@ struct TriangleCorners {
 
 /// Parameters of triangle setup.
 struct SetupParameters {
-  int width, height;  ///< of the picture [pixels]
+  int width, height;  ///< size of the picture [pixels]
   int samples;        ///< for each pixel: 1, 4 or 8
   float facing;       ///< 1: counter-clockwise triangles are visible, -1: clockwise ones, 0: both
   float mirrored;     ///< -1 if the front of a triangle is clockwise, else 1
@@ -75,7 +75,7 @@ struct TriangleRecord {
   float slopeHigh;          ///< from the middle to the highest corner
   float depthX, depthY;     ///< change of the depth for each pixel
   float depth;              ///< at the lower left of pixel (left, low)
-  float mostDepth;          ///< of the corners
+  float mostDepth;          ///< largest depth of the three corners
   short left, low;          ///< first pixel that may be covered
   short right, high;        ///< last one
   unsigned triangle;        ///< number among the corners that were set up
@@ -175,15 +175,14 @@ struct TextureParameters {
   int magnifiesNearest;  ///< 1: the nearest texel, not a mean of four
 };
 
-/// What a surface is made of. The same description feeds the uniform blocks of the OpenGL programs.
-///
-/// Inputs that `MaterialInputs` of a mesh do not set have neutral values.
+/// Parameters of a surface's material. The uniform blocks of the OpenGL programs have the same ones. Inputs
+/// that `MaterialInputs` of a mesh do not set have neutral values.
 struct MaterialParameters {
   float baseColour[4];  ///< linear in the full look, alpha
   float emissive[3];
   float roughness, metallic;
   float alphaCutoff;  ///< 0: nothing is cut out
-  float normalScale;  ///< of the normal map
+  float normalScale;  ///< strength of the normal map
   float occlusionStrength;
   int unlit, doubleSided;
   TextureParameters base, metallicRoughness, normal, occlusion, glow;
@@ -232,9 +231,9 @@ struct ViewParameters {
 /// Fragments of one material to shade. Arrays are padded.
 struct FragmentJob {
   const SurfaceBlock* surfaces;
-  const unsigned* pixel;    ///< x + 65536 * y
-  const unsigned* surface;  ///< numbers of surfaces
-  const unsigned* place;    ///< of the colours
+  const unsigned* pixel;    ///< by fragment: x + 65536 * y
+  const unsigned* surface;  ///< by fragment: its surface
+  const unsigned* place;    ///< by fragment: where its colour goes
   unsigned count;
   int runs;        ///< 1: each of them stands for as many pixels to the right as the kernel has lanes
   float* colours;  ///< red, green, blue and alpha, linear (in the plain look: as stored)

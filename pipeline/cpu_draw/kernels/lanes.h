@@ -218,7 +218,7 @@ struct DrawSixteen {
 };
 #endif
 
-/// What does not depend on the width. A mask has all bits of a lane set, or none.
+/// Operations that do not depend on the width. A mask has all bits of a lane set, or none.
 template <class By>
 struct DrawLanes {
   using F = typename By::Floats;

@@ -132,7 +132,7 @@ struct LightModel : DrawLanes<By> {
     return L::select(light, L::all(1), L::where(~dark, lit));
   }
 
-  /// One lookup of two by two texels.
+  /// Looks up two by two texels and returns their weighted mean.
   [[gnu::always_inline]] static inline F four(const ShadowParameters& s, F u, F v, F depth) {
     const F left = L::floor(u), low = L::floor(v), f = u - left, g = v - low;
     const auto corner = [](F x) { return L::truncated(L::most(L::least(x, L::all(kShadowSide - 2)), F{})); };

@@ -4,7 +4,7 @@
 /// Ownership  the cache borrows the mesh store, which must outlive it; it owns what it makes of the meshes.
 ///            A CpuMesh that a renderer holds stays valid after the store has freed the mesh.
 /// Threads    CpuMesh: immutable after construction. CpuMeshCache: any; all walls share one.
-/// Errors     a mesh that is gone or damaged is reported once and draws nothing.
+/// Errors     reports a missing or damaged mesh once; such a mesh draws nothing.
 
 #include "engine/asset/mesh_store.h"
 #include "engine/base/diagnostic.h"
@@ -38,7 +38,8 @@ public:
   std::uint32_t vertexCount() const { return vertexCount_; }
   MeshPositions positions() const { return {x_.data(), y_.data(), z_.data()}; }
   TriangleCorners corners() const { return {a_.data(), b_.data(), c_.data()}; }
-  /// What is drawn at a level of detail; the coarsest there is, if there are not so many.
+  /// Returns the parts to draw at a level of detail. If the mesh has fewer levels, these are the parts of the
+  /// coarsest one.
   const std::vector<CpuPart>& partsAt(std::uint32_t level) const;
   const MaterialParameters& material(std::uint32_t i) const { return materials_[i]; }
   /// kVertexFloats for each; colours as the look computes with them.
@@ -57,7 +58,7 @@ private:
 
   std::uint32_t vertexCount_;
   std::vector<float> x_, y_, z_, vertices_;
-  std::vector<int> a_, b_, c_;  ///< of all levels
+  std::vector<int> a_, b_, c_;  ///< corners of the triangles of all levels
   std::vector<std::vector<CpuPart>> levels_;
   std::vector<MaterialParameters> materials_;
   std::vector<std::unique_ptr<const CpuTexture>> textures_;
@@ -72,12 +73,12 @@ public:
   /// Forgets meshes that the store has freed.
   void freeUnused();
   std::size_t size() const;
-  /// What went wrong since the last call, if anything did.
+  /// Returns the first problem since the last call, if there was one.
   std::optional<Diagnostic> takeProblem();
 
 private:
   struct Cached {
-    std::uint64_t hash = 0;  ///< of the content; an id may be given again
+    std::uint64_t hash = 0;  ///< hash of the mesh's content: the store may use an id again
     std::shared_ptr<const CpuMesh> mesh;
   };
   Cached made(MeshId id);
@@ -87,7 +88,7 @@ private:
   Look look_;
   mutable std::mutex mutex_;
   std::unordered_map<MeshId, Cached> meshes_;
-  std::uint64_t freedCount_ = 0;  ///< of the store, when it was last looked at
+  std::uint64_t freedCount_ = 0;  ///< MeshStore's count of freed meshes at the last freeUnused()
   std::optional<Diagnostic> problem_;
 };
 

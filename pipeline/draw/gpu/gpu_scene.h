@@ -32,7 +32,7 @@ public:
   GpuScene(const GlTable& gl, const MeshStore& store, RenderQuality quality, bool sortsObjects,
            ProblemLog& problems);
 
-  /// Whether triangles are removed before OpenGL sees them (TriangleCuller). It pays where a processor
+  /// Returns true if triangles are removed before OpenGL sees them (TriangleCuller). It pays where a processor
   /// rasterises with one sample a pixel: most triangles of distant objects cover no pixel.
   bool cullsTriangles() const { return cullsTriangles_; }
 
@@ -41,11 +41,11 @@ public:
   void begin(const DrawList& list, FrameProbe* probe);
   /// Uploads sky and lights of a list, and chooses the programs for them. `shadowed`: shadow maps are bound.
   void light(const DrawList& list, bool shadowed);
-  /// Whether light() was called: nothing can be drawn before.
+  /// Returns true if light() was called: nothing can be drawn before.
   bool isLit() const { return isLit_; }
   /// The block that light() uploaded.
   const SceneBlock& lighting() const { return lighting_; }
-  /// Whether the sky has one colour: then it is cleared, not drawn.
+  /// Returns true if the sky has one colour: then it is cleared, not drawn.
   bool skyIsFlat() const { return skyIsFlat_; }
 
   /// Makes blocks for at least so many views.
@@ -79,7 +79,7 @@ private:
   SurfacePrograms surfaces_;
   ListInstances instances_;
   GlBuffer scene_;
-  std::vector<GlBuffer> views_;  ///< one from the start
+  std::vector<GlBuffer> views_;  ///< uniform blocks of the views; at least one
   SceneBlock lighting_{};
   bool isLit_ = false, skyIsFlat_ = false;
 };

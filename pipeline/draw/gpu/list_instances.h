@@ -31,7 +31,7 @@ public:
     while (takeMore()) {
     }
   }
-  /// Whether the list has such an opaque batch. Waits until that is known.
+  /// Returns true if the list has such an opaque batch. Waits until that is known.
   bool hasOpaque(std::size_t batch);
 
   const InstanceBatches& batches() const { return batches_; }

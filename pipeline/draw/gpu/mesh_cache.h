@@ -3,7 +3,7 @@
 ///
 /// Ownership  owns the GL objects, borrows the mesh store, which must outlive it.
 /// Threads    the thread on which the context is current; its destructor too.
-/// Errors     a mesh that is gone, damaged or does not fit into memory is reported once and draws nothing.
+/// Errors     reports a mesh once that is missing, damaged or too large for the memory; it draws nothing.
 
 #include "engine/asset/mesh_store.h"
 #include "engine/base/diagnostic.h"
@@ -19,20 +19,20 @@
 
 namespace stadion {
 
-/// What one draw call of a mesh needs.
+/// The parameters of one draw call of a mesh.
 struct GlSubmesh {
   GLsizei indexCount;
   std::uintptr_t indexOffset;  ///< [bytes]
   GLintptr materialOffset;     ///< [bytes] into GlMesh::materials
   GLuint texture;              ///< 0 = none
-  GLuint glowTexture;          ///< where it emits light; 0 = everywhere alike
+  GLuint glowTexture;  ///< texture of the light that the surface emits; 0 = it emits the same everywhere
   bool transparent;
   bool masked;
   bool bothSides;                        ///< not culled: double-sided, or the mesh is open
-  std::uint32_t material;                ///< of the mesh's
-  std::uint32_t firstVertex, endVertex;  ///< it has none but these
+  std::uint32_t material;                ///< index of the material in GlMesh::materials
+  std::uint32_t firstVertex, endVertex;  ///< the submesh uses only these vertices
 
-  /// The same range in triangles of the index buffer.
+  /// Returns the first triangle of the submesh in the index buffer.
   std::uint32_t firstTriangle() const {
     return static_cast<std::uint32_t>(indexOffset / (3 * sizeof(std::uint32_t)));
   }
@@ -49,15 +49,16 @@ struct GlMesh {
   GlVertexArray vertexArray;
   GlBuffer vertices, indices, materials;
   std::vector<GlTexture> textures;
-  std::vector<GlSubmesh> parts;                ///< of the full surface
-  std::vector<std::vector<GlSubmesh>> levels;  ///< of the simplified ones
+  std::vector<GlSubmesh> parts;                ///< parts of the full surface
+  std::vector<std::vector<GlSubmesh>> levels;  ///< parts of each simplified surface
   std::size_t transparentParts = 0;
   std::optional<CullerMesh> culler;  ///< all levels, as in `indices`; where triangles are culled
   Aabb bounds;                       ///< [m]
   std::optional<MeshShading>
       shading;  ///< there, if it has neither pictures nor holes nor anything to see through
 
-  /// What is drawn of it at a level; the coarsest there is, if there are not so many.
+  /// Returns the parts to draw at a level of detail. If the mesh has fewer levels, these are the parts of the
+  /// coarsest one.
   const std::vector<GlSubmesh>& partsAt(std::uint32_t level) const {
     return level == 0 || levels.empty() ? parts : levels[std::min<std::size_t>(level, levels.size()) - 1];
   }
@@ -84,7 +85,7 @@ public:
 
   /// The mesh, uploaded if this is its first use; nullptr if it cannot be drawn.
   const GlMesh* find(MeshId id);
-  /// Whether find() has it already, and uploads nothing.
+  /// Returns true if find() has it already, and uploads nothing.
   bool holds(MeshId id) const;
   /// Reports uploads to this probe from now on; null = none.
   void tell(FrameProbe* probe) { probe_ = probe; }
@@ -92,7 +93,7 @@ public:
   void freeUnused();
 
   std::size_t size() const { return meshes_.size(); }
-  /// What went wrong since the last call, if anything did.
+  /// Returns the first problem since the last call, if there was one.
   std::optional<Diagnostic> takeProblem();
 
 private:
@@ -108,11 +109,11 @@ private:
   Look look_;  ///< colours are uploaded as it reckons with them
   bool culls_;
   struct Cached {
-    std::uint64_t hash = 0;    ///< of the content; an id may be given again
+    std::uint64_t hash = 0;    ///< hash of the mesh's content: the store may use an id again
     std::optional<GlMesh> gl;  ///< empty: known not to be drawable
   };
   std::unordered_map<MeshId, Cached> meshes_;
-  std::uint64_t freedCount_ = 0;  ///< of the store, when it was last looked at
+  std::uint64_t freedCount_ = 0;  ///< MeshStore's count of freed meshes at the last freeUnused()
   GLint uniformAlignment_ = 256;
   bool anisotropy_ = false;
   FrameProbe* probe_ = nullptr;

@@ -29,10 +29,11 @@ public:
   std::optional<Diagnostic> growTo(std::size_t views);
   /// Directs drawing of `view` to where it is drawn.
   void bind(std::uint32_t view);
-  /// The same, and clears that.
+  /// Directs drawing to the buffer of `view` and clears it.
   void begin(std::uint32_t view);
-  /// The same, and puts there what has been drawn elsewhere, with one sample a pixel: RGBA, 8 bits each, and
-  /// depths, 1 at the near plane and 0 at the far one (height x width), rows from the bottom.
+  /// Directs drawing to the buffer of `view` and fills it with a picture drawn elsewhere. That has one sample
+  /// a pixel, in rows from the bottom (height x width). `colours`: RGBA, 8 bits each; `depths`: 1 at the near
+  /// plane, 0 at the far one.
   void begin(std::uint32_t view, std::span<const std::uint32_t> colours, std::span<const float> depths);
   /// Completes the picture of `view`: averages its samples.
   void resolve(std::uint32_t view);
@@ -56,11 +57,11 @@ private:
   const GlTable& gl_;
   std::uint32_t width_, height_;
   GLenum colours_;
-  bool sampled_;                          ///< more than once a pixel
+  bool sampled_;  ///< more than once a pixel
   std::uint32_t samples_ = 1;
   GlRenderbuffer colour_, sampledDepth_;  ///< where more than one sample a pixel is taken
   GlFramebuffer drawn_;
-  GlTexture depth_;  ///< where one is
+  GlTexture depth_;                  ///< where one is
   std::vector<GlTexture> pictures_;  ///< by view
   std::vector<GlFramebuffer> resolved_;
   std::optional<GlTexture> copiedDepth_;  ///< from the first time on that it is asked for

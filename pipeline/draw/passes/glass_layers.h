@@ -54,7 +54,7 @@ public:
   void cover(std::span<const std::array<float, 4>, 8> corners);
   /// All that is covered.
   const std::vector<PixelArea>& areas();
-  /// What holds all of it.
+  /// Returns the smallest rectangle around all covered areas.
   PixelArea bounds() const { return bounds_; }
 
 private:
@@ -68,7 +68,7 @@ private:
 
 class GlassLayers {
 public:
-  /// Whether this OpenGL can.
+  /// Returns true if this OpenGL can.
   static bool isSupported(const GlTable& gl);
   /// So many fragments are kept at a time.
   static Result<std::unique_ptr<GlassLayers>> create(const GlTable& gl, std::uint32_t width,
@@ -100,13 +100,13 @@ private:
   bool sampled_;
   std::uint32_t most_;
   GlProgram blend_;
-  GLint row_, heads_, nodes_, depths_, corners_;  ///< its uniforms
+  GLint row_, heads_, nodes_, depths_, corners_;  ///< uniforms of `blend_`
   GlBuffer count_, head_, node_;
   GlTexture headTexture_, nodeTexture_;
   GlVertexArray nothing_;
   std::uint32_t room_ = 0;       ///< for fragments
   std::uint32_t collected_ = 0;  ///< fragments of the last area
-  PixelArea area_;               ///< that is drawn
+  PixelArea area_;               ///< the area that is drawn now
   std::uint64_t total_ = 0;      ///< fragments of the last draw()
   std::uint32_t calls_ = 0;
 };

@@ -37,7 +37,7 @@ private:
 
   const PassContext& with_;
   SurfaceDrawing& surfaces_;
-  std::optional<TriangleCuller> culler_;     ///< where it pays
+  std::optional<TriangleCuller> culler_;     ///< only on machines where culling saves time
   std::vector<TriangleCuller::Range> seen_;  ///< triangles by part and instance, of the current call
   GlBuffer seenIndices_;
   std::vector<float> depths_, distances_;

@@ -34,7 +34,7 @@ struct PassContext {
   EyeBuffers& buffers;
   DrawPieces& pieces;
   const StopRequest& stop;
-  std::uint32_t width, height;  ///< of a picture [pixels]
+  std::uint32_t width, height;  ///< size of a picture [pixels]
 
   std::uint64_t pixels() const { return std::uint64_t{width} * height; }
 };

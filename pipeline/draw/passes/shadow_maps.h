@@ -44,7 +44,7 @@ private:
   struct Ring {
     std::uint64_t stillKey = 0, movingKey = 0;
     bool drawn = false;
-    Area moved;  ///< what the movers cover
+    Area moved;  ///< the area that the moving objects cover
   };
 
   static Area tileOf(std::size_t ring);

@@ -26,7 +26,7 @@ public:
   bool draw(const DrawView& from, std::uint32_t view, std::unique_lock<std::mutex>& turn, FrameProbe* probe);
   /// After draw() returned true.
   const SmallObjectRasterizer& picture() const { return *small_; }
-  /// Whether the instance was drawn, in the current view.
+  /// Returns true if the instance was drawn, in the current view.
   bool drew(std::uint32_t instance) const { return instance < drew_.size() && drew_[instance]; }
 
 private:

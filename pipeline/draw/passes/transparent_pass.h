@@ -26,7 +26,7 @@ public:
   /// Draws the transparent parts over everything else. `from`: the view's block.
   void draw(const ViewBlock& from, std::uint32_t view);
 
-  /// Whether there are buffers for layers: not before the first transparent object is seen.
+  /// Returns true if there are buffers for layers: not before the first transparent object is seen.
   bool holdsLayers() const { return layers_ != nullptr; }
 
 private:
@@ -46,7 +46,7 @@ private:
   bool layered_;                         ///< sorted for every sample
   std::unique_ptr<GlassLayers> layers_;  ///< from the first transparent object on
   CoveredAreas covered_;                 ///< parts of the current view's picture
-  std::uint32_t triangles_ = 0;          ///< of the current view, before the next call
+  std::uint32_t triangles_ = 0;  ///< number of triangles drawn in the current view before the next call
 };
 
 }  // namespace stadion

@@ -42,9 +42,9 @@ public:
   /// The whole list is drawn.
   void endList();
 
-  /// Whether pieces are timed: then everything must be known before it is drawn.
+  /// Returns true if pieces are timed: then everything must be known before it is drawn.
   bool areTimed() const { return sample_ == DrawSample::Some; }
-  /// Whether anything is timed.
+  /// Returns true if anything is timed.
   bool timesAnything() const { return sample_ != DrawSample::None; }
 
   /// Does `work`, which is a piece of the frame but of no view.
@@ -95,13 +95,13 @@ private:
   const GlTable& gl_;
   GpuScene& scene_;
   std::uint32_t mostAtOnce_;
-  FrameProbe* probe_ = nullptr;           ///< of the frame; null = none
-  DrawSample sample_ = DrawSample::None;  ///< of the frame
+  FrameProbe* probe_ = nullptr;           ///< probe of the current frame; null = none
+  DrawSample sample_ = DrawSample::None;  ///< pieces of the current frame that are timed
   std::unique_ptr<DrawSampler> sampler_;  ///< from the first frame on that is timed
-  float work_ = 0;                        ///< of the whole list, if there is a probe
-  std::vector<NodeShare> shares_;         ///< of a timed piece
+  float work_ = 0;                        ///< work of the whole list; only with a probe
+  std::vector<NodeShare> shares_;         ///< by node: its share of a timed piece
   std::vector<std::uint32_t> pieces_;     ///< the first instance of each
-  std::vector<std::size_t> wanted_;       ///< of the pieces, those that the probe wants to know
+  std::vector<std::size_t> wanted_;       ///< numbers of the pieces that the probe asks for
 };
 
 }  // namespace stadion

@@ -19,10 +19,11 @@ namespace stadion {
 class DrawSampler {
 public:
   /// More of a mesh are several pieces. What is drawn alone must be much more than nothing, which is taken
-  /// off it: about so large a part of what there is to draw.
+  /// off it: about so large a part of all drawing.
   static constexpr float kPartsOfAFrame = 8;
-  /// What is drawn one after the other makes one piece while it is no more than so large a part. So there are
-  /// twice as many pieces at most, however many meshes: all have had their turn within 600 frames.
+  /// Meshes that follow each other are joined into a piece of at most this part of the frame's work. So at
+  /// most twice as many pieces arise, however many meshes there are. Each piece is timed at least once in 600
+  /// frames.
   static constexpr float kMostJoined = 32;
 
   explicit DrawSampler(const GlTable& gl) : clock_(gl) {}
@@ -97,7 +98,8 @@ private:
   static constexpr std::size_t kNone = ~std::size_t{0};
   static constexpr int kEmpties = 3;  ///< a frame
 
-  /// One is disturbed easily, and is taken off everything: the median of the last frames'.
+  /// Returns the median of the last frames' costs of drawing nothing, which is taken off every piece. A
+  /// single measurement would be disturbed too easily.
   double usualEmpty() {
     std::array<double, 33> sorted = empties_;
     const auto end = sorted.begin() + static_cast<std::ptrdiff_t>(std::min(emptiesTaken_, sorted.size()));
@@ -121,12 +123,12 @@ private:
   IsolatedDrawTimer clock_;
   FrameProbe* probe_ = nullptr;
   DrawnAlone now_;
-  std::array<double, 33> empties_{};  ///< what drawing nothing took [ms]
+  std::array<double, 33> empties_{};  ///< costs of drawing nothing in the last frames [ms]
   std::size_t emptiesTaken_ = 0;
   std::span<const std::uint32_t> starts_;
   std::span<const std::size_t> turn_;  ///< the pieces that are timed
-  std::size_t open_ = kNone;           ///< of these, the one that is drawn
-  double less_ = 0;                    ///< what comes off it
+  std::size_t open_ = kNone;           ///< index in `turn_` of the piece that is drawn now
+  double less_ = 0;                    ///< cost taken off the open piece [ms]
   std::vector<double> timed_;          ///< by piece of the turn [ms]
   std::map<Span, double> parts_;
 };

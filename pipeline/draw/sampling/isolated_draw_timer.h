@@ -3,7 +3,7 @@
 ///
 /// Software     processor time of the calling thread and of Mesa's rasteriser threads (OpenGL's own timer
 ///              queries say 30 to 100 times too little there). Expects that no other context of the process
-///              is told to draw meanwhile (GlRenderer: a turn).
+///              draws meanwhile (GlRenderer: a turn).
 /// Hardware     a query of the time that passed between the first and the last command.
 ///
 /// Threads  the thread on which the context is current.
@@ -34,7 +34,7 @@ private:
 
   const GlTable& gl_;
   bool software_;
-  std::vector<clockid_t> rasteriser_;  ///< one for each of its threads
+  std::vector<clockid_t> rasteriser_;  ///< clocks of the rasteriser's threads
   GLuint query_ = 0;
   double began_ = 0;
 };

@@ -44,7 +44,7 @@ void answer(Order to, const std::optional<Diagnostic>& problem, const ViewTotals
   answer(to, problem ? problem->message : std::string(), problem.has_value(), totals);
 }
 
-/// The next order, with the descriptors that came along. False when the show is gone.
+/// Receives the next order and its descriptors. Returns false when the show has ended.
 bool hear(OrderHead& head, std::array<int, 3>& descriptors) {
   iovec part{&head, sizeof head};
   alignas(cmsghdr) char control[CMSG_SPACE(3 * sizeof(int))];
@@ -60,7 +60,7 @@ bool hear(OrderHead& head, std::array<int, 3>& descriptors) {
   return got == static_cast<ssize_t>(sizeof head) && head.magic == kMagic && head.version == kVersion;
 }
 
-/// Whatever the driver is at when the show is gone, this process goes, too.
+/// When the show has ended, this process ends, too, whatever its driver does.
 void goWithTheShow() {
   std::thread([] {
     pollfd show{kSocket, POLLRDHUP, 0};

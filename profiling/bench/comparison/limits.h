@@ -15,7 +15,7 @@ struct MetricLimit {
 struct CostLimit {
   enum class At { Never, Steps, EqualError };
   At at = At::Never;
-  double ratio = 1;       ///< of Stadion's cost to the cheapest peer's
+  double ratio = 1;       ///< limit of Stadion's cost, relative to the cheapest peer's
   int steps = 1;          ///< At::Steps: the peers' steps a frame
   std::string peers;      ///< only peers with names that begin so; empty: all
   double worstFrame = 0;  ///< like `ratio`, for the most expensive frame; 0: no limit
@@ -23,8 +23,8 @@ struct CostLimit {
 
 struct CaseLimits {
   std::string name;                 ///< the case's name, or the common beginning of several names
-  std::vector<MetricLimit> errors;  ///< of every Stadion setting
-  std::vector<MetricLimit> finest;  ///< of at least one Stadion setting
+  std::vector<MetricLimit> errors;  ///< limits for every Stadion setting
+  std::vector<MetricLimit> finest;  ///< limits for at least one Stadion setting
   CostLimit cost;
   std::vector<MetricLimit> finished;  ///< a peer counts as finished only if it keeps these
 };

@@ -15,7 +15,7 @@ namespace stadion::bench {
 struct ProgramCall {
   std::vector<std::string> words;          ///< the program first
   std::vector<std::string> environment{};  ///< "NAME=value"; "NAME" alone removes the variable
-  std::chrono::seconds limit{0};           ///< of real time; 0: none
+  std::chrono::seconds limit{0};           ///< limit of real time; 0: none
 };
 
 std::string outputOf(const ProgramCall& call);

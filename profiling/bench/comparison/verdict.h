@@ -29,7 +29,8 @@ bool keeps(const Measurement& m, const std::vector<MetricLimit>& limits);
 /// Returns the cheapest other engine at the setting of the limit. If none finishes the case there, returns
 /// the cheapest that finishes it at any setting; null if none does. `ours` is Stadion's error.
 const Measurement* peerFor(const CaseLimits& limits, const std::vector<Measurement>& of, double ours);
-/// The same, only for the setting itself.
+/// Returns the cheapest other engine at the setting of the limit that finishes the case there; null if none
+/// does.
 const Measurement* peerAtSetting(const CaseLimits& limits, const std::vector<Measurement>& of, double ours);
 
 /// `of`: all measurements of one case; the result points into it.

@@ -12,7 +12,7 @@ constexpr double kFrame = 1.0 / 60;  ///< [s]
 constexpr int kCopies = 16;          ///< identical bodies share the fixed costs; copy 0 is the one judged
 
 struct Outcome {
-  std::string variant;  ///< of the engine
+  std::string variant;  ///< variant of the engine
   int n = 1;            ///< steps a frame
   std::map<std::string, double> m;
   double cpu = 0, worst = 0;  ///< [s] of processor time, in all and in the dearest frame
@@ -43,7 +43,7 @@ private:
   };
   Outcome& outcome_;
   std::unique_ptr<Engine> engine_;
-  double reading_;  ///< what reading the clock costs [s]
+  double reading_;  ///< cost of reading the clock [s]
   int bodies_ = 0;
   bool started_ = false;
   std::vector<Dragged> dragged_;

@@ -29,7 +29,7 @@ void addChainCases(CaseList& list);     ///< C12 cradles, balls in a box
 void addHostileCases(CaseList& list);   ///< C13 degenerate and hostile input
 void addCrowdCases(CaseList& list);     ///< C14 a pile, C15 a swarm
 
-/// All of them in order.
+/// Returns all cases in order.
 CaseList allCases();
 
 }  // namespace stadion::bench

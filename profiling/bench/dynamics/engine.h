@@ -107,7 +107,7 @@ public:
   virtual bool has(Form) const { return true; }
   virtual void step(double h) = 0;
 
-  /// One displayed frame in n steps, `before` each of them the case's own forces.
+  /// Computes a displayed frame in n steps. `before` each step, the case applies its own forces.
   virtual void frame(double dt, int n, const std::function<void()>& before) {
     for (int i = 0; i < n; ++i) {
       if (before) before();
@@ -116,7 +116,7 @@ public:
   }
 };
 
-/// What this program's engine can be set to; the names begin with the engine's.
+/// Returns the variants of this program's engine; their names begin with the engine's name.
 std::vector<std::string> engineVariants();
 std::unique_ptr<Engine> makeEngine(const std::string& variant);
 

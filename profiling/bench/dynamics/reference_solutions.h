@@ -29,7 +29,7 @@ double bounceTime(double h0, double e, double g, int k);
 
 /// A disc that tumbles about z into a frictionless wall, seen along z: a rectangle R x b (half extents).
 struct Tumbling {
-  double x = 0, v = 0;          ///< of its centre, towards the wall [m, m/s]
+  double x = 0, v = 0;          ///< position and velocity of its centre, towards the wall [m, m/s]
   double angle = 0, omega = 0;  ///< about z [rad, rad/s]
 };
 struct TumblingDisc {

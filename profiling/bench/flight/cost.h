@@ -10,11 +10,11 @@ namespace stadion::bench {
 
 struct StepCost {
   std::string rung;
-  double ns = 0;          ///< one body, median over the rounds [ns]
-  double batch = 0;       ///< the same in a swarm of 1000; 0 without a swarm
+  double ns = 0;          ///< cost for one body, median over the rounds [ns]
+  double batch = 0;       ///< cost for a body in a swarm of 1000 [ns]; 0 without a swarm
   double ofFree = 0;      ///< ratio to the force-free step's time in the same round, median over the rounds
   double ofBias = 0;      ///< ratio to the paper's bias step
-  double batchOfOne = 0;  ///< the same for the swarm's time
+  double batchOfOne = 0;  ///< ratio of `batch` to the paper's bias step
 };
 
 struct Costs {

@@ -14,7 +14,7 @@ struct IntegratorResult {
   double landing = 0;   ///< root mean square over the reference flights, relative to the range
   double worst = 0;     ///< greatest error
   double attitude = 0;  ///< mean [degrees]
-  double ns = 0;        ///< of one step with the exact model; the median of five flights
+  double ns = 0;        ///< cost of one step with the exact model; the median of five flights
 };
 
 struct Integrators {

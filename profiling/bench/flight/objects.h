@@ -23,10 +23,10 @@ using AnyModel = std::function<Wrench(const Vec3& u, const Vec3& w)>;
 struct ThingFacts {
   const char* name;
   FlightBody body;
-  int axis;       ///< of symmetry in A: 0 = x, 2 = z
-  double height;  ///< of release [m]
+  int axis;       ///< axis of symmetry in A: 0 = x, 2 = z
+  double height;  ///< height of release [m]
   AnyModel exact;
-  FlightModel shipped;   ///< its fitted model
+  FlightModel shipped;   ///< model that was fitted to its reference flights
   FlightModel fromMesh;  ///< the model from its mesh alone
   FlightShape shape;
   Vec3 inertia() const {
@@ -37,7 +37,7 @@ struct ThingFacts {
 };
 const ThingFacts& factsOf(Thing thing);
 
-/// One throw.
+/// A throw of one of the objects.
 struct Throw {
   std::string name;
   Thing thing = Thing::Javelin;
@@ -75,7 +75,7 @@ Trajectory flyExactly(const Throw& release, double tolerance = 1e-11);
 struct FlightErrors {
   double range = 0;     ///< error of the distance downrange, relative
   double landing = 0;   ///< distance of the points of landing, relative to the range
-  double attitude = 0;  ///< of the axis, mean over the flight [degrees]
+  double attitude = 0;  ///< error of the axis, mean over the flight [degrees]
 };
 FlightErrors errorsOf(const Trajectory& flight, const Trajectory& exact, int axis);
 

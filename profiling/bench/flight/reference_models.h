@@ -19,7 +19,7 @@ public:
 
 private:
   struct Station {
-    double ahead;              ///< of the centre of mass [m]
+    double ahead;              ///< position ahead of the centre of mass [m]
     double cross, skin, lift;  ///< rho/2 Cdc d, rho/2 Cf pi d, rho kap dS/dx, each times the strip's length
   };
   std::array<Station, 56> stations_;

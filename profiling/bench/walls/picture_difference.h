@@ -23,7 +23,7 @@ bool writePpm(const std::string& file, const RgbPicture& picture);
 
 struct PictureDifference {
   double beyond = 0;  ///< share of pixels with a channel that differs by more than `most`
-  int worst = 0;      ///< of all channels, of 255
+  int worst = 0;      ///< greatest difference of any channel, of 255
 };
 /// Expects pictures of one size.
 PictureDifference difference(const RgbPicture& a, const RgbPicture& b, int most = 2);
@@ -32,8 +32,8 @@ PictureDifference difference(const RgbPicture& a, const RgbPicture& b, int most 
 struct ViewsDifference {
   double frame = 0;      ///< share of the pixels of all views
   double worstView = 0;  ///< the greatest share of the pixels of one view
-  std::string view;      ///< that view, "front_R"; empty: none has any
-  int worst = 0;         ///< of all channels, of 255
+  std::string view;      ///< view with that share, such as "front_R"; empty: no view differs
+  int worst = 0;         ///< greatest difference of any channel, of 255
 };
 /// Compares the pictures PREFIX_WALL_EYE.ppm of the first walls, both eyes.
 Result<ViewsDifference> differenceOfViews(const std::string& prefix, const std::string& other,

@@ -24,7 +24,7 @@ double platformHeadingAt(double t);  ///< about +Z
 Vec3 headAt(double t);               ///< in the room
 double headHeadingAt(double t);
 
-/// One eye's view on one wall.
+/// The view of an eye on a wall.
 struct WallView {
   Mat4 projection;  ///< eye to clip coordinates
   Mat4 view;        ///< World to eye

@@ -63,7 +63,7 @@ struct WallVertex {
 struct WallMesh {
   std::vector<WallVertex> vertices;
   std::vector<std::uint32_t> indices;
-  double radius() const;  ///< of the sphere about the origin that holds it [m]
+  double radius() const;  ///< radius of the sphere about the origin that holds the mesh [m]
 };
 WallMesh wallMesh(const WallScene& scene, std::uint32_t number);
 

@@ -17,10 +17,10 @@ struct WallsCase {
   std::string engine = "stadion";  ///< stadion, osg, floor; control: a loop that only waits for its ticks
   std::string kind = "STRICT";
   std::string scene = "a";
-  bool flat = false;          ///< else nodes stand in cells with a group each
-  std::string mode;           ///< stadion: pipelined, sequential; osg: DPC, CTPC, ST; floor: its drawing
-                              ///< method
-  std::string lp{};           ///< LP_NUM_THREADS; empty: the program chooses
+  bool flat = false;  ///< true: all nodes are in one group; false: they stand in cells with a group each
+  std::string mode;   ///< stadion: pipelined, sequential; osg: DPC, CTPC, ST; floor: its drawing
+                      ///< method
+  std::string lp{};   ///< LP_NUM_THREADS; empty: the program chooses
   std::string pace = "free";  ///< stadion's
   std::string workers{};      ///< stadion's --wall-workers; empty: it chooses
   std::size_t walls = 4;
@@ -37,7 +37,8 @@ WallsCase osgCase(const std::string& scene, bool flat, const std::string& kind, 
 WallsCase floorCase(const std::string& scene, const std::string& kind, const std::string& way = "uniform");
 /// Returns the case at the size of SUBMIT.
 WallsCase small(WallsCase of);
-/// Both eyes on the front wall, by one thread: the processor time of drawing a view.
+/// Returns the case with both eyes on the front wall, drawn by one thread: it measures the processor time of
+/// drawing a view.
 WallsCase oneWall(WallsCase of);
 /// Frames begin on ticks.
 WallsCase lockedCase();

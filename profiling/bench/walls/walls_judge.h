@@ -14,7 +14,7 @@ struct WallsFinding {
   std::string what;  ///< "a STRICT: frames a second, of OpenSceneGraph's (DPC)"
   double value = 0;  ///< the measured value
   double limit = 0;
-  bool atLeast = true;  ///< else at most
+  bool atLeast = true;  ///< true: the value must be at least the limit; false: at most
   std::string why{};    ///< reason if it is void
 };
 

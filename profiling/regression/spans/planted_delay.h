@@ -15,13 +15,13 @@ namespace stadion::regression {
 struct PlantedDelay {
   enum class Where { Simulate, Cull, Draw, Frame };  ///< Frame: between the stages
   Where where = Where::Cull;
-  std::string name;                ///< of the node, or the wall
+  std::string name;                ///< name of the node, or of the wall
   NodeRef node{};                  ///< Simulate: the node with this name
   std::uint32_t wall = 0;          ///< Cull, Draw: the wall
-  std::uint64_t iterations = 0;    ///< of burn(), in each chosen frame
+  std::uint64_t iterations = 0;    ///< calls of burn(), in each chosen frame
   std::uint32_t milliseconds = 0;  ///< instead of iterations: a duration
   bool asleep = false;             ///< sleeps instead of working
-  std::uint32_t every = 1;         ///< one frame of so many is chosen
+  std::uint32_t every = 1;         ///< one frame of `every` is chosen
   std::uint32_t first = 0;         ///< the first chosen frame
   bool atRandom = false;           ///< chooses each frame with probability 1/every, other frames in each run
 

@@ -33,7 +33,7 @@ struct CaseResult {
   std::map<std::string, double> instructions{};               ///< by stage, a frame
   std::map<std::string, std::string> facts{};                 ///< hashes and counts
   double seconds = 0;                                         ///< duration
-  double processorSeconds = 0;                                ///< of the played programs
+  double processorSeconds = 0;                                ///< processor time of the played programs
   std::map<std::string, std::vector<double>> elapsedMs{};     ///< as `milliseconds`, by real time
   /// Of the typical round: "p99 of draw of wall front, wall-clock time [ms]", "late frames of frame, ...".
   std::map<std::string, double> frameFigures{};

@@ -25,14 +25,13 @@ struct SpanRow {
   std::uint32_t line = 0;
   std::string stage;  ///< app, cull, draw
   std::string wall, eye;
-  double msMean = 0;                       ///< mean of the frames in which it worked
-  std::size_t count = 0;                   ///< number of these frames
-  std::map<std::uint64_t, double> frames;  ///< cost [us] by frame; may be empty
-  std::map<std::uint64_t, double>
-      elapsed{};            ///< real time [us], by frame; may be empty
-  double elapsedUs = 0;     ///< of a stage: real time of the typical frame [us]
-  double instructions = 0;  ///< a frame; 0: not counted
-  double plantedUs = 0;     ///< of a stage: planted part of the typical frame [us]
+  double msMean = 0;                          ///< mean of the frames in which it worked
+  std::size_t count = 0;                      ///< number of these frames
+  std::map<std::uint64_t, double> frames;     ///< cost [us] by frame; may be empty
+  std::map<std::uint64_t, double> elapsed{};  ///< real time [us], by frame; may be empty
+  double elapsedUs = 0;                       ///< for a stage: real time of the typical frame [us]
+  double instructions = 0;                    ///< a frame; 0: not counted
+  double plantedUs = 0;                       ///< for a stage: planted part of the typical frame [us]
 
   bool isStage() const { return path.empty() && line == 0; }
   /// Identifies the same row in another run.

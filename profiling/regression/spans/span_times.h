@@ -53,7 +53,7 @@ private:
     NodeRef node;
     auto operator<=>(const Key&) const = default;
   };
-  /// One frame: processor time [ns], and real time.
+  /// The processor time [ns] and real time of a frame.
   struct OfFrame {
     std::uint64_t frame = 0, processor = 0;
     Clock::duration elapsed{};
@@ -65,7 +65,7 @@ private:
     Clock::duration elapsed{}, elapsedTotal{};  ///< `elapsed`: of this frame
     std::vector<OfFrame> frames;
   };
-  /// What a thread does at the moment.
+  /// The current work of a thread.
   struct Open {
     Key stage;
     std::uint64_t frame = 0;

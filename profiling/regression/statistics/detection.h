@@ -15,16 +15,16 @@ namespace stadion::regression {
 /// The trials in order: a few of each kind in turn, so that an interrupted experiment has some of all.
 struct Trial {
   std::string kind;        ///< simulate, cull, draw: planted there; "nothing": a comparison of equal runs
-  std::size_t number = 0;  ///< of its kind, from 0
+  std::size_t number = 0;  ///< number of the trial among those of its kind, from 0
   std::string name() const { return kind + " " + std::to_string(number + 1); }
 };
 
 struct TrialResult {
-  std::string trial;  ///< its name
+  std::string trial;  ///< name of the trial
   std::string kind;
   std::string planted;              ///< "simulate:lane_07=5000"; empty: nothing
   std::vector<std::string> alarms;  ///< places that were reported as slower
-  std::vector<std::string> seen;    ///< of each stage: "app +4.8 %, p = 0.002"
+  std::vector<std::string> seen;    ///< results of each stage: "app +4.8 %, p = 0.002"
   bool right = false;               ///< found, the right place named, and nothing else; for "nothing": no
                                     ///< alarm
   double seconds = 0;

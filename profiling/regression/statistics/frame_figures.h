@@ -28,11 +28,11 @@ RunFigures figuresOf(const std::vector<double>& us, double budgetUs);
 
 /// The times of a stage in several runs.
 struct StageSeries {
-  std::string stage;  ///< its key
+  std::string stage;  ///< key of the stage
   std::string name;   ///< for people
   TimeKind kind = TimeKind::Processor;
   std::vector<std::vector<double>> runs;  ///< [run][frame]; NaN if a run has no value
-  std::vector<RunFigures> figures;        ///< of each run
+  std::vector<RunFigures> figures;        ///< figures of each run
   double leastDeviation = 0;              ///< least deviation of runs from the usual frame [us]
 };
 

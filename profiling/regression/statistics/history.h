@@ -13,7 +13,7 @@
 
 namespace stadion::regression {
 
-/// One run of the suite.
+/// A run of the suite.
 struct HistoryEntry {
   struct Case {
     bool failed = false;

@@ -24,27 +24,27 @@
 
 namespace stadion::regression {
 
-constexpr double kHitchAlarm = 0.0025;  ///< of each family: 1 % together
+constexpr double kHitchAlarm = 0.0025;  ///< alarm level of each family: 1 % together
 
-/// The same frames are longer.
+/// The result of the first question: the same frames are longer.
 struct LongFrames {
   std::vector<std::size_t> frames;
   double excessUs = 0;         ///< median excess [us]
   double before = 0, now = 0;  ///< share of the runs in which they are long [1]
-  double probability = 1;      ///< of the same result by chance, in any stage and frame
+  double probability = 1;      ///< probability of this result by chance, in any stage and frame
 };
 
 /// A figure of the runs is larger.
 struct FigureShift {
   std::string figure;
-  double before = 0, now = 0;  ///< of the typical run: [us], or frames
-  double probability = 1;      ///< of the same result by chance, in any stage and figure
+  double before = 0, now = 0;  ///< figure of the typical run: [us], or frames
+  double probability = 1;      ///< probability of this result by chance, in any stage and figure
   bool worse = false;
 };
 
 /// The result for one stage by one clock.
 struct StageFrames {
-  std::string stage;  ///< its key
+  std::string stage;  ///< key of the stage
   std::string name;
   TimeKind kind = TimeKind::Processor;
   LongFrames same;
@@ -55,7 +55,7 @@ struct StageFrames {
 };
 
 struct HitchOptions {
-  double tolerance = 0.03;  ///< of figures [1]
+  double tolerance = 0.03;  ///< tolerance of figures [1]
   double alarm = kHitchAlarm;
 };
 
@@ -66,7 +66,7 @@ std::vector<StageFrames> compareFrames(const std::vector<StageSeries>& series, c
 /// Returns the series of rounds of two builds, for stages in all rounds. `frameBudgetUs`: a longer frame is
 /// late.
 std::vector<StageSeries> seriesOf(const std::vector<Round>& rounds, double frameBudgetUs);
-/// The same for the rounds of one build: its `now`.
+/// Returns the series of `now` for the rounds of one build.
 std::vector<StageSeries> seriesOfNow(const std::vector<Round>& rounds, double frameBudgetUs);
 
 /// Returns the figures of the typical run, by "p99 of STAGE, CLOCK [ms]" or "late frames of STAGE, CLOCK".

@@ -18,7 +18,7 @@ namespace stadion::regression {
 constexpr double kFewest = 20'000;  ///< instructions a frame: a stage with fewer is not judged
 
 struct InstructionShift {
-  std::string name;            ///< of the stage
+  std::string name;            ///< name of the stage
   double before = 0, now = 0;  ///< a frame
   bool more = false, fewer = false;
   std::string culprit{};  ///< if there are more: the node in the stage that changed, or that none did

@@ -14,7 +14,7 @@
 
 namespace stadion::regression {
 
-constexpr std::size_t kMostRuns = 160;  ///< of both sides
+constexpr std::size_t kMostRuns = 160;  ///< limit of the runs of both sides together
 using RunSet = std::bitset<kMostRuns>;
 
 /// The pairing of runs.

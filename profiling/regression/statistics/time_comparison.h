@@ -21,17 +21,17 @@
 
 namespace stadion::regression {
 
-/// One round's measurements of two builds.
+/// The measurements of two builds in a round.
 struct Round {
   std::vector<SpanRow> before, now;
 };
 
 struct StageShift {
-  std::string stage;       ///< its key
+  std::string stage;       ///< key of the stage
   std::string name;        ///< for people
   double beforeUs = 0;     ///< the typical frame [us]
-  double shift = 0;        ///< of the typical round [1]
-  double probability = 1;  ///< of the same result by chance, corrected
+  double shift = 0;        ///< shift of the typical round [1]
+  double probability = 1;  ///< probability of this result by chance, corrected
   bool slower = false, faster = false;
   std::string culprit{};  ///< if slower: the node in it that changed, or that none did
   std::string unfit{};    ///< why it cannot be compared; then the figures are void
@@ -44,8 +44,8 @@ constexpr double kShortest = 10;  ///< [us]: shorter stages are not judged by th
 std::vector<StageShift> compareRounds(const std::vector<Round>& rounds, double tolerance);
 /// Times of rounds by stage, in multiples of the calibration kernel's.
 using StageTimesByName = std::map<std::string, std::vector<double>>;
-/// The same for rounds of one build now and those of a baseline, which are not paired. Compares every stage
-/// that both have. `us`: the typical frames now.
+/// Compares rounds of one build now with those of a baseline, which are not paired. Compares every stage that
+/// both have. `us`: the typical frames now.
 std::vector<StageShift> compareTimes(const StageTimesByName& baseline, const StageTimesByName& now,
                                      const std::map<std::string, double>& us, double tolerance);
 

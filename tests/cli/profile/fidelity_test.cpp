@@ -87,7 +87,7 @@ TEST(ProgramFidelity, TheTableSaysItInWords) {
   EXPECT_NE(r.out.find("Not played with other models"), std::string::npos) << r.out;
 }
 
-TEST(ProgramFidelity, MistakesAreToldWithTheWayOut) {
+TEST(ProgramFidelity, MistakesAreReportedWithTheirMend) {
   const ProgramResult misspelt = profile({"--fidelity", "--body", "lise"});
   EXPECT_EQ(misspelt.status, 2);
   EXPECT_NE(misspelt.err.find("did you mean \"lies\"?"), std::string::npos) << misspelt.err;

@@ -149,7 +149,7 @@ void ProgramReportOfMany::expectAllInTheTable(int pillars) const {
 }
 
 TEST_F(ProgramReportOfMany, NodesThatStandAlikeAreGatheredAndAllInTheTable) {
-  expectAllInTheTable(600);
+  expectAllInTheTable(250);
 }
 
 TEST_F(ProgramFullReportOfMany, TwoThousandNodesAreGatheredAndAllInTheTable) {

@@ -90,9 +90,8 @@ TEST(ProgramLatency, WhatNeedsALiveHeadIsRefusedWithoutOneAndWherePicturesMustBe
   };
   for (const std::vector<std::string>& asked :
        {std::vector<std::string>{"--late-latch"}, {"--predict", "20"}, {"--predict", "auto"}}) {
-    EXPECT_NE(
-        refusal(asked).find(asked[0] + " needs a head that a live tracker tells of: --tracker osc:PORT"),
-        std::string::npos);
+    EXPECT_NE(refusal(asked).find(asked[0] + " needs the head of a live tracker: --tracker osc:PORT"),
+              std::string::npos);
     for (const std::vector<std::string>& every :
          {std::vector<std::string>{"--frames", "3"}, {"--out", "/tmp/x"}}) {
       std::vector<std::string> words = asked;

@@ -85,13 +85,13 @@ object( name=aside, file=football.3ds, position="-5, 9, 1", scale="6,6,6" )
 object( name=far, file=football.3ds, position="6, 30, 2", scale="9,9,9" )
 object( name=rover, file=football.3ds, position="0, 8, 1", scale="5,5,5" )
 object( name=lost, file=football.3ds, position="2, 6, 1", scale="5,5,5" )
-path( target=rover, key="0, 3, 8, 1", key="0.7, -3, 10, 1", key="1.4, 3, 8, 1", loop=on )
-path( target=lost, key="0, 2, 6, 1", key="0.2, 2.5, 6, 1" )
+path( target=rover, key="0, 3, 8, 1", key="0.35, -3, 10, 1", key="0.7, 3, 8, 1", loop=on )
+path( target=lost, key="0, 2, 6, 1", key="0.1, 2.5, 6, 1" )
 )";
 constexpr const char* kWalkInput = R"(stadion-input 1
 key head 0    0  0   1.7
-key head 2    0  9   1.7   turn 20 0 0  smooth
-key head 4    3  2   1.7   turn 10 0 0  smooth
+key head 1    0  9   1.7   turn 20 0 0  smooth
+key head 2    3  2   1.7   turn 10 0 0  smooth
 )";
 
 TEST_P(ProgramPictureHistory, IsNotSeenAfterASnapshotNorWhereFramesWereNotDrawn) {
@@ -131,9 +131,9 @@ std::string nameOf(const testing::TestParamInfo<HistoryCase>& show) {
 
 INSTANTIATE_TEST_SUITE_P(Program, ProgramPictureHistory,
                          testing::Values(HistoryCase{"kick", shownHere("kick.evs"), shownHere("kick.input"),
-                                                     0, 120},
+                                                     0, 75},
                                          HistoryCase{"crowd", shownHere("crowd.evs"), "none", 20, 30},
-                                         HistoryCase{"walk", "", "", 0, 240}),
+                                         HistoryCase{"walk", "", "", 0, 120}),
                          nameOf);
 INSTANTIATE_TEST_SUITE_P(
     ProgramFull, ProgramPictureHistory,

@@ -2,6 +2,7 @@
 /// loads no OpenGL.
 
 #include "pipeline/picture/picture.h"
+#include "pipeline/target/graphics_card.h"
 #include "tests/programs/program.h"
 
 #include <fmt/format.h>
@@ -9,6 +10,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 
@@ -17,10 +19,10 @@ namespace {
 
 using Options = std::vector<std::string>;
 
-const std::string kKickScript = STADION_SOURCE_DIR "/scripts/kick.evs";
-const std::string kOlympiaScript = STADION_SOURCE_DIR "/scripts/olympia.evs";
+const std::string kKickToDraw = STADION_SOURCE_DIR "/scripts/kick.evs";
+const std::string kOlympiaToDraw = STADION_SOURCE_DIR "/scripts/olympia.evs";
 
-Options drawing(const std::string& show, const std::string& frames, const Options& more) {
+Options runOf(const std::string& show, const std::string& frames, const Options& more) {
   Options words{"run", show, "--asset-root", assetFolder(), "--frames", frames};
   words.insert(words.end(), more.begin(), more.end());
   return words;
@@ -30,13 +32,14 @@ Options drawing(const std::string& show, const std::string& frames, const Option
 std::string pictureHashes(const std::string& show, const Options& more) {
   Options how{"--renderer", "cpu", "--walls", "cave4", "--size", "96x72", "--hashes"};
   how.insert(how.end(), more.begin(), more.end());
-  const ProgramResult r = stadionProgram(drawing(show, "6", how));
+  const ProgramResult r = stadionProgram(runOf(show, "6", how));
   EXPECT_EQ(r.status, 0) << fmt::format("{}\n{}", fmt::join(more, " "), r.err);
   return r.out;
 }
 
 void expectSameHashes(const std::string& show, const std::string& look) {
-  const std::string one = pictureHashes(show, {"--look", look, "--draw-threads", "1", "--mode", "sequential"});
+  const std::string one =
+      pictureHashes(show, {"--look", look, "--draw-threads", "1", "--mode", "sequential"});
   EXPECT_EQ(std::ranges::count(one, '\n'), 6 * 4 * 2);
   const Options ways[] = {{"--draw-threads", "1"},
                           {"--draw-threads", "2"},
@@ -59,14 +62,14 @@ TEST(ProgramRenderer, CpuPicturesOfThePlainLookAreTheSameForAllThreadsModesAndPr
   expectSameHashes(testShow("moving.evs"), "plain");
 }
 TEST(ProgramFullRenderer, CpuPicturesOfOlympiaAreTheSameForAllThreadsModesAndProcesses) {
-  expectSameHashes(kOlympiaScript, "full");
+  expectSameHashes(kOlympiaToDraw, "full");
 }
 
 /// The report of the dynamic linker, and the summary.
 ProgramResult runWatchingLibraries(const Options& more) {
   Options how{"--walls", "desktop", "--size", "32x24", "--json"};
   how.insert(how.end(), more.begin(), more.end());
-  Options words = drawing(kKickScript, "2", how);
+  Options words = runOf(kKickToDraw, "2", how);
   words.insert(words.begin(), stadionPath());
   const ProgramResult r = runProgram({words, {"LD_DEBUG=files"}});
   EXPECT_EQ(r.status, 0) << fmt::format("{}", fmt::join(more, " "));
@@ -74,7 +77,8 @@ ProgramResult runWatchingLibraries(const Options& more) {
 }
 
 bool loadsOpenGl(const std::string& report) {
-  return has(report, "libOSMesa") || has(report, "libEGL") || has(report, "libGL.so") || has(report, "libLLVM");
+  return has(report, "libOSMesa") || has(report, "libEGL") || has(report, "libGL.so") ||
+         has(report, "libLLVM");
 }
 
 TEST(ProgramRenderer, CpuLoadsNoOpenGl) {
@@ -87,7 +91,7 @@ TEST(ProgramRenderer, TheSummaryNamesWhatDraws) {
   const auto howDrawn = [](const Options& more) {
     Options how{"--walls", "desktop", "--size", "32x24", "--json"};
     how.insert(how.end(), more.begin(), more.end());
-    const ProgramResult r = stadionProgram(drawing(kKickScript, "2", how));
+    const ProgramResult r = stadionProgram(runOf(kKickToDraw, "2", how));
     EXPECT_EQ(r.status, 0) << r.err;
     return nlohmann::json::parse(r.out)["how_drawn"];
   };
@@ -96,6 +100,11 @@ TEST(ProgramRenderer, TheSummaryNamesWhatDraws) {
   EXPECT_EQ(cpu["draw_threads"], 3);
   EXPECT_EQ(cpu["renderer_why"], "");
   EXPECT_EQ(howDrawn({"--gl", "osmesa"})["renderer"], "gl");
+  if (!graphicsCardFile()) {
+    const auto chosen = howDrawn({});
+    EXPECT_EQ(chosen["renderer"], "cpu");
+    EXPECT_TRUE(has(chosen["renderer_why"], "no graphics card")) << chosen;
+  }
   EXPECT_EQ(howDrawn({"--renderer", "gl", "--gl", "osmesa"})["renderer"], "gl");
 }
 
@@ -108,7 +117,7 @@ TEST(ProgramRenderer, ContradictionsAreRefused) {
       {{"--renderer", "vulkan"}, "--renderer"},
       {{"--draw-threads", "0"}, "--draw-threads"}};
   for (const auto& [more, why] : wrong) {
-    const ProgramResult r = stadionProgram(drawing(kKickScript, "2", more));
+    const ProgramResult r = stadionProgram(runOf(kKickToDraw, "2", more));
     EXPECT_EQ(r.status, 2) << fmt::format("{}", fmt::join(more, " "));
     EXPECT_TRUE(has(r.err, why)) << r.err;
   }
@@ -120,7 +129,7 @@ std::map<std::string, Picture> picturesDrawnBy(const Options& renderer, const st
   const TemporaryFolder folder;
   Options how{"--walls", "cave4", "--size", size, "--out", folder.path().string()};
   how.insert(how.end(), renderer.begin(), renderer.end());
-  const ProgramResult r = stadionProgram(drawing(show, "2", how));
+  const ProgramResult r = stadionProgram(runOf(show, "2", how));
   EXPECT_EQ(r.status, 0) << r.err;
   std::map<std::string, Picture> pictures;
   for (const auto& file : std::filesystem::directory_iterator(folder.path())) {
@@ -159,10 +168,10 @@ void expectNearOpenGl(const std::string& show, const std::string& size) {
 }
 
 TEST(ProgramRenderer, KickIsNearlyAsOpenGlDrawsIt) {
-  expectNearOpenGl(kKickScript, "400x300");
+  expectNearOpenGl(kKickToDraw, "400x300");
 }
 TEST(ProgramRenderer, OlympiaIsNearlyAsOpenGlDrawsIt) {
-  expectNearOpenGl(kOlympiaScript, "400x300");
+  expectNearOpenGl(kOlympiaToDraw, "400x300");
 }
 
 }  // namespace

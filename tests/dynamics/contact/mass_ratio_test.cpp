@@ -88,7 +88,7 @@ TEST(MassRatio, ARowOfBallsOfAnyMassesPassesABlowOnInTheRightOrder) {
     std::uint64_t tired = 0;
     play(w, 1.5, 60, [&](double) {
       watch.look();
-      tired += w.counters().tired;
+      tired += w.counters().dampedBounces;
     });
     EXPECT_TRUE(watch.finite);
     EXPECT_LE(watch.greatestGain, 1e-10 * watch.first) << i;

@@ -1,5 +1,5 @@
+#include "engine/nodes/measure_node.h"
 #include "engine/nodes/text_node.h"
-#include "engine/nodes/throw_measure_node.h"
 #include "tests/dynamics/nodes/show_nodes.h"
 
 #include <gtest/gtest.h>

@@ -82,7 +82,7 @@ TEST(Conservation, TwentySevenBallsInABoxKeepTheirEnergy) {
     double worst = 0;
     play(room.w, 5, 60, [&](double) {
       watch.look();
-      impacts += room.w.counters().impacts, tired += room.w.counters().tired;
+      impacts += room.w.counters().impacts, tired += room.w.counters().dampedBounces;
       worst = std::max(worst, std::fabs(watch.last / watch.first - 1));
     });
     EXPECT_GT(impacts, 500u);
@@ -98,7 +98,7 @@ TEST(Conservation, OnlyTheWallsGiveTheBallsMomentum) {
   Room room(4);
   const Vec3 before = balanceOf(room.w, room.balls, Vec3::Zero()).momentum;
   Vec3 given = Vec3::Zero();
-  // Every impact that is told of is: releases come at 0.5 m, so each pair speaks once until then.
+  // Counts all reported impacts: releases come at 0.5 m, so each pair reports one until then.
   for (int frames = 0; frames < 2; ++frames) {
     const TimeSignature s = signatureAt(static_cast<std::uint64_t>(frames) + 1, 60);
     room.w.advance(s.time - s.step, s.time);

@@ -48,7 +48,8 @@ void addGround(World& w, PaperGround kind, double restitution = 0) {
 
 TEST(PaperImpacts, ABallTouchesNoLaterThanItShouldAndEarlyByTheToleranceAtMost) {
   const double height = 1.3, exact = std::sqrt(2 * height / kG), speed = kG * exact;
-  for (const PaperGround ground : {PaperGround::Plane, PaperGround::Sheet, PaperGround::Box, PaperGround::Mesh})
+  for (const PaperGround ground :
+       {PaperGround::Plane, PaperGround::Sheet, PaperGround::Box, PaperGround::Mesh})
     for (const double tolerance : kTolerances) {
       World w;
       w.setImpactScheme(paper(tolerance));
@@ -62,6 +63,26 @@ TEST(PaperImpacts, ABallTouchesNoLaterThanItShouldAndEarlyByTheToleranceAtMost) 
       EXPECT_GE(times[0], exact - 1.01 * tolerance / speed - 2e-9)
           << static_cast<int>(ground) << " " << tolerance;
     }
+}
+
+TEST(PaperImpacts, ABoxThatFallsFlatLandsFlatHoweverEarlyItTouches) {
+  for (const double tolerance : kTolerances) {
+    World w;
+    w.setImpactScheme(paper(tolerance));
+    addStill(w, gridMesh(-5, 5, -5, 5, 10, 10), {}, {0.5, 0.0, 0.0});
+    BodyDef d;
+    d.shape = w.addShape(BoxShape{{}, Vec3::Constant(0.1)});
+    d.pose.p = Vec3(-2, 4, 0.5);
+    d.mass = massOfBox({}, Vec3::Constant(0.1), 1);
+    d.surface = {0.5, 0.0, 0.0};
+    const BodyId id = w.addBody(d);
+    w.hook(id, addGravity(w), 0);
+    double turned = 0;
+    play(w, 2, 60, [&](double) { turned = std::max(turned, w.state(id).omega.norm()); });
+    EXPECT_LT(turned, 1e-6) << tolerance;
+    EXPECT_EQ(w.state(id).mode, BodyMode::Rest) << tolerance;
+    EXPECT_NEAR(w.pose(id).p.z(), 0.1, 1e-5) << tolerance;
+  }
 }
 
 TEST(PaperImpacts, AMeshOnAMeshIsBracketedByItsBoxes) {

@@ -7,9 +7,9 @@
 #include "engine/nodes/group_node.h"
 #include "engine/nodes/lod_node.h"
 #include "engine/nodes/model_node.h"
-#include "engine/nodes/oscillation_node.h"
 #include "engine/nodes/path_node.h"
 #include "engine/nodes/scene_node.h"
+#include "engine/nodes/sway_node.h"
 #include "tests/engine/scene/show_fixture.h"
 #include "tests/fresh_folder.h"
 

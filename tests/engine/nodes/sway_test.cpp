@@ -1,5 +1,5 @@
 #include "engine/maths/angles.h"
-#include "engine/nodes/oscillation_node.h"
+#include "engine/nodes/sway_node.h"
 
 #include "engine/nodes/group_node.h"
 #include "tests/engine/scene/show_fixture.h"

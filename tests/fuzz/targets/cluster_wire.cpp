@@ -72,7 +72,7 @@ private:
     if (!order) return;
     const TimeSignature& now = order->signature;
     require(now.time >= 0 && now.step >= 0 && now.step <= now.time, "a frame has its time");
-    require(std::isfinite(order->shown.eyeSeparation), "eyes are somewhere");
+    require(std::isfinite(order->presentation.eyeSeparation), "eyes are somewhere");
     follower_->input().sampleAt(now.time, input_);
     for (const TrackerSample& t : input_.trackers) {
       require(t.X_RT.finite(), "a tracker is somewhere");

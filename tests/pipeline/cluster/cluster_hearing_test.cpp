@@ -51,7 +51,7 @@ TEST(ClusterHearing, AnOrderThatSaysWhatCannotBeIsNone) {
   EXPECT_FALSE(isObeyed([](FrameOrder&, Input& i) { i.trackers[1].name = "head"; }));
   EXPECT_FALSE(isObeyed([](FrameOrder& o, Input&) { o.signature.time = -1; }));
   EXPECT_FALSE(isObeyed([](FrameOrder& o, Input&) { o.signature.step = o.signature.time + 1; }));
-  EXPECT_FALSE(isObeyed([](FrameOrder& o, Input&) { o.shown.eyeSeparation = kNan; }));
+  EXPECT_FALSE(isObeyed([](FrameOrder& o, Input&) { o.presentation.eyeSeparation = kNan; }));
 }
 
 TEST(ClusterHearing, ASessionWithoutARateIsNotJoined) {

@@ -165,7 +165,7 @@ FrameLoopOutcome play(MeetingStages& stages, bool early) {
   FrameLoopOptions o;
   o.frames = 20, o.drawBeginsEarly = early;
   // Else Draw of one frame might be what Cull of the next one waits for.
-  o.latency = 1;
+  o.mostInFlight = 1;
   const std::atomic<bool> stop = false;
   FrameLoop loop(stages, o, stop);
   return loop.run();

@@ -166,7 +166,7 @@ TEST(FrameLoop, TicksThatWereNotShownAreCountedAtMostInARow) {
   FrameLoopOptions o;
   o.mode = Mode::Sequential, o.frames = 6, o.rate = 50;
   o.frameTimes = {{2, 100'000'000}, {4, 160'000'000}};  // ticks 1, 5, 6, 8
-  EXPECT_EQ(runFrames(stages, o).mostPassedOver, 3u);
+  EXPECT_EQ(runFrames(stages, o).mostTicksWithoutFrame, 3u);
 }
 
 /// Whose first picture is not there before App has begun the third frame.
@@ -191,7 +191,7 @@ TEST(ThreadsFrameLoop, TicksThatPassBeforeTheFirstPictureAreNotPassedOver) {
   FrameLoopOptions o;
   o.walls = 2, o.frames = 12, o.rate = 50;
   o.frameTimes = {{2, 400'000'000}};  // twenty ticks late
-  EXPECT_EQ(runFrames(stages, o).mostPassedOver, 0u);
+  EXPECT_EQ(runFrames(stages, o).mostTicksWithoutFrame, 0u);
 }
 
 TEST(ThreadsFrameLoop, AWallThatFailsStopsTheRunWithItsReason) {

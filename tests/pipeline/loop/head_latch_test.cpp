@@ -35,7 +35,7 @@ constexpr HeadReach kReach{0.1, 0.3};
 DrawList listFrom(const Pose& X_RH, const WallViews& view, int frame = 1) {
   DrawList list;
   list.ticket.began = TimePoint(milliseconds(1000 * frame));
-  list.ticket.shown.eyeSeparation = 0.07;
+  list.ticket.presentation.eyeSeparation = 0.07;
   list.viewer.set({Vec3(100, -20, 3), det::fromEuler(0, 0, 0.7)}, X_RH);
   place(list.viewer, view, {0.07}).setUp(list);
   return list;
@@ -149,7 +149,7 @@ TEST(HeadLatch, ExchangedEyesStayExchangedAndCamerasAreNoHead) {
   head.now = HeadNow{{Vec3(0.05, 0, 0), Quat::Identity()}, 1};
   HeadLatch latch(head, kReach);
   DrawList plain = listFrom({}, view), exchanged = plain;
-  exchanged.ticket.shown.swapEyes = true;
+  exchanged.ticket.presentation.swapEyes = true;
   latch.latch(view, {}, plain), latch.latch(view, {}, exchanged);
   EXPECT_EQ(plain.views[0].view, exchanged.views[1].view);
   EXPECT_EQ(plain.views[1].view, exchanged.views[0].view);

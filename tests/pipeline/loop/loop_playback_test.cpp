@@ -142,7 +142,7 @@ TEST(ThreadsFrameLoop, WhatTheOperatorSaysOfAFrameTravelsWithIt) {
   struct NotingStages : CountingStages {
     using CountingStages::CountingStages;
     Failure draw(std::size_t wall, const DrawList& list) override {
-      if (wall == 0) black.push_back(list.ticket.shown.black);
+      if (wall == 0) black.push_back(list.ticket.presentation.black);
       return CountingStages::draw(wall, list);
     }
     std::vector<bool> black;

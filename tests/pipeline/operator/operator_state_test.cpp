@@ -16,7 +16,7 @@ TEST(OperatorState, ACommandWithoutValueTurnsOverWhatIs) {
   EXPECT_FALSE(s.paused);
   EXPECT_TRUE(s.obey({OperatorAction::Black, 1}));
   EXPECT_TRUE(s.obey({OperatorAction::Black, 1}));
-  EXPECT_TRUE(s.shown.black) << "told twice to be black it is black";
+  EXPECT_TRUE(s.presentation.black) << "told twice to be black it is black";
 }
 
 TEST(OperatorState, StepsAreForPausedShowsAlone) {
@@ -81,16 +81,16 @@ TEST(ThreadsOperatorQueue, CommandsOfOneThreadArriveInTheirOrderAndNoneIsLost) {
 TEST(OperatorState, LatencyIsAWholeNumberOfFramesFromOneToFour) {
   OperatorState s;
   EXPECT_TRUE(s.obey({OperatorAction::Latency, 2}));
-  EXPECT_EQ(s.latency, 2);
+  EXPECT_EQ(s.mostInFlight, 2);
   for (const double wrong : {0.0, 5.0, 1.5, -1.0})
     EXPECT_FALSE(s.obey({OperatorAction::Latency, wrong})) << wrong;
-  EXPECT_EQ(s.latency, 2);
+  EXPECT_EQ(s.mostInFlight, 2);
   for (int i = 0; i < 5; ++i) EXPECT_TRUE(s.obey({OperatorAction::Latency, -1, true}));
-  EXPECT_EQ(s.latency, 1);
+  EXPECT_EQ(s.mostInFlight, 1);
   OperatorState started;
-  started.runLatency = 3;
+  started.runMostInFlight = 3;
   EXPECT_TRUE(started.obey({OperatorAction::Latency, -1, true}));
-  EXPECT_EQ(started.latency, 2);
+  EXPECT_EQ(started.mostInFlight, 2);
 }
 
 }  // namespace

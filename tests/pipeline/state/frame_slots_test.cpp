@@ -58,42 +58,42 @@ TEST(FrameSlots, AHangingReaderLosesItsSlotAfterTheDeadline) {
 
 TEST(FrameSlots, AppWaitsWhileAsManyFramesAreUnderWayAsAreAllowed) {
   FrameSlots slots(1, Delivery::Every);
-  slots.limitUnderWay(1);
+  slots.limitInFlight(1);
   slots.endWrite(*slots.beginWrite(), frameOf(0));
   std::atomic<bool> began = false;
   std::thread app([&] { began = slots.beginWrite().has_value(); });
   EXPECT_TRUE(slots.release(*slots.lease(0)));
   std::this_thread::sleep_for(std::chrono::milliseconds(20));
   EXPECT_FALSE(began);  // a slot is free, but frame 0 is not seen yet
-  slots.shown();
+  slots.noteShown();
   app.join();
   EXPECT_TRUE(began);
 }
 
 TEST(FrameSlots, OneMoreBeginsWhenOnlyTheLastWallsStillDraw) {
   FrameSlots slots(3, Delivery::Every);
-  slots.limitUnderWay(1, 1);
+  slots.limitInFlight(1, 1);
   slots.endWrite(*slots.beginWrite(), frameOf(0));
   std::atomic<bool> began = false;
   std::thread app([&] { began = slots.beginWrite().has_value(); });
-  slots.drawn();
+  slots.noteDrawn();
   std::this_thread::sleep_for(std::chrono::milliseconds(20));
   EXPECT_FALSE(began);  // two walls draw
-  slots.drawn();
+  slots.noteDrawn();
   app.join();
   EXPECT_TRUE(began);
 }
 
 TEST(FrameSlots, WhereTheNewestCountsItIsChosenWhenTheOneBeforeIsSeen) {
   FrameSlots slots(1, Delivery::Latest);
-  slots.limitUnderWay(1);
+  slots.limitInFlight(1);
   slots.endWrite(*slots.beginWrite(), frameOf(0));
   EXPECT_TRUE(slots.release(*slots.lease(0)));
   slots.endWrite(*slots.beginWrite(), frameOf(1));
   std::thread swap([&] {
     std::this_thread::sleep_for(std::chrono::milliseconds(20));
     for (std::uint64_t frame = 2; frame < 6; ++frame) slots.endWrite(*slots.beginWrite(), frameOf(frame));
-    slots.shown();
+    slots.noteShown();
   });
   EXPECT_EQ(slots.lease(0)->ticket.signature.frame, 5u);
   swap.join();
@@ -101,10 +101,10 @@ TEST(FrameSlots, WhereTheNewestCountsItIsChosenWhenTheOneBeforeIsSeen) {
 
 TEST(FrameSlots, ALimitThatIsLiftedLetsAppGoOn) {
   FrameSlots slots(1, Delivery::Every);
-  slots.limitUnderWay(1);
+  slots.limitInFlight(1);
   slots.endWrite(*slots.beginWrite(), frameOf(0));
   std::thread app([&] { EXPECT_TRUE(slots.beginWrite()); });
-  slots.limitUnderWay(0);
+  slots.limitInFlight(0);
   app.join();
 }
 

@@ -71,7 +71,7 @@ TEST(SharedProgress, WhatAProcessKeptIsThereAfterItWasKilled) {
     const auto there = SharedProgress::attach(dup(here.descriptor()));
     if (!there) _exit(1);
     OperatorState desk;
-    desk.shown.black = true, desk.volume = 0.5;
+    desk.presentation.black = true, desk.volume = 0.5;
     there->obeyed(desk);
     there->enter(SharedProgress::Phase::Playing);
     for (std::uint8_t n = 1; n <= 5; ++n) {
@@ -91,7 +91,7 @@ TEST(SharedProgress, WhatAProcessKeptIsThereAfterItWasKilled) {
   EXPECT_EQ(here.newest().frame, 5U);
   EXPECT_EQ(here.framesShown(), 5U);
   EXPECT_EQ(here.phase(), SharedProgress::Phase::Playing);
-  EXPECT_TRUE(here.operatorState().shown.black);
+  EXPECT_TRUE(here.operatorState().presentation.black);
   EXPECT_EQ(here.operatorState().volume, 0.5);
   EXPECT_GE(here.timeNow(), 5000) << "show time would have gone on";
 }

@@ -353,7 +353,7 @@ TEST(LoadGovernor, WhatMakesAppShorterIsNotGivenUpForDrawNorTheOtherWayRound) {
   EXPECT_EQ(simulates.level(1), 0U);
 }
 
-TEST(LoadGovernor, StressComesBeforeConcessionsForTheFramesSake) {
+TEST(LoadGovernor, StressComesBeforeDegradationForTheFramesSake) {
   Governed g({{0, {Half, Rest}, 1}}, true);
   g.frames(3, {1}, {25, 25});
   EXPECT_GT(g.stress(), 0U);

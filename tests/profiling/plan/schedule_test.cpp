@@ -129,21 +129,21 @@ TEST(Schedule, ALiveShowLeavesFramesOutAndIsYounger) {
 
 TEST(Schedule, OneFrameInFlightIsAsYoungAsItsStagesTogether) {
   Plan plan = planned(true, 8);
-  plan.latency = 1;
+  plan.mostInFlight = 1;
   const Forecast one = forecast(frameOf(2, 3, 10), plan);
   EXPECT_NEAR(one.latency, 15, 1e-9) << "each frame waits for the one before";
   EXPECT_NEAR(one.period, 15, 1e-9);
-  plan.latency = 2;
+  plan.mostInFlight = 2;
   const Forecast two = forecast(frameOf(2, 3, 10), plan);
   EXPECT_NEAR(two.period, 10, 1e-9);
   EXPECT_NEAR(two.latency, 20, 1e-9);
-  plan.latency = 0;
+  plan.mostInFlight = 0;
   EXPECT_GT(forecast(frameOf(2, 3, 10), plan).latency, two.latency);
 }
 
 TEST(Schedule, ALiveShowCountsFramesInFlightFromCull) {
   Plan plan = planned(true, 8);
-  plan.pacing = Pacing::Lock, plan.rate = 200, plan.newest = true, plan.latency = 1;
+  plan.pacing = Pacing::Lock, plan.rate = 200, plan.newest = true, plan.mostInFlight = 1;
   const Forecast f = forecast(frameOf(1, 2, 20), plan);
   EXPECT_NEAR(f.period, 22, 1e-9);
   EXPECT_LT(f.latency, 22 + 1 + 5.0 + 1e-9) << "Cull takes the newest frame, at most a tick old";
@@ -153,7 +153,7 @@ TEST(Schedule, DrawThatBeginsEarlySavesTheRestOfCull) {
   std::vector<FrameCost> costs = frameOf(1, 8, 10);
   costs[0].walls[0].cullBesideDraw = 6;
   Plan plan = planned(true, 8);
-  plan.latency = 1;
+  plan.mostInFlight = 1;
   const double early = forecast(costs, plan).latency;
   plan.drawBeginsEarly = false;
   EXPECT_NEAR(forecast(costs, plan).latency, 19, 1e-9);

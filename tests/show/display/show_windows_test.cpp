@@ -252,8 +252,9 @@ TEST_F(ProgramShowWindows, ATableOfColoursIsRefusedWithTheMend) {
   const auto way = system_->pixelsWay();
   ASSERT_FALSE(way);
   EXPECT_NE(way.error().message.find("--renderer gl"), std::string::npos) << way.error().message;
-  const auto window = ShowWindow::open(*system_, {.surface = WindowSurface::Pixels}, WindowStereo::Mono, 1);
-  EXPECT_FALSE(window);
+  WindowPlan plan;
+  plan.surface = WindowSurface::Pixels;
+  EXPECT_FALSE(ShowWindow::open(*system_, plan, WindowStereo::Mono, 1));
 }
 
 TEST_F(ProgramShowWindows, AWindowOfAnotherSizeIsFilledAndAnUncoveredOneIsShownAgain) {

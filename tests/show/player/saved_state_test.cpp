@@ -104,7 +104,7 @@ TEST_P(SavedState, GoesOnAsIfNothingHadBeen) {
   const Script& script = GetParam();
   // It is put back so many times, and as many of these play beside it.
   const std::uint64_t kTimes = fullRuns() ? 20 : 10;
-  const std::size_t kMostCopies = fullRuns() ? 6 : 4;
+  const std::size_t kMostCopies = fullRuns() ? 6 : 3;
   struct Copy {
     std::uint64_t from;
     std::unique_ptr<Played> played;

@@ -15,9 +15,9 @@ namespace stadion::bench {
 enum class FloorWay {
   Clear,      ///< nothing but the background
   Uniform,    ///< a draw for each visible node, sorted by mesh, its matrix in a uniform: STRICT
-  Discard,    ///< the same without rasterising
+  Discard,    ///< as Uniform, without rasterising
   Instanced,  ///< a draw for each mesh
-  Merged,     ///< one draw: corners in the eye's coordinates, made beforehand
+  Merged,     ///< one draw for all: corners in the eye's coordinates, made beforehand
 };
 std::optional<FloorWay> floorWay(const std::string& name);
 

@@ -3,7 +3,11 @@
 #include "cli/commands.h"
 #include "cli/exit_code.h"
 #include "cli/options/command_options.h"
+<<<<<<< HEAD:cli/measure/plan.cpp
+#include "cli/options/command_programs.h"
+=======
 #include "cli/options/renderer_options.h"
+>>>>>>> hub/integ:cli/plan.cpp
 #include "cli/options/show_options.h"
 #include "cli/terminal.h"
 #include "engine/base/installed_files.h"
@@ -41,7 +45,7 @@ struct PlanOptions {
   RendererOptions renderer;
   std::optional<std::size_t> count;  ///< of walls to plan, if known before the costs are
   double cores = 0;                  ///< 0 = as here
-  std::size_t machines = 1, wallCount = 0, latency = 0;
+  std::size_t machines = 1, wallCount = 0, mostInFlight = 0;
   std::string cullDraw = "overlap";
   bool processes = false, json = false;
 };
@@ -119,7 +123,7 @@ plan::Question questionOf(const PlanOptions& o, const plan::ShowCosts& costs) {
                   : o.pace == "float" ? plan::Pacing::Float
                                       : plan::Pacing::Free;
   q.plan.newest = o.pace != "free", q.plan.rate = o.run.show.rate;
-  q.plan.latency = o.latency, q.plan.drawBeginsEarly = o.cullDraw == "overlap";
+  q.plan.mostInFlight = o.mostInFlight, q.plan.drawBeginsEarly = o.cullDraw == "overlap";
   q.plan.frames = std::max<std::size_t>(costs.frames.size(), 24);
   return q;
 }
@@ -194,8 +198,7 @@ the same part of them busy. A rasteriser for each wall is what walls as processe
 
 void addPlanCommand(CLI::App& app, int& code) {
   auto o = std::make_shared<PlanOptions>();
-  CLI::App* command =
-      app.add_subcommand("plan", "Predict frames a second and latency for other machines, walls and modes");
+  CLI::App* command = addListedCommand(app, "plan");
   ShowOptions& show = o->run.show;
   CommandOptions options(*command);
   options.add("SHOW", show.script);
@@ -207,7 +210,7 @@ void addPlanCommand(CLI::App& app, int& code) {
   options.add("--processes", o->processes);
   options.add("--mode", o->mode);
   options.add("--pace", o->pace);
-  options.add("--latency", o->latency);
+  options.add("--latency", o->mostInFlight);
   options.add("--cull-draw", o->cullDraw);
   options.add("--stereo", o->stereo, {.words = "pair|off"});
   options.add("--size", show.size);

@@ -27,8 +27,8 @@ struct Kinematics {
 
 /// How wildly the points of a side can move until the end of the frame.
 struct MotionBound {
-  double speed = 0;         ///< of p [m/s]
-  double acceleration = 0;  ///< of p [m/s2]
+  double speed = 0;         ///< bound of the speed of p [m/s]
+  double acceleration = 0;  ///< bound of the acceleration of p [m/s2]
   double spin = 0;          ///< [rad/s]
   double spinChange = 0;    ///< [rad/s2]
   /// Of a point r metres from p.
@@ -52,17 +52,17 @@ inline MotionBound boundOf(const Path& path, double pathFrom, double pathTo, con
   return b;
 }
 
-struct WayPart {
+struct ArcPiece {
   Instant from;
-  double pathAge = 0, spinAge = 0;  ///< of the two at `from` [s]
-  Path path;                        ///< of C
-  Spin spin;                        ///< of C
+  double pathAge = 0, spinAge = 0;  ///< ages of path and spin at `from` [s]
+  Path path;                        ///< path of C
+  Spin spin;                        ///< spin of C
   Pose X_CN;
-  bool jump = false;  ///< it was put there
+  bool jump = false;  ///< the body was placed from outside
   double tau = 0;     ///< `from`, in seconds after a moment that the reader has chosen
 
   /// From X_WN on it goes straight and turns evenly.
-  static WayPart straight(const Instant& from, const Pose& X_WN, const Vec3& v, const Vec3& omega);
+  static ArcPiece straight(const Instant& from, const Pose& X_WN, const Vec3& v, const Vec3& omega);
   /// Of N's origin.
   Kinematics at(double when) const;
   Pose poseAfter(double seconds) const {
@@ -71,19 +71,19 @@ struct WayPart {
   /// Of N's origin as well.
   MotionBound boundOver(double start, double end) const;
   bool stands() const;
-  bool straight() const;  ///< it goes straight and does not turn
+  bool straight() const;  ///< the body goes straight and does not turn
   /// The first whole nanosecond at which it holds.
   Nanoseconds begins() const { return from.ns + (from.rest > 0 ? 1 : 0); }
 };
 
 /// In the order of time; a part lasts until the next one.
-using BodyWay = std::vector<WayPart>;
+using ArcTrack = std::vector<ArcPiece>;
 
 /// Where it is at that time; before its first part, where that begins. Expects at least one part.
-Pose poseOn(const BodyWay& way, Nanoseconds time, Limit limit);
-/// Whether it is put somewhere at exactly `time`.
-bool jumpsAt(const BodyWay& way, Nanoseconds time);
-/// The same way by straight chords, to `end`, for nodes that follow no arcs.
-void addChords(const BodyWay& way, Nanoseconds end, PoseTrack& track);
+Pose poseOn(const ArcTrack& way, Nanoseconds time, Limit limit);
+/// Returns true if the body is placed from outside at exactly `time`.
+bool jumpsAt(const ArcTrack& way, Nanoseconds time);
+/// Adds the path as straight chords, up to `end`, for nodes that follow no arcs.
+void addChords(const ArcTrack& way, Nanoseconds end, PoseTrack& track);
 
 }  // namespace stadion

@@ -3,6 +3,7 @@
 #include "cli/commands.h"
 #include "cli/exit_code.h"
 #include "cli/options/command_options.h"
+#include "cli/options/command_programs.h"
 #include "cli/options/plugin_option.h"
 #include "cli/options/renderer_options.h"
 #include "cli/terminal.h"
@@ -317,9 +318,7 @@ int soak(SoakOptions o) {
 
 void addSoakCommand(CLI::App& app, int& code) {
   auto o = std::make_shared<SoakOptions>();
-  CLI::App* command = app.add_subcommand(
-      "soak",
-      "Play shows for very many frames, as fast as possible, and look whether anything grows or changes");
+  CLI::App* command = addListedCommand(app, "soak");
   CommandOptions options(*command);
   options.add("SHOW", o->shows);
   options.add("--frames", o->frames, {.least = 1000});

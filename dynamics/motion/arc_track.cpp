@@ -1,18 +1,18 @@
-#include "dynamics/motion/body_way.h"
+#include "dynamics/motion/arc_track.h"
 
 #include <algorithm>
 
 namespace stadion {
 
-WayPart WayPart::straight(const Instant& from, const Pose& X_WN, const Vec3& v, const Vec3& omega) {
-  WayPart part;
+ArcPiece ArcPiece::straight(const Instant& from, const Pose& X_WN, const Vec3& v, const Vec3& omega) {
+  ArcPiece part;
   part.from = from;
   part.path = v.isZero(0) ? Path::still(X_WN.p) : Path::parabola(X_WN.p, v, Vec3::Zero());
   part.spin = omega.isZero(0) ? Spin::still(X_WN.q) : Spin::driven(X_WN.q, omega, Vec3::Zero(), 1);
   return part;
 }
 
-Kinematics WayPart::at(double when) const {
+Kinematics ArcPiece::at(double when) const {
   const double s = when - tau;
   const Pose X_WC{path.position(pathAge + s), spin.orientation(spinAge + s)};
   Kinematics k;
@@ -22,20 +22,20 @@ Kinematics WayPart::at(double when) const {
   return k;
 }
 
-MotionBound WayPart::boundOver(double start, double end) const {
+MotionBound ArcPiece::boundOver(double start, double end) const {
   return boundOf(path, pathAge + start - tau, pathAge + end - tau, spin, spinAge + end - tau)
       .seenFrom(X_CN.p.norm());
 }
 
-bool WayPart::stands() const {
+bool ArcPiece::stands() const {
   return path.isParabola() && path.c[1].isZero(0) && path.c[2].isZero(0) && spin.kind == Spin::Kind::Still;
 }
 
-bool WayPart::straight() const {
+bool ArcPiece::straight() const {
   return path.isParabola() && path.c[2].isZero(0) && spin.kind == Spin::Kind::Still;
 }
 
-Pose poseOn(const BodyWay& way, Nanoseconds time, Limit limit) {
+Pose poseOn(const ArcTrack& way, Nanoseconds time, Limit limit) {
   std::size_t i = 0;
   while (i + 1 < way.size() && way[i + 1].begins() <= time &&
          !(limit == Limit::Before && way[i + 1].jump && way[i + 1].begins() == time))
@@ -43,13 +43,13 @@ Pose poseOn(const BodyWay& way, Nanoseconds time, Limit limit) {
   return way[i].poseAfter(std::max(0.0, Instant{time, 0}.since(way[i].from)));
 }
 
-bool jumpsAt(const BodyWay& way, Nanoseconds time) {
-  return std::ranges::any_of(way, [&](const WayPart& p) { return p.jump && p.begins() == time; });
+bool jumpsAt(const ArcTrack& way, Nanoseconds time) {
+  return std::ranges::any_of(way, [&](const ArcPiece& p) { return p.jump && p.begins() == time; });
 }
 
-void addChords(const BodyWay& way, Nanoseconds end, PoseTrack& track) {
+void addChords(const ArcTrack& way, Nanoseconds end, PoseTrack& track) {
   for (std::size_t i = 0; i < way.size(); ++i) {
-    const WayPart& part = way[i];
+    const ArcPiece& part = way[i];
     const Nanoseconds begins = part.begins(), to = i + 1 < way.size() ? way[i + 1].begins() : end;
     const auto at = [&](Nanoseconds t) {
       return part.poseAfter(std::max(0.0, Instant{t, 0}.since(part.from)));

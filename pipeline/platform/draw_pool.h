@@ -1,5 +1,5 @@
 #pragma once
-/// The worker pool of the CPU renderer: walls that draw at the same time share its threads.
+/// The threads of the CPU renderer: walls that draw at the same time share its threads.
 ///
 /// Order      the pieces of the wall that came first are taken first, in order. Results must not depend on
 ///            the thread of a piece.

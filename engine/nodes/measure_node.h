@@ -20,11 +20,11 @@
 namespace stadion {
 
 struct ThrowMeasureAttributes {
-  std::string body;     ///< whose throw it is, as seen from its file
+  std::string body;     ///< body whose throws are measured, as seen from its file
   std::string ground;   ///< only what touches this counts; empty = anything
   std::string text;     ///< the text node that shows the result; empty = none
   std::string against;  ///< the measure to compare with; empty = none
-  std::string label;    ///< what the result is called
+  std::string label;    ///< name of the result in texts
   MeasureFrom from = MeasureFrom::Line;
   Nanoseconds duration = 60'000'000'000;  ///< a throw without an impact by then is a foul
   double cosHalfSector = -1;              ///< a throw outside the sector about +Y is a foul; -1 = no sector
@@ -34,7 +34,7 @@ struct MeasureResult {
   double metres = 0;
   bool foul = false;
   Nanoseconds when = 0;
-  /// What is compared: a foul is less than any distance.
+  /// Returns the value for comparisons: a foul is less than any distance.
   int centimetres() const;
 
   template <class Self, class Fields>
@@ -85,7 +85,7 @@ private:
   Nanoseconds started_ = 0;  ///< impacts before that do not count
   std::optional<Result> result_;
   bool written_ = false;   ///< the result has been shown
-  bool compared_ = false;  ///< or there is nothing to compare with
+  bool compared_ = false;  ///< the result has been compared, or there is nothing to compare it with
 };
 
 }  // namespace stadion

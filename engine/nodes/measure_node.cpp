@@ -1,4 +1,4 @@
-#include "engine/nodes/throw_measure_node.h"
+#include "engine/nodes/measure_node.h"
 
 #include "engine/build/node_request.h"
 #include "engine/core/node_registry.h"

@@ -1,4 +1,4 @@
-#include "pipeline/cpu_draw/draw_pool.h"
+#include "pipeline/platform/draw_pool.h"
 
 #include <algorithm>
 #include <pthread.h>

@@ -4,7 +4,11 @@
 #include "cli/commands.h"
 #include "cli/exit_code.h"
 #include "cli/options/command_options.h"
+<<<<<<< HEAD:cli/measure/profile.cpp
+#include "cli/options/command_programs.h"
+=======
 #include "cli/options/renderer_options.h"
+>>>>>>> hub/integ:cli/profile.cpp
 #include "cli/options/run_options.h"
 #include "cli/options/show_options.h"
 #include "cli/terminal.h"
@@ -119,7 +123,7 @@ int profileFrames(ProfileOptions o) {
   return stopSignal() ? kStopped + stopSignal() : kOk;  // the figures are those of what was played
 }
 
-/// Nothing is recorded when models are compared, unless a page tells of both.
+/// A comparison of models records nothing, unless a page shows both.
 bool asksForRecord(const CLI::App& command) {
   Diagnostics findings;
   for (const char* option : {"--csv", "--trace", "--trace-frames", "--trace-limit", "--nodes"})
@@ -151,7 +155,7 @@ int profileModels(ProfileOptions o) {
 }
 
 constexpr const char* kProfileFooter =
-    R"(The show is played as in run, and each node's share of the frame is told: App is timed by node, when it visits it (where it visits hundreds, in some frames only);
+    R"(The show is played as in run, and the report names each node's share of the frame: App is timed by node, when it visits it (where it visits hundreds, in some frames only);
 Cull by wall, shared among the nodes that it looked at; Draw by drawing a few batches alone in some frames, in their
 place in the frame, until every node has had its turn. `visitor` stands for the trackers and for the eyes in front of the walls.
 `explained` says how much of what the stages took is found with nodes, or with parts of the stages themselves.
@@ -187,10 +191,7 @@ part of any of its models.
 
 void addProfileCommand(CLI::App& app, int& code) {
   auto o = std::make_shared<ProfileOptions>();
-  CLI::App* command = app.add_subcommand(
-      "profile",
-      "Say what the frames of a show are spent on, node by node; or how exact and how dear the models of its "
-      "bodies are");
+  CLI::App* command = addListedCommand(app, "profile");
   ShowOptions& show = o->fidelity.show;
   addShowOptions(*command, show);
   CommandOptions options(*command);

@@ -35,7 +35,7 @@ struct OscillationAttributes {
   std::vector<NodeRef> targets;         ///< in the order of the script; empty = itself
   Vec3 amplitude = Vec3::Zero();        ///< [m]
   Vec3 frequency = Vec3::Zero();        ///< [Hz]
-  Vec3 phase = Vec3::Zero();            ///< of the first target [rad]
+  Vec3 phase = Vec3::Zero();            ///< phase of the first target [rad]
   Vec3 phaseStep = Vec3::Zero();        ///< from target to target [rad]
   Vec3 angularVelocity = Vec3::Zero();  ///< [rad/s]
 };
@@ -62,18 +62,18 @@ protected:
 private:
   static constexpr std::size_t kBlock = 64;  ///< targets that follow each other
 
-  /// One target at rest.
+  /// A target at rest.
   struct Swing {
     Vec3 place;                ///< [m]
-    double along, across, up;  ///< of what stands upright, its axes: uprightAxes()
+    double along, across, up;  ///< axes of an upright target: uprightAxes()
     double widens;             ///< sphereScale()
   };
   struct Angles {
     Vec3 sin, cos;
   };
-  /// What the targets have in common at a time.
+  /// The values that all targets share at a time.
   struct Moment {
-    Angles first;  ///< of target 0, without its phase
+    Angles first;  ///< angles of target 0, without its phase
     Mat3 turn;
   };
 
@@ -97,9 +97,9 @@ private:
   Switched switch_;
   Nanoseconds elapsed_ = 0;
   Nanoseconds since_ = 0;             ///< show time up to which elapsed_ counts
-  std::optional<Nanoseconds> putAt_;  ///< when it last put its targets somewhere
+  std::optional<Nanoseconds> putAt_;  ///< time at which the node last placed its targets
 
-  Moment moment_{};  ///< of that time
+  Moment moment_{};  ///< shared values at `putAt_`
 
   // By target; found in its first cycle, when all of them are there.
   bool settled_ = false;

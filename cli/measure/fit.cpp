@@ -5,6 +5,7 @@
 #include "cli/commands.h"
 #include "cli/exit_code.h"
 #include "cli/options/command_options.h"
+#include "cli/options/command_programs.h"
 #include "cli/options/plugin_option.h"
 #include "cli/terminal.h"
 #include "engine/base/plain_file.h"
@@ -239,8 +240,7 @@ int fit(const FitOptions& o) {
 
 void addFitCommand(CLI::App& app, int& code) {
   auto o = std::make_shared<FitOptions>();
-  CLI::App* command =
-      app.add_subcommand("fit", "Find the cheapest flight model that follows recorded flights");
+  CLI::App* command = addListedCommand(app, "fit");
   CommandOptions options(*command);
   options.add("OBJECT", o->object).required();
   options.add("--reference", o->references).required();

@@ -1,4 +1,4 @@
-#include "engine/nodes/oscillation_node.h"
+#include "engine/nodes/sway_node.h"
 
 #include "engine/base/prefetch.h"
 #include "engine/build/lint.h"
