@@ -21,8 +21,12 @@ std::vector<ClipCorner> keptOf(const std::vector<ClipCorner>& polygon, const Dis
     const double da = distance(a), db = distance(b);
     if (da >= 0) kept.push_back(a);
     if ((da >= 0) == (db >= 0)) continue;
-    const double t = da / (da - db);
-    kept.push_back({a[0] + t * (b[0] - a[0]), a[1] + t * (b[1] - a[1]), a[2] + t * (b[2] - a[2])});
+    // From the end that is kept: the other one may be so far away that the first would be lost in rounding. And
+    // neighbours that share the edge get the same point.
+    const ClipCorner &in = da >= 0 ? a : b, &out = da >= 0 ? b : a;
+    const double inside = std::max(da, db), t = inside / (inside - std::min(da, db));
+    kept.push_back(
+        {in[0] + t * (out[0] - in[0]), in[1] + t * (out[1] - in[1]), in[2] + t * (out[2] - in[2])});
   }
   return kept;
 }

@@ -1,5 +1,6 @@
 #include "tests/pipeline/cpu_draw/compared_pictures.h"
 
+#include "engine/maths/srgb.h"
 #include "pipeline/cpu_draw/kernels/choose_kernels.h"
 
 #include <gtest/gtest.h>
@@ -39,6 +40,44 @@ Picture drawnByCpu(const MeshStore& meshes, const DrawList& list, std::uint32_t 
 Picture drawnByOpenGl(const MeshStore& meshes, const DrawList& list, std::uint32_t width,
                       std::uint32_t height, const RenderQuality& quality, std::uint32_t view) {
   return Stage(meshes, width, height, GlProviderKind::OsMesa, quality).draw(list, view);
+}
+
+namespace {
+
+/// The projection of pictures that lie (x, y) pixels to the right and up.
+Mat4 movedProjection(const Mat4& projection, double x, double y, std::uint32_t width, std::uint32_t height) {
+  Mat4 by = Mat4::Identity();
+  by(0, 3) = -2 * x / width, by(1, 3) = -2 * y / height;
+  return by * projection;
+}
+
+void addLinearLight(const Picture& picture, std::vector<double>& sums) {
+  for (std::size_t i = 0; i < sums.size(); ++i) sums[i] += linearFromSrgb(picture.rgba[i] / 255.0);
+}
+
+}  // namespace
+
+Picture referencePicture(const MeshStore& meshes, DrawList list, std::uint32_t width, std::uint32_t height,
+                         int side, std::uint32_t view) {
+  DrawPool pool(1);
+  CpuRoom room(meshes, Look::Full, pool);
+  PictureRung rung;
+  rung.samples = 1;
+  auto renderer = CpuRenderer::create(room, width, height, rung);
+  Picture picture{width, height, std::vector<std::uint8_t>(std::size_t{width} * height * 4)};
+  std::vector<double> sums(picture.rgba.size());
+  const Mat4 projection = list.views[view].projection;
+  for (int y = 0; y < side; ++y)
+    for (int x = 0; x < side; ++x) {
+      const auto part = [&](int i) { return (i + 0.5) / side - 0.5; };
+      list.views[view].projection = movedProjection(projection, part(x), part(y), width, height);
+      EXPECT_FALSE(renderer.value()->draw(list));
+      EXPECT_FALSE(renderer.value()->read(view, picture.rgba));
+      addLinearLight(picture, sums);
+    }
+  for (std::size_t i = 0; i < sums.size(); ++i)
+    picture.rgba[i] = static_cast<std::uint8_t>(std::lround(255 * srgbFromLinear(sums[i] / (side * side))));
+  return picture;
 }
 
 }  // namespace stadion::test
