@@ -3,11 +3,8 @@
 #include "cli/commands.h"
 #include "cli/exit_code.h"
 #include "cli/options/command_options.h"
-<<<<<<< HEAD:cli/measure/plan.cpp
 #include "cli/options/command_programs.h"
-=======
 #include "cli/options/renderer_options.h"
->>>>>>> hub/integ:cli/plan.cpp
 #include "cli/options/show_options.h"
 #include "cli/terminal.h"
 #include "engine/base/installed_files.h"

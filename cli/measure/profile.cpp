@@ -4,11 +4,8 @@
 #include "cli/commands.h"
 #include "cli/exit_code.h"
 #include "cli/options/command_options.h"
-<<<<<<< HEAD:cli/measure/profile.cpp
 #include "cli/options/command_programs.h"
-=======
 #include "cli/options/renderer_options.h"
->>>>>>> hub/integ:cli/profile.cpp
 #include "cli/options/run_options.h"
 #include "cli/options/show_options.h"
 #include "cli/terminal.h"

@@ -77,8 +77,10 @@ public:
 
   /// Returns true if so many boxes have changed that sorting all of them is cheaper.
   bool crowded() const {
-    return static_cast<double>(apart_.size() - filedApart_) >
-           32 + 4 * std::sqrt(static_cast<double>(sorted_.size()));
+    constexpr std::size_t kFew = 32;  // in most frames it is asked four times, and no more have changed
+    const std::size_t changed = apart_.size() - filedApart_;
+    return changed > kFew &&
+           static_cast<double>(changed) > kFew + 4 * std::sqrt(static_cast<double>(sorted_.size()));
   }
 
   /// Calls f(item) for everything whose box overlaps `box`. f must not file.

@@ -79,7 +79,8 @@ struct Mover {
 
   /// The greatest of (n + s w x n) . (x - o + s v_x) over the body, less what is of s^2, and its rate of
   /// change; `w x n` is given.
-  double farthest(const Vec3& n, const Vec3& tilt, const Vec3& o, double s, double& rate) const {
+  [[gnu::always_inline]] double farthest(const Vec3& n, const Vec3& tilt, const Vec3& o, double s,
+                                         double& rate) const {
     const Vec3 turn = n.cross(omega) + tilt, d = n + s * turn;
     const Vec3 r = core.support(d) - p;
     const double pass = n.dot(v) + tilt.dot(p - o);

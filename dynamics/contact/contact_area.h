@@ -21,7 +21,7 @@ struct ContactPlane {
 struct FlatContact {
   ContactPlane plane;  ///< plane of the contact; its origin is the middle of the area
   std::shared_ptr<const ContactArea> area;
-  Carrier carrier = Carrier::A;       ///< whose face it goes with
+  Carrier carrier = Carrier::A;       ///< side whose face the contact plane moves with
   std::vector<std::uint32_t> points;  ///< those of the given points that carry the area
 };
 

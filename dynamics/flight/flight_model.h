@@ -106,7 +106,7 @@ struct Coefficient {
   const char* unit;
   double least, most;
 };
-/// Of rod, plate and ball; empty for others.
+/// Returns the coefficients of rod, plate and ball; empty for other kinds.
 std::span<const Coefficient> coefficientsOf(FlightKind kind);
 /// The model with these numbers; nothing if they are too many or too few or the kind has none. (Ranges are
 /// the caller's to check, with the table above.)

@@ -37,9 +37,9 @@ struct FlightShape {
   bool elongated() const;
 };
 
-/// Of a mesh with its centre of mass in N. The nose is the end that `nose` points to or, if it is not stated,
-/// the one on the centre of mass's side of the surface's middle (there the wind keeps it), or by the skewness
-/// of the surface where that does not tell.
+/// Measures a mesh with its centre of mass in N. The nose is the end that `nose` points to. If it is not
+/// stated, the nose is on the centre of mass's side of the surface's middle, where the wind keeps it. If
+/// these coincide, the skewness of the surface decides.
 FlightShape measureShape(const Mesh& mesh, const Vec3& centreOfMass,
                          const std::optional<Vec3>& nose = std::nullopt);
 

@@ -20,8 +20,8 @@ struct PrincipalAxes {
   bool round() const { return !(variance.x() - variance.z() > 0.02 * variance.x()); }
 };
 
-/// Of the surface, weighted by area. Exact but for rounding. A mesh without area gives unit axes and no
-/// variance.
+/// Returns the principal axes of the surface, weighted by area. Exact but for rounding. A mesh without area
+/// gives unit axes and no variance.
 PrincipalAxes surfaceAxes(const Mesh& mesh);
 
 /// The paper's: of `samples` vertices drawn at random, each with equal chance. It depends on how the mesh is

@@ -31,10 +31,10 @@ struct MotionBound {
   double acceleration = 0;  ///< bound of the acceleration of p [m/s2]
   double spin = 0;          ///< [rad/s]
   double spinChange = 0;    ///< [rad/s2]
-  /// Of a point r metres from p.
+  /// Returns a bound for a point r metres from p.
   double accelerationAt(double r) const { return acceleration + (spin * spin + spinChange) * r; }
   double speedAt(double r) const { return speed + spin * r; }
-  /// Of another point of the same body, `arm` metres from p.
+  /// Returns the bound for another point of the same body, `arm` metres from p.
   MotionBound seenFrom(double arm) const { return {speedAt(arm), accelerationAt(arm), spin, spinChange}; }
 };
 
@@ -63,12 +63,12 @@ struct ArcPiece {
 
   /// From X_WN on it goes straight and turns evenly.
   static ArcPiece straight(const Instant& from, const Pose& X_WN, const Vec3& v, const Vec3& omega);
-  /// Of N's origin.
+  /// Returns position and motion of N's origin.
   Kinematics at(double when) const;
   Pose poseAfter(double seconds) const {
     return Pose{path.position(pathAge + seconds), spin.orientation(spinAge + seconds)} * X_CN;
   }
-  /// Of N's origin as well.
+  /// Returns a bound of the motion of N's origin.
   MotionBound boundOver(double start, double end) const;
   bool stands() const;
   bool straight() const;  ///< the body goes straight and does not turn

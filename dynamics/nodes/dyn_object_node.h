@@ -40,7 +40,8 @@ struct BodyAttributes {
   double tipDepth = 0;           ///< how far the tip goes in [m]
   bool simulated = true;         ///< false: no dynamics node takes it in, to see what a show costs without
 
-  /// Of a closed shape. The centre that is stated grows with the model's scale; mass and moments do not.
+  /// Returns the mass properties of a closed shape. A stated centre grows with the model's scale; mass and
+  /// moments do not.
   MassProperties massOf(const FittedShape& fit) const;
 };
 
@@ -96,7 +97,9 @@ public:
     return frame == arcsFrame_ && !arcs_.empty() ? &arcs_ : nullptr;
   }
 
-  bool moved() const override { return simulation_.asking != nullptr || ObjectNode::moved(); }
+  bool isMovedFromOutside() const override {
+    return simulation_.asking != nullptr || ObjectNode::isMovedFromOutside();
+  }
   void hash(StateHash& h) const override;
   void state(StateFields& f) override;
   template <class Self, class Fields>

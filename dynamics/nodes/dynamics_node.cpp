@@ -91,7 +91,7 @@ void DynamicsNode::removeCollidee(Part& part, Scene& scene) {
   DynObjectNode* node = bodyAt(part.ref, scene);
   if (!node) return;
   node->setSimulation({});
-  scene.placements().setAttached(part.placement, node->moved());
+  scene.placements().setAttached(part.placement, node->isMovedFromOutside());
   node->place(scene, scene.placements().world(part.placement));
 }
 

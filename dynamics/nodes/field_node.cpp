@@ -53,7 +53,7 @@ void FieldNode::moveToCentreOfMass(Scene& scene) {
   const FittedShape& fit = *body->fit();
   Affine X_BF = attributes().X_PN;
   X_BF.pretranslate(body->body().massOf(fit).centre.cwiseQuotient(fit.scale));
-  becomeHome(scene, scene.placements().world(body->placement()) * X_BF);
+  setHome(scene, scene.placements().world(body->placement()) * X_BF);
 }
 
 void FieldNode::change(bool on, Nanoseconds when, FrameContext& frame) {

@@ -67,7 +67,8 @@ Feature cylinderFeature(const ConvexCore& c, const Vec3& d, bool around) {
 
 }  // namespace
 
-Vec3 ConvexCore::support(const Vec3& d) const {
+// Called thousands of times for a contact: the products must be inlined, whatever else the unit has.
+[[gnu::flatten]] Vec3 ConvexCore::support(const Vec3& d) const {
   switch (kind) {
   case Kind::Point: return p;
   case Kind::Segment: return p + R.col(2) * (R.col(2).dot(d) < 0 ? -half.z() : half.z());

@@ -71,7 +71,7 @@ struct Directions {
     if (edgeCount < kMost) edges[static_cast<std::size_t>(edgeCount++)] = e;
   }
 };
-/// Of the faces and edges of the core that look along d, near x.
+/// Returns the directions of the faces and edges of the core that look along d, near x.
 Directions directionsNear(const ConvexCore& core, const Vec3& d, const Vec3& x);
 
 }  // namespace stadion

@@ -29,10 +29,11 @@ struct VolumeIntegral {
   Mat3 inertia = Mat3::Zero();
 };
 
-/// Of a closed mesh whose triangles face outwards; the reason otherwise (open, flipped, flat, not finite).
+/// Integrates over a closed mesh whose triangles face outwards. Otherwise returns the reason (open, flipped,
+/// flat, not finite).
 Result<VolumeIntegral> integrateVolume(const Mesh& mesh);
 
-/// Of a closed mesh filled with `density` [kg/m3].
+/// Returns the mass properties of a closed mesh filled with `density` [kg/m3].
 Result<MassProperties> massOfMesh(const Mesh& mesh, double density);
 MassProperties massOfSphere(const Vec3& centre, double radius, double density);
 /// `half` extents along the axes of `pose`.

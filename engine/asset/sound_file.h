@@ -30,7 +30,7 @@ struct Sound {
   std::vector<std::int16_t> samples;  ///< (samples x channels), interleaved
 };
 
-/// Of the open file, which is left open; `path` is its name in messages.
+/// Returns the length and format of the open file, which is left open; `path` is its name in messages.
 Result<SoundInfo> readSoundInfo(int file, const std::string& path);
 Result<Sound> readSound(int file, const std::string& path);
 

@@ -31,7 +31,7 @@ struct NodeRequest {
   Appearance appearance;
   const Mesh* mesh = nullptr;  ///< mesh; for types with Trait::Model
   const std::function<NodeRef(const NodeReference&)>& resolve;
-  /// Of objects in the same file.
+  /// Returns the placed model of an object in the same file.
   const std::function<std::optional<PlacedModel>(const NodeReference&)>& model;
   Diagnostics& findings;
   NodeServices& services;

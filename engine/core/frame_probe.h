@@ -111,7 +111,7 @@ enum class Count : std::uint8_t {
 constexpr std::size_t kCounts = static_cast<std::size_t>(Count::Largest) + 1;
 std::string_view nameOf(Count count);
 
-/// Of each eye that is sampled.
+/// Number of batches that a sampled frame draws alone, for each eye.
 constexpr std::size_t kBatchesAFrame = 8;
 
 constexpr std::uint64_t kNoFrame = ~std::uint64_t{0};

@@ -20,7 +20,7 @@ public:
   struct Field {
     std::string name;
     std::string value;       ///< a few numbers or texts, else a hash of all
-    std::uint32_t part = 0;  ///< of the node that it belongs to; 0 = the node itself
+    std::uint32_t part = 0;  ///< part of the node that the field belongs to; 0 = the node itself
   };
   /// Without fields that are zero or empty.
   std::vector<Field> take();

@@ -26,7 +26,7 @@ inline constexpr NodeFilter kPacedTypes{{Trait::Degradable, Trait::Encloses}};
 
 inline constexpr std::string_view kDegradationWords[] = {"lod", "half", "rest", "hide"};
 
-/// Of every node.
+/// Attributes of every node.
 inline constexpr AttributeSpec kCommonRows[] = {
     {.name = "name", .kind = ValueKind::NewName, .help = "how other nodes call this one; unique in its file"},
     {.name = "eventmessage",
@@ -52,7 +52,7 @@ inline constexpr AttributeSpec kCommonRows[] = {
      .range = {0, 1000}},
 };
 
-/// Of every node with Trait::Placed, beside the common ones.
+/// Attributes of every node with Trait::Placed, beside the common ones.
 inline constexpr AttributeSpec kPlacedRows[] = {
     {.name = "parent",
      .kind = ValueKind::Reference,
@@ -83,14 +83,14 @@ inline constexpr AttributeSpec kInitStateRow{.name = "initstate",
                                              .help = "whether it is enabled at the start",
                                              .standard = "on"};
 
-/// Of Trait::Switched.
+/// Commands of types with Trait::Switched.
 inline constexpr CommandSpec kSwitchCommands[] = {
     {"enable", ArgumentKind::None, "enable",
      "begins to act; restarts a field's duration, an ended path, and every sound"},
     {"disable", ArgumentKind::None, "disable", "stops acting"},
     {"toggle", ArgumentKind::None, "toggle", "enables if disabled, disables if enabled"},
 };
-/// Of Trait::Placed.
+/// Commands of types with Trait::Placed.
 inline constexpr CommandSpec kPlacedCommands[] = {
     {"attach", ArgumentKind::PartAndTracker, "attach all|position|orientation [TRACKER]",
      "follows a tracker (foot, else wand, if none is named)"},
@@ -98,7 +98,7 @@ inline constexpr CommandSpec kPlacedCommands[] = {
     {"show", ArgumentKind::None, "show", "becomes visible, with all below it"},
     {"hide", ArgumentKind::None, "hide", "becomes invisible, with all below it"},
 };
-/// Of every node.
+/// Commands of every node.
 inline constexpr CommandSpec kCommonCommands[] = {
     {"reset", ArgumentKind::None, "reset", "returns to the state it was declared in"},
 };

@@ -55,7 +55,7 @@ bool PathNode::bends() const {
 PlacedNode* PathNode::target(Scene& scene) {
   Node* node = target_.valid() ? scene.find(target_) : this;
   PlacedNode* placed = node ? node->placed() : nullptr;
-  return placed && !placed->moved() ? placed : nullptr;
+  return placed && !placed->isMovedFromOutside() ? placed : nullptr;
 }
 
 /// Reports the target's motion from since_ on to the nodes that watch it.

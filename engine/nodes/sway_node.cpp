@@ -61,7 +61,7 @@ void OscillationNode::settleTarget(std::size_t k, Scene& scene) {
   PlacedNode* placed = node ? node->placed() : nullptr;
   nodes_[k] = placed;
   if (placed) {
-    placed->letMove(scene);
+    placed->makeMovable(scene);
     placements_[k] = placed->placement();
     axes_[k] = placed->attributes().X_PN.linear();
     swings_[k].place = placed->attributes().X_PN.translation();
@@ -148,7 +148,7 @@ void OscillationNode::putTargets(Scene& scene) {
 void OscillationNode::leaveTargets(Scene& scene) {
   putTargets(scene);
   for (PlacedNode* node : nodes_)
-    if (node && !node->moved()) node->stay(scene);
+    if (node && !node->isMovedFromOutside()) node->leaveFleet(scene);
 }
 
 /// Reports the targets' motion from since_ on to the nodes that watch them.
@@ -159,7 +159,7 @@ void OscillationNode::trace(Nanoseconds to, FrameContext& frame) {
   const Placements& placements = frame.scene.placements();
   if (putAt_ && !placements.anyWatched()) return;
   for (std::size_t k = 0; k < nodes_.size(); ++k)
-    if (nodes_[k] && !nodes_[k]->moved() && (!putAt_ || placements.watchedBelow(placements_[k])))
+    if (nodes_[k] && !nodes_[k]->isMovedFromOutside() && (!putAt_ || placements.watchedBelow(placements_[k])))
       traceOne(k, to, frame);
 }
 
@@ -191,7 +191,7 @@ void OscillationNode::jump(Nanoseconds when, FrameContext& frame) {
   const auto pose = [&](std::size_t k) { return poseOf(placements.world(placements_[k])); };
   std::vector<std::pair<std::size_t, PoseTrack*>> watched;
   for (std::size_t k = 0; k < nodes_.size(); ++k)
-    if (nodes_[k] && !nodes_[k]->moved() && placements.watchedBelow(placements_[k]))
+    if (nodes_[k] && !nodes_[k]->isMovedFromOutside() && placements.watchedBelow(placements_[k]))
       watched.emplace_back(k, &frame.scene.poseTracks().of(placements_[k], {frame.start(), pose(k), false}));
   leaveTargets(frame.scene);
   for (const auto& [k, way] : watched) way->push_back({when, pose(k), true});
@@ -206,7 +206,7 @@ void OscillationNode::onEnter(Scene& scene) {
 void OscillationNode::onLeave(Scene& scene) {
   if (fleet_ != kNoFleet) scene.placements().removeFleet(fleet_);
   for (PlacedNode* node : nodes_)
-    if (node && node->self().load != self().load && !node->moved()) node->stay(scene);
+    if (node && node->self().load != self().load && !node->isMovedFromOutside()) node->leaveFleet(scene);
   PlacedNode::onLeave(scene);
 }
 

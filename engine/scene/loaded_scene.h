@@ -59,7 +59,7 @@ struct LoadedScene {
   std::map<std::uint32_t, NodeTerms> terms;  ///< position to what a node may cost, of those that say so
   std::vector<MeshId> meshes;  ///< meshes of the load, each counted once; released with the load
 
-  /// Of a static object.
+  /// Returns the name of a static object.
   std::string nameOf(const StaticObject& object) const {
     const auto at = std::ranges::lower_bound(staticNames, object.position, {},
                                              &std::pair<std::uint32_t, const std::string*>::first);

@@ -20,16 +20,16 @@ void PlacedNode::onLeave(Scene& scene) {
 
 void PlacedNode::aboutToChange(Scene& scene) {
   scene.touch(*this);
-  letMove(scene);
+  makeMovable(scene);
 }
 
-void PlacedNode::letMove(Scene& scene) {
+void PlacedNode::makeMovable(Scene& scene) {
   if (!carriesStatics_) return;
   carriesStatics_ = false;
   scene.tree().promoteBelow(self());
 }
 
-void PlacedNode::stay(Scene& scene) {
+void PlacedNode::leaveFleet(Scene& scene) {
   X_PN_ = scene.placements().local(placement_);
   scene.touch(*this);
 }
@@ -54,7 +54,7 @@ void PlacedNode::rejoin(Scene& scene, const Affine& X_WP) {
   stay(scene);
 }
 
-void PlacedNode::becomeHome(Scene& scene, const Affine& X_WN) {
+void PlacedNode::setHome(Scene& scene, const Affine& X_WN) {
   if (place(scene, X_WN)) attributes_.X_PN = X_PN_;
 }
 
@@ -70,7 +70,7 @@ void PlacedNode::resetPlace(Scene& scene) {
 /// While a tracker moves the node, nothing else does.
 void PlacedNode::setFollowing(Held part, Scene& scene) {
   follow_ = part;
-  scene.placements().setAttached(placement_, moved());
+  scene.placements().setAttached(placement_, isMovedFromOutside());
 }
 
 void PlacedNode::follow(const Message& m, FrameContext& frame) {

@@ -18,10 +18,10 @@
 
 namespace stadion {
 
-/// How a placement is written in a script.
+/// The attributes of a node's place in a script.
 struct PlaceAttributes {
   NodeRef parent;                    ///< invalid = World, or in a sub-scene its scene node
-  Affine X_PN = Affine::Identity();  ///< where the script puts it, and where reset brings it back to
+  Affine X_PN = Affine::Identity();  ///< pose at the start and after reset
   bool shown = true;
 };
 
@@ -33,24 +33,24 @@ public:
   PlacedNode* placed() final { return this; }
   PlacementId placement() const { return placement_; }
   const PlaceAttributes& attributes() const { return attributes_; }
-  /// Moves to X_WN, which reset brings it back to from now on.
-  void becomeHome(Scene& scene, const Affine& X_WN);
+  /// Moves the node to X_WN. From now on, reset brings it back there.
+  void setHome(Scene& scene, const Affine& X_WN);
   /// Places the node below its parent, so that it is at X_WN now.
   bool place(Scene& scene, const Affine& X_WN);
   /// Places the node in World. Its parent does not carry it from now on.
   bool hold(Scene& scene, const Affine& X_WN, Held part = Held::All);
-  /// From now on another node moves the placement, as part of a fleet. Until stay(), the pose belongs to that
-  /// node's state.
-  void letMove(Scene& scene);
-  /// The node stays where its placement is, and that pose is its own state again.
-  void stay(Scene& scene);
-  /// The node was detached in this frame, when its parent was at X_WP. Its parent carries it from now on.
+  /// Makes nodes of the static objects below this node, so that it can move. A node that moves the placement
+  /// as part of a fleet calls it first. Until leaveFleet(), the pose belongs to the state of that node.
+  void makeMovable(Scene& scene);
+  /// Leaves the fleet: the node keeps its pose, which belongs to its own state again.
+  void leaveFleet(Scene& scene);
+  /// Lets the parent carry the node again. The node was detached in this frame, when the parent was at X_WP.
   void rejoin(Scene& scene, const Affine& X_WP);
   bool attached() const { return follow_ != Held::Nothing; }
   bool follows(std::string_view tracker) const { return attached() && tracker_ == tracker; }
-  /// Returns true if a tracker or a dynamics node moves it; then no path does.
-  virtual bool moved() const { return attached(); }
-  /// Static objects are below this node. They must become nodes before it may move.
+  /// Returns true if a tracker or a dynamics node moves the node. Then no path or fleet does.
+  virtual bool isMovedFromOutside() const { return attached(); }
+  /// Notes that static objects are below this node. They must become nodes before it may move.
   void carryStatics() { carriesStatics_ = true; }
 
   Rank rank() const override { return Rank::Attachment; }
@@ -73,7 +73,7 @@ protected:
   void onLeave(Scene& scene) override;
   void receive(const Message& m, FrameContext& frame) override;
   void simulate(FrameContext& frame) override;
-  /// Back to how the script placed it.
+  /// Returns the node to its pose in the script.
   void resetPlace(Scene& scene);
 
 private:
@@ -95,8 +95,8 @@ private:
   bool arrived_ = false;    ///< the node has reached the tracker
   bool shown_ = true;
   bool carriesStatics_ = false;
-  /// Where it was last put, in World if it is held. The state hash needs this beside the placement, because
-  /// the placement of a fleet's member follows the state of another node.
+  /// Last pose that was set, in World if the node is held. The state hash needs it beside the placement,
+  /// because the placement of a fleet's member follows the state of another node.
   Affine X_PN_ = Affine::Identity();
 };
 

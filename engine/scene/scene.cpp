@@ -302,7 +302,7 @@ void Scene::install(std::unique_ptr<LoadedScene> arrived, Nanoseconds at) {
 
 void Scene::promoted(Node& node, const Affine& X_WN) {
   enterNode(node);
-  node.placed()->becomeHome(*this, X_WN);
+  node.placed()->setHome(*this, X_WN);
 }
 
 void Scene::enterNode(Node& node) {

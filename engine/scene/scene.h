@@ -14,8 +14,8 @@
 ///     impacts      what dynamics found out about touches
 ///     hashes       the nodes' part of the state hash
 ///
-/// A node gets the scene with its FrameContext and uses the parts: half of the public functions give access
-/// to them. SceneSnapshot saves and restores a scene.
+/// A node gets the scene with its FrameContext and uses the parts. Half of the public functions give access
+/// to them, so there are more than 30. SceneSnapshot saves and restores a scene.
 ///
 /// Ownership  owns its parts and all installed nodes; borrows the loader and the meshes.
 /// Threads    App only. While nodes compute side by side, nothing else is in here.

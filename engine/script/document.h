@@ -78,7 +78,7 @@ public:
     const auto index = choiceIndex(attr);
     return index ? std::optional<E>(static_cast<E>(*index)) : std::nullopt;
   }
-  /// Of Choices: the words, as an enumeration.
+  /// Returns the words of an attribute of kind Choices, as an enumeration.
   template <class E>
   std::vector<E> choices(Attr attr) const {
     std::vector<E> list;

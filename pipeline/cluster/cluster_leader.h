@@ -9,6 +9,9 @@
 ///
 /// Threads  takeOver() and begin() before there is an App thread; issue(), simulated() and sampling on the
 ///          App thread; mayShow() on the Draw thread that arrived last; the rest on the network's.
+///
+/// Size     more than 20 fields: one mutex guards them, because the network's threads, App and Draw change
+///          them together.
 
 #include "engine/input/input_device.h"
 #include "pipeline/cluster/bus.h"

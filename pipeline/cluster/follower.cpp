@@ -153,7 +153,8 @@ std::optional<Joining> Follower::joinSession(std::unique_lock<std::mutex>& lock)
     return incoming_.complete() || hasEnded();
   };
   if (!await(lock, ("the scene's state from " + lead).c_str(), has) || hasEnded()) return {};
-  const auto kept = std::make_shared<const ReserveScene>(ReserveScene{incoming_.take(), show_, framesShown_});
+  const auto kept =
+      std::make_shared<const ResumableScene>(ResumableScene{incoming_.take(), show_, framesShown_});
   kept_ = kept;
   const SceneTransfer& transfer = kept->transfer;
   obeyed_ = transfer.serial, plays_ = true;
@@ -379,19 +380,19 @@ bool Follower::keepsScene() const {
   return plays_ && !differs_ && !kept_ && (isAsked || (again_ && !over_ && !double_));
 }
 
-std::shared_ptr<const ReserveScene> Follower::kept() const {
+std::shared_ptr<const ResumableScene> Follower::kept() const {
   const std::lock_guard lock(mutex_);
   return kept_;
 }
 
 void Follower::keep(const TimeSignature& last, SavedScene scene) {
-  ReserveScene kept;
+  ResumableScene kept;
   SceneTransfer& transfer = kept.transfer;
   transfer.frame = last.frame, transfer.time = last.time, transfer.scene = std::move(scene);
   const std::lock_guard lock(mutex_);
   transfer.session = joined_, transfer.serial = obeyed_, kept.show = show_;
   transfer.still = still_, transfer.presentation = presentation_, kept.framesShown = framesShown_;
-  kept_ = std::make_shared<const ReserveScene>(std::move(kept));
+  kept_ = std::make_shared<const ResumableScene>(std::move(kept));
   giveIfAsked();
 }
 

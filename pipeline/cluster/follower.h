@@ -9,6 +9,9 @@
 /// Threads  join(), next(), simulated() and sampling on the App thread (join() before there is one);
 ///          mayShow() on the Draw thread that arrived last; the rest on the network's. Scenes are sent on
 ///          threads of their own.
+///
+/// Size     more than 20 fields: one mutex guards them, because the network's threads, App and Draw change
+///          them together.
 
 #include "engine/input/input_device.h"
 #include "pipeline/cluster/bus.h"
@@ -34,10 +37,10 @@ struct FollowerOptions {
   std::size_t node = 0;
   CompatibilityKey key;
   std::function<void(const std::string&)> tell;
-  std::function<bool()> stop;                ///< the wait is no longer wanted
-  std::function<bool()> leave{};             ///< no further order is to be applied
-  std::shared_ptr<const ReserveScene> kept{};  ///< the scene that the previous follower kept
-  std::uint64_t played = 0;                  ///< the previous follower's session; 0: there was none
+  std::function<bool()> stop;                    ///< the wait is no longer wanted
+  std::function<bool()> leave{};                 ///< no further order is to be applied
+  std::shared_ptr<const ResumableScene> kept{};  ///< the scene that the previous follower kept
+  std::uint64_t played = 0;                      ///< the previous follower's session; 0: there was none
 };
 
 /// How the show is to be opened.
@@ -90,7 +93,7 @@ public:
   /// Keeps the current scene; `last` is the frame simulated last. Any node that asks gets it.
   void keep(const TimeSignature& last, SavedScene scene);
   /// Returns the kept scene; null if there is none, or if it differs from the others' scene.
-  std::shared_ptr<const ReserveScene> kept() const;
+  std::shared_ptr<const ResumableScene> kept() const;
   ClusterStats stats() const;
   void finish();
 
@@ -147,11 +150,11 @@ private:
   std::deque<std::pair<std::uint64_t, bool>>
       shows_;  ///< orders applied and not yet shown: whether we draw them
   bool again_ = false, double_ = false, refused_ = false;
-  bool over_ = false;                       ///< the leader has ended the show
-  bool plays_ = false;                      ///< there is a scene from which the show can go on
-  bool differs_ = false;                    ///< but it is not that of the others
-  std::shared_ptr<const ReserveScene> kept_;  ///< until there is another one
-  std::uint64_t given_ = 0;                 ///< session of the leader to which it was sent
+  bool over_ = false;                           ///< the leader has ended the show
+  bool plays_ = false;                          ///< there is a scene from which the show can go on
+  bool differs_ = false;                        ///< but it is not that of the others
+  std::shared_ptr<const ResumableScene> kept_;  ///< until there is another one
+  std::uint64_t given_ = 0;                     ///< session of the leader to which it was sent
   std::vector<std::thread> giving_;
   InputSample sample_;
   bool sampled_ = false;

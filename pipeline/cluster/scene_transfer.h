@@ -30,7 +30,7 @@ struct SceneTransfer {
 
 /// A scene that a host keeps ready while it plays no show, so that a crashed leader does not lose it.
 /// `transfer` names its session and its last order.
-struct ReserveScene {
+struct ResumableScene {
   SceneTransfer transfer;
   std::uint64_t show = 0;         ///< CompatibilityKey::show() of that session
   std::uint64_t framesShown = 0;  ///< Follower::framesShown_ then

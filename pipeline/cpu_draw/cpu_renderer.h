@@ -63,7 +63,7 @@ public:
   const ViewTotals& totals() const override { return totals_; }
   void forgetTotals() override { totals_ = {}; }
   std::string description() const override;
-  /// Of a view's last picture.
+  /// Returns the counts of a view's last picture.
   const DrawCounts& counts(std::uint32_t view) const { return pictures_[view].counts; }
   /// From the next list on. Expects the same look.
   void setRung(const PictureRung& rung) { rung_ = rung; }

@@ -26,7 +26,7 @@ public:
   struct View {
     const DrawList& list;
     std::uint32_t number;
-    PictureShading shading;  ///< its picture is left as it is
+    PictureShading shading;  ///< shading of the view's picture, which is not changed
   };
   /// Measures some objects of the view, and the picture without objects.
   void sampleSome(const View& view, FrameProbe& probe);
@@ -52,13 +52,13 @@ private:
   CpuMeshCache& meshes_;
   BandMemory& bands_;
   PictureSetup setup_;
-  std::vector<const DrawItem*> seen_;  ///< of the view; first the opaque ones
-  std::vector<float> work_;            ///< of each
-  std::uint64_t triangles_ = 0;        ///< of the item whose work was asked for last
+  std::vector<const DrawItem*> seen_;  ///< objects that the view sees, opaque ones first
+  std::vector<float> work_;            ///< by object: its work
+  std::uint64_t triangles_ = 0;        ///< triangles of the object whose work was computed last
   std::size_t opaque_ = 0;
   float all_ = 0;  ///< the work of all of them
   std::vector<Piece> pieces_;
-  std::vector<std::size_t> wanted_;  ///< of the pieces, those that the probe wants to know
+  std::vector<std::size_t> wanted_;  ///< numbers of the pieces that the probe asks for
   std::vector<NodeRef> owners_;
   std::vector<NodeShare> shares_;
   std::vector<std::size_t> touched_;  ///< bands

@@ -54,7 +54,7 @@ template <class F>
   return v.normal[plane][0] * x + (v.normal[plane][1] * y + (v.normal[plane][2] * z + v.offset[plane]));
 }
 
-/// Of as many spheres of a group as F has lanes, from lane `first`.
+/// As many spheres of a group as F has lanes, from lane `first`.
 template <class F>
 struct Spheres {
   F x, y, z, radius, rounding;
@@ -110,7 +110,7 @@ struct Boxes {
   }
 };
 
-/// Of a whole group.
+/// All bounds of a group.
 template <class F, template <class> class Bounds>
 struct Group {
   static constexpr unsigned kLanes = sizeof(F) / sizeof(float), kParts = kLanesOfAGroup / kLanes;

@@ -9,7 +9,7 @@
 
 namespace stadion {
 
-/// Of a volume, in a tree's coordinates: inside is normal . p + offset >= 0.
+/// The planes of a volume, in a tree's coordinates: inside is normal . p + offset >= 0.
 struct VolumePlanes {
   float normal[8][3];
   float offset[8];
@@ -35,11 +35,12 @@ struct TreeSphere {
 };
 
 struct BoundsKernels {
-  /// Of boxes: writes to `out`, which has room for eight times `groups`, those that any volume may touch, as
-  /// groups of the level below, and returns how many. `nodes`: of the level. `tested[v]` counts bounds.
+  /// Tests boxes. Writes to `out` the boxes that any volume may touch, as groups of the level below, and
+  /// returns their number. `out` has room for eight times `groups`. `nodes`: number of nodes of the level.
+  /// `tested[v]` counts bounds.
   unsigned (*boxes)(const float* boxes, unsigned nodes, const VolumePlanes* volumes, const TreeGroup* in,
                     unsigned groups, TreeGroup* out, unsigned long long* tested);
-  /// Of spheres likewise.
+  /// Tests spheres in the same way.
   unsigned (*spheres)(const float* spheres, unsigned nodes, const VolumePlanes* volumes, const TreeGroup* in,
                       unsigned groups, TreeSphere* out, unsigned long long* tested);
 };

@@ -32,7 +32,7 @@ struct CullOptions {
 /// Fills a wall's draw lists, frame by frame, and keeps what memory that takes.
 class WallCull {
 public:
-  /// Of wall number `wall` of the room.
+  /// Expects that the room has a wall of number `wall`.
   WallCull(const CullParts& parts, std::uint32_t wall);
 
   /// Fills all but the ticket. The items come last, and ListFilling, if there is one, hears of each.

@@ -63,7 +63,7 @@ private:
   static_assert(DrawList::kMostViews <= 8, "a byte has a bit for each view");
   std::array<Sides, DrawList::kMostViews> sides_;
   std::array<Lens, DrawList::kMostViews> lenses_;
-  /// Of radius by depth: what is larger is a pixel wide or more. 0 = nothing is looked at so closely.
+  /// Ratio of radius and depth from which an object is at least a pixel wide. 0 = no object is left out.
   float smallFrom_ = 0;
 };
 

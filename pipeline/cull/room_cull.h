@@ -55,7 +55,7 @@ public:
     Found* found_;
   };
 
-  /// Of any number of walls, in their order.
+  /// Searches for any number of walls, in their order.
   explicit RoomCull(std::vector<WallViews> walls, const BoundsKernels& kernels = bestBounds());
   ~RoomCull();
 

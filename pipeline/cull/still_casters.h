@@ -54,7 +54,8 @@ private:
     std::uint64_t version = 0;
     RingCasters casters;
   };
-  /// Of each ring, the newest first: while walls are at different frames, two are asked for in turn.
+  /// Number of places that are kept for each ring, the newest first. While walls are at different frames, two
+  /// are asked for in turn.
   static constexpr std::size_t kKept = 2;
 
   std::mutex mutex_;

@@ -60,7 +60,7 @@ public:
 
   std::uint32_t width() const { return context_.width; }    ///< [pixels]
   std::uint32_t height() const { return context_.height; }  ///< [pixels]
-  /// Of the view that was drawn last.
+  /// Returns the counts of the view that was drawn last.
   const DrawCounts& counts() const { return scene_.calls().counts(); }
   std::size_t meshesHeld() const { return scene_.meshes().size(); }
   /// Returns true if there are buffers for transparent objects: not before the first one is seen.

@@ -55,7 +55,7 @@ public:
     await(kAll - 1);
     return !isVoid();
   }
-  /// Of what has finished, or was stopped.
+  /// Returns true if the finished or stopped list is void.
   bool isVoid() const {
     const std::lock_guard lock(mutex_);
     return void_ || (stopped_ && there_ != kAll);

@@ -5,6 +5,8 @@
 /// the same stages on one App thread and, for each wall, one Cull and one Draw thread, so that App works on
 /// frame n + 2 while Cull works on n + 1 and Draw on n. Both give the same pixels and the same state, frame
 /// by frame.
+///
+/// Size     FrameLoop has more than 20 fields: the state of a frame that App, Cull, Draw and the swap share.
 
 #include "engine/base/time_signature.h"
 #include "engine/core/cost_budget.h"

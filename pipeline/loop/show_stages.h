@@ -57,6 +57,7 @@ struct WallWorkers {
   std::function<void(const std::string&)> tell{};  ///< receives reports about processes; on Draw threads
 };
 
+/// The arguments of ShowStages. It has more than 20 fields, because each is an argument, most with a default.
 struct ShowParts {
   Scene& scene;
   SceneState& state;
@@ -112,7 +113,7 @@ public:
 
   /// Returns the pictures of the frame drawn last, with its number. For use after the run.
   const std::vector<EyePictures>& lastPictures() const { return pictures_; }
-  /// Of wall `wall`, by view: what it was drawn with in all. For when the run is over.
+  /// Returns the totals of a wall, by view. For use after the run.
   const ViewTotals& drawn(std::size_t wall) const { return drawn_[wall].totals; }
   std::string drawnBy() const { return drawnBy_; }
   /// For use after the run.

@@ -31,7 +31,7 @@ private:
   std::array<std::array<std::uint8_t, 256>, 3> channels_{};
 };
 
-/// Of an anaglyph: the left eye's luminance as the value of red.
+/// The red value of an anaglyph: the left eye's luminance.
 class AnaglyphRed {
 public:
   explicit AnaglyphRed(const OutputShape& shape);

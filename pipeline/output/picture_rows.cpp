@@ -11,13 +11,22 @@ static_assert(std::endian::native == std::endian::little, "pixels are read as wo
 
 constexpr std::uint32_t kOpaqueBlack = 0xff000000;
 
-/// (1 - weight / 256) * a + weight / 256 * b, of each channel, rounded.
-std::uint32_t mixed(std::uint32_t a, std::uint32_t b, std::uint32_t weight) {
-  constexpr std::uint32_t kTwo = 0x00ff00ff, kHalves = 0x00800080;
+/// (1 - weight / 256) * a + weight / 256 * b, of each channel of one pixel or two, rounded.
+template <class Pixels>
+Pixels mixed(Pixels a, Pixels b, std::uint32_t weight) {
+  constexpr auto kEven = static_cast<Pixels>(0x00ff00ff00ff00ff),
+                 kHalves = static_cast<Pixels>(0x0080008000800080);
   const std::uint32_t rest = 256 - weight;
-  const std::uint32_t even = (a & kTwo) * rest + (b & kTwo) * weight + kHalves;
-  const std::uint32_t odd = (a >> 8 & kTwo) * rest + (b >> 8 & kTwo) * weight + kHalves;
-  return (even >> 8 & kTwo) | (odd & ~kTwo);
+  const Pixels even = (a & kEven) * rest + (b & kEven) * weight + kHalves;
+  const Pixels odd = (a >> 8 & kEven) * rest + (b >> 8 & kEven) * weight + kHalves;
+  return (even >> 8 & kEven) | (odd & ~kEven);
+}
+
+/// A pixel and the one to its right.
+std::uint64_t pairAt(const std::uint8_t* place) {
+  std::uint64_t pair = 0;
+  std::memcpy(&pair, place, sizeof pair);
+  return pair;
 }
 
 /// The same for whole rows, as bytes, which the compiler makes vectors of.
@@ -45,7 +54,8 @@ PictureRows::PictureRows(const Picture& picture, const OutputShape& shape, std::
   const bool across = shape.rotate % 180 == 90;
   const bool same = picture.width == (across ? height : width) && picture.height == (across ? width : height);
   way_ = shape.warp ? Way::Warped : same ? Way::Copied : across ? Way::Warped : Way::Stretched;
-  if (way_ == Way::Warped) across_.resize(width), down_.resize(width);
+  if (way_ == Way::Warped)
+    for (std::vector<float>* v : {&across_, &down_, &depth_}) v->resize(width);
   if (way_ != Way::Stretched) return;
   for (std::vector<std::uint32_t>& row : wide_) row.resize(width);
   columns_.reserve(width);
@@ -63,9 +73,14 @@ void PictureRows::read(std::uint32_t y, std::uint32_t begin, std::span<std::uint
   }
 }
 
+/// The place between the middles of pixels, in 1/256 of a pixel from the middle of the first one.
+std::int32_t PictureRows::placeOf(float share, std::uint32_t size) {
+  return static_cast<std::int32_t>(share * static_cast<float>(size) * 256 + 0.5f) - 128;
+}
+
 PictureRows::Between PictureRows::between(float share, std::uint32_t size) {
   const auto last = static_cast<std::int32_t>(size) - 1;
-  const std::int32_t place = static_cast<std::int32_t>(share * static_cast<float>(size) * 256) - 128;
+  const std::int32_t place = placeOf(share, size);
   const auto neighbour = [&](std::int32_t at) { return static_cast<std::uint32_t>(std::clamp(at, 0, last)); };
   return {neighbour(place >> 8), neighbour((place >> 8) + 1), static_cast<std::uint32_t>(place & 255)};
 }
@@ -118,20 +133,32 @@ const std::vector<std::uint32_t>& PictureRows::wideRow(std::uint32_t y) {
 }
 
 void PictureRows::warp(std::uint32_t y, std::uint32_t begin, std::span<std::uint32_t> pixels) {
-  const auto& m = toPicture_;
-  const float t = down(y);
-  const auto width = static_cast<float>(width_);
-  for (std::size_t i = 0; i < pixels.size(); ++i) {
-    const float s = (static_cast<float>(static_cast<std::int32_t>(begin + i)) + 0.5f) / width;
+  const std::array<float, 9> m = toPicture_;
+  const float t = down(y), width = static_cast<float>(width_);
+  float *const right = across_.data(), *const below = down_.data(), *const depth = depth_.data();
+  const auto first = static_cast<std::int32_t>(begin), count = static_cast<std::int32_t>(pixels.size());
+  for (std::int32_t i = 0; i < count; ++i) {  // without a branch: the compiler makes vectors of it
+    const float s = (static_cast<float>(first + i) + 0.5f) / width;
     const float z = m[6] * s + m[7] * t + m[8];
-    across_[i] = z > 0 ? (m[0] * s + m[1] * t + m[2]) / z : -1.f;
-    down_[i] = z > 0 ? (m[3] * s + m[4] * t + m[5]) / z : -1.f;
+    depth[i] = z, right[i] = (m[0] * s + m[1] * t + m[2]) / z, below[i] = (m[3] * s + m[4] * t + m[5]) / z;
   }
-  for (std::size_t i = 0; i < pixels.size(); ++i) pixels[i] = sample(across_[i], down_[i]);
+  for (std::int32_t i = 0; i < count; ++i)
+    pixels[static_cast<std::size_t>(i)] = depth[i] > 0 ? sample(right[i], below[i]) : kOpaqueBlack;
 }
 
 std::uint32_t PictureRows::sample(float across, float down) const {
   if (!(across >= 0 && across <= 1 && down >= 0 && down <= 1)) return kOpaqueBlack;
+  const std::int32_t right = placeOf(across, picture_.width), below = placeOf(down, picture_.height);
+  const auto column = static_cast<std::uint32_t>(right >> 8), row = static_cast<std::uint32_t>(below >> 8);
+  if (column < picture_.width - 1 && row < picture_.height - 1) {  // all four are there
+    const std::uint64_t upper = pairAt(picture_.at(column, row)),
+                        lower = pairAt(picture_.at(column, row + 1));
+    const std::uint64_t first = (upper & 0xffffffff) | lower << 32;
+    const std::uint64_t second = upper >> 32 | (lower >> 32 << 32);
+    const std::uint64_t both = mixed(first, second, static_cast<std::uint32_t>(right & 255));
+    return mixed(static_cast<std::uint32_t>(both), static_cast<std::uint32_t>(both >> 32),
+                 static_cast<std::uint32_t>(below & 255));
+  }
   const Between x = between(across, picture_.width), y = between(down, picture_.height);
   return mixed(mixed(pixel(x.first, y.first), pixel(x.second, y.first), x.weight),
                mixed(pixel(x.first, y.second), pixel(x.second, y.second), x.weight), y.weight);

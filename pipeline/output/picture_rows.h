@@ -32,6 +32,7 @@ private:
     std::uint32_t first, second, weight;
   };
 
+  static std::int32_t placeOf(float share, std::uint32_t size);
   static Between between(float share, std::uint32_t size);
   float down(std::uint32_t y) const;
   void copy(std::uint32_t y, std::uint32_t begin, std::span<std::uint32_t> pixels) const;
@@ -47,8 +48,8 @@ private:
   Way way_;
   std::vector<Between> columns_;                    ///< Stretched: by column of the place
   std::array<std::vector<std::uint32_t>, 2> wide_;  ///< Stretched: rows of the picture, as wide as the place
-  std::array<std::uint32_t, 2> wideOf_{~0u, ~0u};   ///< their numbers
-  std::vector<float> across_, down_;                ///< Warped: shares of the picture; below 0 = outside
+  std::array<std::uint32_t, 2> wideOf_{~0u, ~0u};   ///< numbers of these rows in the picture
+  std::vector<float> across_, down_, depth_;  ///< Warped: shares of the picture; behind it if not above 0
 };
 
 }  // namespace stadion

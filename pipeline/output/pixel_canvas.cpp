@@ -13,9 +13,14 @@ std::uint32_t redAndBlueSwapped(std::uint32_t p) {
   return (p & 0xff00ff00) | (p & 0xff) << 16 | (p >> 16 & 0xff);
 }
 
-/// `over` with an opacity of 0 to 255 on `under`, of one channel; rounded.
+/// a * b / 255, rounded.
+std::uint32_t product(std::uint32_t a, std::uint32_t b) {
+  return (a * b + 127) / 255;
+}
+
+/// `over` with an opacity of 0 to 255 on `under`, of one channel. Both parts are rounded, as OpenGL does.
 std::uint32_t laid(std::uint32_t over, std::uint32_t under, std::uint32_t opacity) {
-  return (over * opacity + under * (255 - opacity) + 127) / 255;
+  return std::min(product(over, opacity) + product(under, 255 - opacity), 255u);
 }
 
 }  // namespace

@@ -31,7 +31,7 @@ public:
 
 private:
   using Eyes = std::array<const Picture*, 2>;  ///< left, right; null: no picture
-  /// Of a wall, while its shape is the same.
+  /// The colours of a wall, while its shape is the same.
   struct Colours {
     explicit Colours(const OutputShape& s) : shape(s), values(s), red(s) {}
     OutputShape shape;
@@ -58,7 +58,7 @@ private:
   PixelRows rows_;
   PixelRectangle clip_;
   bool clear_ = false;                      ///< nothing of the last content is left
-  std::vector<std::uint32_t> row_, other_;  ///< of a pane
+  std::vector<std::uint32_t> row_, other_;  ///< rows of a pane
 };
 
 }  // namespace stadion

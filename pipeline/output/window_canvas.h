@@ -29,10 +29,10 @@ struct CanvasPane {
   std::uint32_t width = 0, height = 0;  ///< [pixels]
   EyeMix mix = EyeMix::Left;
   OutputShape shape{};
-  std::int32_t firstRow = 0;  ///< of Interlaced: the monitor's row that shows the top row of the window
+  std::int32_t firstRow = 0;  ///< for Interlaced: the monitor's row that shows the top row of the window
 };
 
-/// What is drawn: the window, or one of its buffers for each eye.
+/// The target of drawing: the window, or one of its buffers for each eye.
 enum class CanvasBuffer { Whole, Left, Right };
 
 class WindowCanvas {

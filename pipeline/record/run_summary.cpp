@@ -159,7 +159,8 @@ std::string toText(const RunSummary& s) {
   if (!s.howDrawn.chosen.empty())
     text += fmt::format("  renderer {}: {}\n", s.howDrawn.renderer, s.howDrawn.chosen);
   if (s.warmUpMs > 0)
-    text += fmt::format("  warm-up {:.3f} s before the first frame: shaders, uploads\n", s.warmUpMs / 1000);
+    text += fmt::format("  warm-up {:.3f} s before the first frame: {}\n", s.warmUpMs / 1000,
+                        s.howDrawn.renderer == "cpu" ? "meshes, textures" : "shaders, uploads");
   if (s.frameMs.count + s.stages.size() + s.latency.size() > 0)
     text += fmt::format("  {:<16} {:<12} {:>9} {:>9} {:>9} {:>9}\n", "milliseconds", "wall", "p50", "p95",
                         "p99", "max");

@@ -122,16 +122,17 @@ struct StressFelt {
   std::uint64_t changes = 0;
 };
 
-/// What drew the walls, threads or processes, and the reasons.
+/// The renderer of the walls, threads or processes, and the reasons.
 struct HowDrawn {
   std::string renderer;       ///< cpu or gl
   std::string chosen;         ///< why this renderer; empty: it was asked for
   std::string workers;        ///< thread or process; empty: nothing was drawn
-  std::uint32_t threads = 0;  ///< of the CPU renderer or of OpenGL's rasteriser, in each process
+  std::uint32_t threads = 0;  ///< threads of the CPU renderer or of OpenGL's rasteriser, in each process
   bool pinned = false;
   std::string why, text;  ///< `text`: the same in words
 };
 
+/// A run's results. It has more than 20 fields: one for each figure of the report.
 struct RunSummary {
   static constexpr std::size_t kMostHappenings = 5'000;  ///< kept; a show may run for days
   static constexpr std::size_t kHappeningsTold = 200;    ///< lines in the text

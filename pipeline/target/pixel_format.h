@@ -12,7 +12,7 @@
 namespace stadion {
 
 struct PixelFormat {
-  std::uint32_t bits = 32;                                    ///< of a pixel in memory: 16, 24 or 32
+  std::uint32_t bits = 32;  ///< size of a pixel in memory: 16, 24 or 32 [bits]
   std::uint32_t red = 0xff0000, green = 0xff00, blue = 0xff;  ///< the bits of each channel
   bool lowFirst = true;                                       ///< the byte of the lowest bits comes first
 

@@ -35,7 +35,7 @@ struct Reason {
   Reason(std::string what) : message(std::move(what)) {}
   Reason(const char* what) : message(what) {}
   Reason(std::string what, FailureKind whose) : message(std::move(what)), kind(whose) {}
-  /// Of a finding: its file comes first.
+  /// Makes the reason from a finding: its file comes first.
   explicit Reason(const Diagnostic& d, FailureKind whose = FailureKind::Fault)
       : message(d.where.file.empty() ? d.message : d.where.file + ": " + d.message), kind(whose) {}
 

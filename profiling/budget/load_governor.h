@@ -9,6 +9,9 @@
 /// Decisions are made on the log's thread; App takes them at the start of its next frame.
 ///
 /// Threads  SpanReader's on the log's thread; decide() and see() on App's; reports from any.
+///
+/// Size     more than 20 fields: one mutex guards them, because a decision reads costs, levels and reports
+///          together.
 
 #include "engine/core/cost_budget.h"
 #include "profiling/budget/node_costs.h"

@@ -57,7 +57,8 @@ std::vector<Use> usesOf(const Schedule& s, const Window& w, const Plan& plan) {
   const auto inTurn = [&](const Bar& b) {
     return b.what == Doing::Calls || (plan.waitsInTurn && b.what == Doing::ForPixels);
   };
-  if (plan.pipelined && plan.walls > 1 && plan.machines == 1 && plan.rasterisers == 1)
+  const bool takesTurns = plan.takesTurns && plan.walls > 1 && plan.rasterisers == 1;
+  if (takesTurns && plan.pipelined && plan.machines == 1)
     uses.push_back({"turns of the walls", timeIn(s, w, inTurn) / length});
   return uses;
 }

@@ -52,7 +52,8 @@ struct Overrun {
   double ms = 0, budget = 0;
 };
 
-/// The facts of a frame that do not grow with the number of walls.
+/// The facts of a frame that do not grow with the number of walls. It has more than 20 fields: one for each
+/// fact, at a fixed place of the file.
 struct FrameRecord {
   std::uint64_t frame = kNoFrame;
   float period = 0;  ///< since the frame before was shown

@@ -167,7 +167,7 @@ void FrameLog::began(Span what, NodeRef node) {
   }
   SpanTrack& t = track();
   if (what == Span::Settle) t.count();
-  if (what == Span::Workers) crew_.store(true, std::memory_order_relaxed);
+  if (what == Span::Workers) inParallel_.store(true, std::memory_order_relaxed);
   const std::uint64_t frame = t.frame();
   t.began(what, frame != kNoFrame ? frame : appFrame_.load(std::memory_order_relaxed), t.wall(), node);
 }
@@ -175,7 +175,7 @@ void FrameLog::began(Span what, NodeRef node) {
 // A visit lasts from the previous one to the node's Settle. Nodes that simulate in parallel are
 // distinguished.
 void FrameLog::beganInVisit(Span what, NodeRef node) {
-  const bool aside = what == Span::Simulate && crew_.load(std::memory_order_relaxed);
+  const bool aside = what == Span::Simulate && inParallel_.load(std::memory_order_relaxed);
   if (what != Span::Settle && !aside) return;
   SpanTrack& t = track();
   if (aside) t.beginLightly();
@@ -185,13 +185,13 @@ void FrameLog::beganInVisit(Span what, NodeRef node) {
 void FrameLog::ended(Span what) {
   const bool light = light_.load(std::memory_order_relaxed);
   if (light && isOfVisit(what)) {
-    const bool aside = what == Span::Simulate && crew_.load(std::memory_order_relaxed);
+    const bool aside = what == Span::Simulate && inParallel_.load(std::memory_order_relaxed);
     if (what == Span::Settle || aside) endedVisit();
     // The nodes to visit are known, for all of them.
     if (what == Span::Mail && !std::exchange(called_, true)) track().beginLightly();
     return;
   }
-  if (what == Span::Workers) crew_.store(false, std::memory_order_relaxed);
+  if (what == Span::Workers) inParallel_.store(false, std::memory_order_relaxed);
   SpanTrack& t = track();
   if (light && what == Span::App) tellShortVisits();
   t.ended();

@@ -17,6 +17,9 @@
 /// Threads    the probe's functions on the threads that do the work; the readers' on one thread of the log's
 ///            own, and on finish()'s once that has ended.
 /// Ownership  the readers must outlive it.
+///
+/// Size       more than 20 fields: those of the probe on each thread, and those that the collector takes over
+///            from them under one mutex.
 
 #include "profiling/record/node_accounts.h"
 #include "profiling/record/span_track.h"
@@ -141,7 +144,7 @@ private:
                           ///< logs
   std::atomic<std::uint64_t> appFrame_ = kNoFrame;
   std::atomic<bool> light_ = false;  ///< App's frame is not recorded as a whole
-  std::atomic<bool> crew_ = false;   ///< nodes simulate in parallel, on App's thread and on others
+  std::atomic<bool> inParallel_ = false;  ///< nodes simulate in parallel, on App's thread and on others
   std::uint64_t nextWhole_ = 0;      ///< used by App only
   bool called_ = false;              ///< used by App only: the nodes to visit in this frame are known
   std::uint64_t dearTicks_ = 0;      ///< kDear

@@ -23,7 +23,7 @@ struct BaselineCase {
   RunFacts facts;
   std::string states;  ///< state hashes of frames, shortened; empty in older files
   std::map<std::uint64_t, std::string>
-      fields;  ///< of nodes after some frames, by frame; absent in older files
+      fields;  ///< fields of nodes after some frames, by frame; absent in older files
   std::map<std::string, std::vector<double>> times;  ///< by stage, round by round
   KeptStages frames;  ///< times of all frames in these rounds; absent in files of version 1
   std::map<std::string, double> instructions;  ///< by stage

@@ -19,6 +19,7 @@ struct NodeOnWall {
   std::array<bool, 2> drawMeasured{true, true};
 };
 
+/// The costs of a node. It has more than 20 fields: one for each figure of the row.
 struct NodeRow {
   NodeRef node;
   NodeName name;

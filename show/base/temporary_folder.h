@@ -21,7 +21,7 @@ public:
   TemporaryFolder(const TemporaryFolder&) = delete;
   TemporaryFolder& operator=(const TemporaryFolder&) = delete;
 
-  /// Of a file in it. (If there is no folder, writing the file fails and says so.)
+  /// Returns the path of a file in the folder. (If there is no folder, writing the file fails and says so.)
   std::string path(const std::string& name) const { return path_ + "/" + name; }
 
 private:

@@ -2,7 +2,7 @@
 
 namespace stadion {
 
-/// Of the program, as CMakeLists.txt has it.
+/// Version of the program, as in CMakeLists.txt.
 inline constexpr const char* kVersion = "0.1.0";
 
 }  // namespace stadion

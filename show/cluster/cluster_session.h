@@ -39,7 +39,8 @@ public:
   bool join(ShowOptions& show, Diagnostics& findings);
   /// The show was already playing when this machine joined it.
   bool goesOn() const { return goesOn_; }
-  /// Of a show that goes on, once it has been opened: whether the other machines play it with the same files.
+  /// Returns true if the other machines play the same files. For a show that goes on, once it has been
+  /// opened.
   bool hasFiles(const Scene& scene) const { return SceneSnapshot::filesOf(scene) == files_; }
   /// The files differ, or the snapshot that was sent cannot be restored with them. A follower may come again
   /// when they are equal.
@@ -100,7 +101,7 @@ private:
   TimeSignature last_;                     ///< simulated
   std::unique_ptr<cluster::ClusterLeader> lead_;
   std::unique_ptr<cluster::Follower> follower_;
-  std::shared_ptr<const cluster::ReserveScene> kept_;  ///< of the show that the follower before played
+  std::shared_ptr<const cluster::ResumableScene> kept_;  ///< scene of the show that the follower played before
 };
 
 }  // namespace stadion

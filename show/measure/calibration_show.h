@@ -8,7 +8,7 @@
 
 namespace stadion {
 
-/// Of the show that writeCalibrationShow() leaves in the folder.
+/// Returns the script that writeCalibrationShow() leaves in the folder.
 std::string calibrationScript(const std::string& folder);
 
 /// Writes script and model to the folder. Returns why it could not, or nothing.

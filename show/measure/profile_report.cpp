@@ -30,7 +30,7 @@ std::string wallsText(const ProfileRunOptions& o, const Player& player) {
   return text;
 }
 
-std::string rasteriserText(const ProfileRunOptions& o, const std::string& gl) {
+std::string rasteriserText(const std::string& gl) {
   if (gl.empty()) return "none: App and Cull alone";
   return !drawnBySoftware(gl) ? gl : gl + ", " + rasteriserThreadsText();
 }
@@ -74,7 +74,7 @@ ReportHead reportHead(const ProfileRunOptions& o, const Player& player, const st
   add("walls", wallsText(o, player));
   add("eyes", o.layout == StereoLayout::Off ? "one" : "two");
   add("mode", o.show.mode);
-  add("drawn by", rasteriserText(o, gl));
+  add("drawn by", rasteriserText(gl));
   add("App threads",
       o.show.appThreads > 0 ? std::to_string(o.show.appThreads) : "as many as processors, 8 at most");
   add("processors", std::to_string(std::thread::hardware_concurrency()));

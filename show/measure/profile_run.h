@@ -23,8 +23,8 @@ struct ProfileRunOptions {
   bool fidelityAsked = false;  ///< for the report; else if it takes seconds only
 };
 
-/// What `profile --out DIR` writes: the page, the figures as JSON and CSV, and, if they were asked for, the
-/// errors of bodies' models as JSON.
+/// Returns the files that `profile --out DIR` writes: the page, the figures as JSON and CSV, and, if asked
+/// for, the errors of bodies' models as JSON.
 OutputFiles profileFiles(const std::string& folder, bool fidelityAsked);
 
 /// Null, with the reason in the findings, if a file or an option is wrong, or the show could not go on, which

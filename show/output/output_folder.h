@@ -22,8 +22,8 @@ public:
   /// Makes the folder if need be. The error says why a run cannot write there (or that another one does).
   static Result<std::unique_ptr<OutputFolder>> open(const std::string& path);
 
-  /// Of a folder that need not be there: what every run may write into it, and besides, of the files that are
-  /// there, those that a run would remove or may write over, by their names.
+  /// Returns the names of all files that a run may write into the folder, which need not exist. Adds existing
+  /// files there that a run would remove or overwrite.
   static std::vector<std::string> namesOfRuns(const std::string& path);
 
   /// Removes the files of the run before. Returns how many there were.

@@ -19,7 +19,7 @@
 
 namespace stadion {
 
-/// Of which frames pictures are written.
+/// The frames whose pictures are written.
 struct PictureChoice {
   enum class Kind { None, Last, All, EveryNth } kind = Kind::Last;
   std::uint64_t n = 1;

@@ -32,7 +32,8 @@ struct DrawingNeeds {
   std::string here{};  ///< why this program must draw itself; empty: others may
   std::size_t walls = 1;
   std::string look = "full";
-  std::uint32_t cpuThreads = 0;  ///< of the CPU renderer, on all processors that may draw; 0: OpenGL draws
+  /// Threads of the CPU renderer, on all processors that may draw; 0: OpenGL draws.
+  std::uint32_t cpuThreads = 0;
 };
 
 class DrawingPlan {

@@ -200,8 +200,12 @@ PixelSize Player::pixelsOf(const WallEntry& entry) const {
 }
 
 ShowParts Player::parts(StereoLayout stereo, InputDevice* instead) {
-  ShowParts parts{*scene_, state_, *meshes_, instead ? *instead : input(), {}, nullptr, nullptr, nullptr,
-                  true,    {},     nullptr};
+  ShowParts parts{.scene = *scene_,
+                  .state = state_,
+                  .meshes = *meshes_,
+                  .input = instead ? *instead : input(),
+                  .walls = {},
+                  .observer = {}};
   if (options_.look == "plain") parts.quality = RenderQuality::plain();
   for (const WallEntry& entry : walls_.walls) {
     WallViews wall{.name = entry.wall.name, .views = viewsOf(entry.wall, eyeCount(stereo) == 2)};

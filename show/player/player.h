@@ -1,6 +1,8 @@
 #pragma once
-/// A show with all its parts: script, walls, input, scene and loader. The parts of its stages are made from
-/// it.
+/// A show with all its parts: script, walls, input, scene and loader. ShowStages borrows them.
+///
+/// Size     Player has more than 20 fields: each of these parts is one, in the order in which they need each
+///          other.
 
 #include "dynamics/nodes/body_maker.h"
 #include "engine/asset/import.h"

@@ -21,7 +21,7 @@ namespace stadion {
 
 struct ShowParts;
 
-/// What is asked to draw.
+/// The renderer that the user asks for.
 enum class RendererChoice : std::uint8_t {
   Auto,  ///< OpenGL on a graphics card if there is one, else the processors
   Cpu,   ///< the processors, without OpenGL
@@ -33,7 +33,7 @@ struct RendererSettings {
   RendererChoice choice = RendererChoice::Auto;
   /// The implementation of OpenGL; nothing: EGL with a graphics card, else OSMesa.
   std::optional<GlProviderKind> gl{};
-  std::uint32_t threads = 0;  ///< that draw without OpenGL; 0: one for each processor of this process
+  std::uint32_t threads = 0;  ///< threads that draw without OpenGL; 0: one for each processor of this process
 
   bool drawsNothing() const { return choice == RendererChoice::None; }
 };

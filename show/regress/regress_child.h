@@ -38,7 +38,7 @@ std::pair<ChildResult, ChildResult> runInTurns(const std::vector<std::string>& f
 /// The content of a file; empty if it cannot be read.
 std::string textOf(const std::string& file);
 
-/// Of what a program said that did what was asked: what it found wrong nonetheless, each once.
+/// Returns the warnings in the output of a program that succeeded, each once.
 std::vector<std::string> warningsIn(const std::string& said);
 
 /// `PROGRAM run SHOW ... --json`, as the case has it.

@@ -48,7 +48,7 @@ struct CountedInstructions {
 enum class CountedBy { Hardware, Callgrind };
 std::string_view nameOf(CountedBy by);
 
-/// Of at most kCountedFrames frames of the case, drawn or not.
+/// Counts the instructions of at most kCountedFrames frames of the case, drawn or not.
 CountedInstructions countInstructions(const regression::SuiteCase& c, const MeasuredProgram& program,
                                       bool drawn, const MeasuringOptions& options,
                                       CountedBy by = CountedBy::Callgrind);

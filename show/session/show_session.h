@@ -36,7 +36,7 @@ public:
   SessionEnd play();
 
   SessionEnd end() const { return end_; }
-  /// Of the last show. Null if none was played to its end.
+  /// Returns the report of the last show. Null if none was played to its end.
   const SessionReport* report() const { return report_ ? &*report_ : nullptr; }
   /// Expects an open show.
   const Player& player() const;

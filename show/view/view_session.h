@@ -7,6 +7,8 @@
 ///
 /// Ownership  the reporter must outlive it.
 /// Threads    main.
+///
+/// Size     more than 20 fields: each part of the session is one, in the order in which they need each other.
 
 #include "pipeline/loop/picture_mailbox.h"
 #include "pipeline/record/run_summary.h"

@@ -22,7 +22,7 @@ public:
   static std::unique_ptr<ViewWindows> open(const ViewSettings& settings, const WallFile& walls,
                                            bool drawnWithOpenGl, Diagnostics& findings);
 
-  /// Of the walls' pictures, where neither --size nor the wall file says.
+  /// Returns the sizes of the walls' pictures, for walls without a size from --size or the wall file.
   const std::vector<SheetPlace>& pictureSizes() const { return sizes_; }
   std::optional<GamepadState> gamepad() { return system_->gamepad(); }
   /// Why nothing can be shown any more; nothing while it can.

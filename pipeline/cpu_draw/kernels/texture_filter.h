@@ -48,7 +48,7 @@ struct TextureFilter : DrawLanes<By> {
     }
     return L::most(L::least(at, L::all(1)), F{});
   }
-  /// Of rows of texels and the next ones, which may lie beyond the edge.
+  /// Wraps the indices of a texel and its neighbour, one of which may lie beyond the edge.
   [[gnu::always_inline]] static inline void neighbours(I& first, I& second, I count, TextureWrap wrap) {
     if (wrap == TextureWrap::Repeat) {
       first += I(first < 0) & count;

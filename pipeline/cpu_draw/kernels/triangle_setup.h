@@ -155,7 +155,7 @@ struct TriangleSetup : DrawLanes<By> {
     return made;
   }
 
-  /// Of sorted corners.
+  /// Computes the fields of a triangle from its sorted corners.
   [[gnu::always_inline]] static inline void fill(const Corner& a, const Corner& b, const Corner& c,
                                                  const Edges& edges, F left, F low, const SetupParameters& s,
                                                  Fields& f) {

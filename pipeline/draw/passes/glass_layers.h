@@ -3,15 +3,15 @@
 /// they intersect.
 ///
 /// Method   Each fragment of a transparent surface is put into a list of its pixel: colour, depth, the slope
-///          of its depth, and which samples it covers. Then, for every sample, the fragments that cover it and
-///          lie in front of what is opaque are sorted by their depth there and blended over it.
+///          of its depth, and which samples it covers. Then, for every sample, the fragments that cover it
+///          and lie in front of what is opaque are sorted by their depth there and blended over it.
 /// Rule     The kExactLayers nearest fragments of a sample are blended one over the other, nearest first:
 ///
 ///              colour += left x alpha x fragment's colour;  left *= 1 - alpha
 ///
 ///          What lies behind them is blended together as one layer, in an order that does not matter: its
-///          colour is the mean weighted by alpha, what it lets through is the product of 1 - alpha. The sample
-///          becomes colour + left x what was there. In the full look that happens in linear light.
+///          colour is the mean weighted by alpha, what it lets through is the product of 1 - alpha. The
+///          sample becomes colour + left x what was there. In the full look that happens in linear light.
 /// Ties     At the same depth, the surface that is later in the list (then: the later part, then the later
 ///          triangle) lies in front. No order of arrival counts, so that pictures are the same to the bit for
 ///          any number of threads.
@@ -20,6 +20,8 @@
 ///          are more, the picture is drawn in several bands.
 /// Errors   create() fails below OpenGL 4.3; the renderer then sorts whole objects.
 /// Ownership  owns its GL objects. Threads: the thread on which the context is current.
+///
+/// Size     more than 20 fields: most are the GL objects of one pass, with the places of its uniforms.
 
 #include "engine/base/diagnostic.h"
 #include "pipeline/draw/passes/eye_buffers.h"

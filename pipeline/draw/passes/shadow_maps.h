@@ -62,7 +62,8 @@ private:
   const GlTable& gl_;
   ClipDepth clip_;
   GlProgram program_;
-  /// Of what has holes, without pictures and with them: each at its first use. None: it casts a whole shadow.
+  /// Programs for surfaces with holes, without pictures and with them; made at first use. If making fails,
+  /// such a surface casts a whole shadow.
   std::array<std::optional<GlProgram>, 2> masked_;
   std::array<bool, 2> maskedFailed_{};
   GlTexture still_, shown_;

@@ -4,6 +4,7 @@ list(FILTER dynamics_case_sources EXCLUDE REGEX "/engine_[a-z]+\\.cpp$|/program\
 add_library(stadion_dynamics_cases STATIC ${dynamics_case_sources})
 target_link_libraries(stadion_dynamics_cases PUBLIC stadion_options stadion_sanitize)
 target_precompile_headers(stadion_dynamics_cases REUSE_FROM stadion_precompiled)
+stadion_unity(stadion_dynamics_cases 16)
 add_custom_target(dynamics_programs)
 
 function(stadion_dynamics_program ENGINE)

@@ -35,7 +35,8 @@ struct CaseResult {
   double seconds = 0;                                         ///< duration
   double processorSeconds = 0;                                ///< processor time of the played programs
   std::map<std::string, std::vector<double>> elapsedMs{};     ///< as `milliseconds`, by real time
-  /// Of the typical round: "p99 of draw of wall front, wall-clock time [ms]", "late frames of frame, ...".
+  /// Figures of the typical round: "p99 of draw of wall front, wall-clock time [ms]", "late frames of frame,
+  /// ...".
   std::map<std::string, double> frameFigures{};
   std::vector<std::string> warnings{};  ///< the show's warnings: "FILE:LINE:COLUMN: warning: ..."
 

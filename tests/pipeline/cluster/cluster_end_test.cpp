@@ -89,7 +89,7 @@ TEST(ClusterHearing, AHostLeftOutOfAPauseAtTheEndHasNotMissedIt) {
 
 /// With what the follower before it has kept: that one has shown so many frames of session 1.
 std::unique_ptr<Follower> followerThatHasShown(std::uint64_t frames, std::uint64_t played = 0) {
-  auto kept = std::make_shared<ReserveScene>();
+  auto kept = std::make_shared<ResumableScene>();
   kept->transfer.session = 1, kept->transfer.serial = frames, kept->transfer.frame = frames - 1;
   kept->framesShown = frames;
   return Follower::unconnected(

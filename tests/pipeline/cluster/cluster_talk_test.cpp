@@ -170,7 +170,7 @@ private:
   /// False: there is no network.
   bool play(std::size_t node, const Disturb& disturb) {
     NumberScene scene;
-    std::shared_ptr<const ReserveScene> kept;
+    std::shared_ptr<const ResumableScene> kept;
     for (bool over = false; !over;) {
       auto opened = Follower::open(
           {room(), node, {1}, [](const std::string&) {}, [] { return false; }, {}, std::move(kept)});

@@ -45,13 +45,13 @@ TEST(DrawPool, CallersThatWaitDoNoPieces) {
   for (const std::size_t threads : {1, 3}) {
     DrawPool pool(threads, DrawPool::Callers::Wait);
     std::mutex mutex;
-    std::set<std::thread::id> who;
+    std::set<std::thread::id> workers;
     pool.run(50, [&](std::size_t) {
       const std::lock_guard lock(mutex);
-      who.insert(std::this_thread::get_id());
+      workers.insert(std::this_thread::get_id());
     });
-    EXPECT_FALSE(who.contains(std::this_thread::get_id()));
-    EXPECT_LE(who.size(), threads);
+    EXPECT_FALSE(workers.contains(std::this_thread::get_id()));
+    EXPECT_LE(workers.size(), threads);
   }
 }
 

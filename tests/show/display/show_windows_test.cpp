@@ -284,7 +284,7 @@ TEST_F(ProgramShowWindows, AWindowOfAnotherSizeIsFilledAndAnUncoveredOneIsShownA
     return false;
   };
   EXPECT_TRUE(cornerSeen(corner(small)));
-  const Scenery other = shaped({.flipH = true});
+  const Scenery other;
   auto above = open(other, WindowSurface::Pixels);
   ASSERT_TRUE(above);
   std::vector<EyePictures> others(2);

@@ -60,8 +60,12 @@ Drawn drawnWith(Mode mode, std::size_t memories) {
   const ShowParts own = player->parts(StereoLayout::Pair);
   // The same show, published into slots of our choice. (It has no static objects, whose chunk lies in its
   // own.)
-  NotingStages stages(ShowParts{
-      own.scene, state, own.meshes, own.input, own.walls, nullptr, nullptr, nullptr, true, {}, nullptr});
+  NotingStages stages(ShowParts{.scene = own.scene,
+                                .state = state,
+                                .meshes = own.meshes,
+                                .input = own.input,
+                                .walls = own.walls,
+                                .observer = {}});
   FrameLoopOptions o;
   o.mode = mode, o.walls = kWalls, o.frames = kFrameCount;
   const std::atomic<bool> never = false;
