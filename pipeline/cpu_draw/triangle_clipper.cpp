@@ -21,12 +21,13 @@ std::vector<ClipCorner> keptOf(const std::vector<ClipCorner>& polygon, const Dis
     const double da = distance(a), db = distance(b);
     if (da >= 0) kept.push_back(a);
     if ((da >= 0) == (db >= 0)) continue;
-    // From the end that is kept: the other one may be so far away that the first would be lost in rounding. And
-    // neighbours that share the edge get the same point.
-    const ClipCorner &in = da >= 0 ? a : b, &out = da >= 0 ? b : a;
-    const double inside = std::max(da, db), t = inside / (inside - std::min(da, db));
+    // From the end that lies nearer to the border: the other one may be so far away that rounding would lose the
+    // first. And neighbours that share the edge get the same point.
+    const bool fromA = std::fabs(da) < std::fabs(db);
+    const ClipCorner &from = fromA ? a : b, &to = fromA ? b : a;
+    const double t = fromA ? da / (da - db) : db / (db - da);
     kept.push_back(
-        {in[0] + t * (out[0] - in[0]), in[1] + t * (out[1] - in[1]), in[2] + t * (out[2] - in[2])});
+        {from[0] + t * (to[0] - from[0]), from[1] + t * (to[1] - from[1]), from[2] + t * (to[2] - from[2])});
   }
   return kept;
 }
