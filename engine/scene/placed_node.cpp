@@ -51,7 +51,7 @@ bool PlacedNode::hold(Scene& scene, const Affine& X_WN, Held part) {
 void PlacedNode::rejoin(Scene& scene, const Affine& X_WP) {
   if (attached() || scene.placements().held(placement_) == Held::Nothing) return;
   scene.placements().rejoin(placement_, X_WP);
-  stay(scene);
+  leaveFleet(scene);
 }
 
 void PlacedNode::setHome(Scene& scene, const Affine& X_WN) {
