@@ -80,8 +80,8 @@ public:
 
   explicit SpanTrack(SpanOverhead overhead = {}) : overhead_(overhead) {}
 
-  /// Parts of the span inherit the frame and the wall.
-  void began(Span what, std::uint64_t frame, std::uint32_t wall, NodeRef node) {
+  /// Parts of the span inherit the frame and the wall. Inline always: each node's visit calls it.
+  [[gnu::always_inline]] void began(Span what, std::uint64_t frame, std::uint32_t wall, NodeRef node) {
     if (depth_ >= kDeepest) {
       ++depth_;
       return;
