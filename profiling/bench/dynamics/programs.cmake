@@ -5,6 +5,8 @@ add_library(stadion_dynamics_cases STATIC ${dynamics_case_sources})
 target_link_libraries(stadion_dynamics_cases PUBLIC stadion_options stadion_sanitize)
 target_precompile_headers(stadion_dynamics_cases REUSE_FROM stadion_precompiled)
 stadion_unity(stadion_dynamics_cases 16)
+set_source_files_properties(${CMAKE_CURRENT_LIST_DIR}/reference_solutions.cpp PROPERTIES
+  SKIP_UNITY_BUILD_INCLUSION ON)  # its test links no engine
 add_custom_target(dynamics_programs)
 
 function(stadion_dynamics_program ENGINE)

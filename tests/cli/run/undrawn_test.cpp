@@ -58,9 +58,9 @@ TEST(ProgramUndrawn, HashesWithoutAFolderAreLinesOnStdout) {
   EXPECT_EQ(lines.out, fileContent(folder.path() / "o/picture-hashes.txt"));
   EXPECT_NE(lines.err.find("frames"), std::string::npos) << "the summary is on stderr";
 
-  const ProgramResult json = runProgram({hashedRun({"--frames", "12", "--json"})});
-  EXPECT_TRUE(nlohmann::json::accept(json.out)) << json.out;
-  EXPECT_NE(json.err.find(lines.out.substr(0, lines.out.find('\n'))), std::string::npos) << json.err;
+  const ProgramResult asJson = runProgram({hashedRun({"--frames", "12", "--json"})});
+  EXPECT_TRUE(nlohmann::json::accept(asJson.out)) << asJson.out;
+  EXPECT_NE(asJson.err.find(lines.out.substr(0, lines.out.find('\n'))), std::string::npos) << asJson.err;
 }
 
 TEST(ProgramUndrawn, ALiveRunTellsWhatItsWallsShowed) {
