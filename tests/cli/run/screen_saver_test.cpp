@@ -182,9 +182,8 @@ TEST(ProgramScreenSaver, AMonitorIsLitWhileAShowIsShownAndGoesDarkWhenItEndsOrIs
     SCOPED_TRACE(shown.name);
     ASSERT_TRUE(becomes([&] { return !client->monitorIsLit(); })) << "DPMS is due after a second";
     std::vector<std::string> words = shown.words;
-    for (const char* word : {"--asset-root", assetFolder().c_str(), "--no-sound", "--size", "96x64", "--look",
-                             "plain", "--rate", "10"})
-      words.emplace_back(word);
+    words.insert(words.end(), {"--asset-root", assetFolder(), "--no-sound", "--size", "96x64", "--look",
+                               "plain", "--rate", "10"});
     RunningProgram program(onDisplay(*display, words));
     ASSERT_TRUE(program.waitUntil([&] { return client->monitorIsLit(); }));
     ASSERT_TRUE(shown.killed || program.says("the walls are shown"));
