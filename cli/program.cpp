@@ -17,6 +17,7 @@
 #include <exception>
 #include <fcntl.h>
 #include <new>
+#include <stdexcept>
 #include <unistd.h>
 
 namespace stadion {
@@ -42,7 +43,11 @@ int obey(int argc, char** argv, const AddCommands& addCommands, std::optional<un
   int code = kOk;
   addCommands(app, code, rasteriserThreads);
   const std::vector<std::string> words(argv + std::min(argc, 1), argv + argc);
-  if (const auto answer = referenceAnswer(app, words)) return std::fputs(answer->c_str(), stdout), kOk;
+  try {
+    if (const auto answer = referenceAnswer(app, words)) return std::fputs(answer->c_str(), stdout), kOk;
+  } catch (const std::runtime_error& e) {
+    return std::fprintf(stderr, "stadion: %s\n", e.what()), kBadInput;
+  }
   if (const auto retired = retiredSpellingIn(words))
     return std::fprintf(stderr, "stadion: %s\n", retired->c_str()), kBadInput;
   try {

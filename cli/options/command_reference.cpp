@@ -11,7 +11,7 @@
 
 #include <cstdio>
 #include <map>
-#include <memory>
+#include <stdexcept>
 #include <vector>
 
 namespace stadion {
@@ -59,14 +59,19 @@ std::string usesOf(const CLI::App& program) {
   return text;
 }
 
-/// Those of another program, if it has been built.
+/// Those of another program. Throws if it has not been built.
 std::string usesOfProgram(const std::string& program) {
-  const std::string line = fmt::format("'{}' manual uses", helperProgram(program).string());
-  const std::unique_ptr<std::FILE, int (*)(std::FILE*)> other(popen(line.c_str(), "r"), pclose);
+  const std::string line = fmt::format("'{}' manual uses 2>/dev/null", helperProgram(program).string());
+  std::FILE* other = popen(line.c_str(), "r");
   std::string text;
   char block[4096];
-  while (const std::size_t size = other ? std::fread(block, 1, sizeof block, other.get()) : 0)
+  while (const std::size_t size = other ? std::fread(block, 1, sizeof block, other) : 0)
     text.append(block, size);
+  if (!other || pclose(other) != 0)
+    throw std::runtime_error(
+        fmt::format("the options of {} cannot be listed, because it does not start; in a checkout, "
+                    "`./stadion plan --help` and `./stadion bench --help` build what is missing",
+                    program));
   return text;
 }
 

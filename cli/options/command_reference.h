@@ -16,7 +16,8 @@ class App;
 
 namespace stadion {
 
-/// Nothing if the words after the program's name ask for none of these.
+/// Nothing if the words after the program's name ask for none of these. Throws std::runtime_error if a program
+/// whose options belong there cannot be started.
 std::optional<std::string> referenceAnswer(const CLI::App& program, std::span<const std::string> words);
 
 }  // namespace stadion

@@ -162,7 +162,7 @@ bool OpenSession::openGroup(Diagnostics& findings) {
 }
 
 void OpenSession::closeShow(NextShow next, Diagnostics& findings) {
-  for (const auto& part : reversedParts()) part->following(next, findings);
+  for (auto part = parts_.rbegin(); part != parts_.rend(); ++part) (*part)->following(next, findings);
   state_.player = nullptr;
   player_.reset();
 }
@@ -213,7 +213,7 @@ bool OpenSession::rejoin() {
 }
 
 SessionEnd OpenSession::close(SessionEnd end) {
-  for (const auto& part : reversedParts()) end = part->closed(end);
+  for (auto part = parts_.rbegin(); part != parts_.rend(); ++part) end = (*part)->closed(end);
   return end;
 }
 

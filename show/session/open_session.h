@@ -7,7 +7,6 @@
 
 #include <memory>
 #include <optional>
-#include <ranges>
 #include <vector>
 
 namespace stadion {
@@ -46,7 +45,6 @@ private:
   void addDrawing(RunSummary& summary) const;
   void addTimes(RunSummary& summary) const;
   void writeSummary(SessionReport& report);
-  auto reversedParts() { return std::views::reverse(parts_); }
 
   Reporter& terminal_;
   std::unique_ptr<RunJournal> journal_;

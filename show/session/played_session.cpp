@@ -59,7 +59,7 @@ OpenSession::Then OpenSession::playOnce(std::optional<SessionReport>& report) {
   const double elapsed = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   reporter_.progressOver();
   EndedLoop show{outcome, state_.stop || !outcome.nextGroup};
-  for (const auto& part : reversedParts()) part->ended(show);
+  for (auto part = parts_.rbegin(); part != parts_.rend(); ++part) (*part)->ended(show);
   const bool isLast = outcome.failure || (show.ends && !show.rejoin);
   if (isLast) fillReport(report.emplace(), outcome, elapsed);
   state_.stages = nullptr, state_.loop = nullptr;
@@ -86,7 +86,7 @@ void OpenSession::fillReport(SessionReport& report, const FrameLoopOutcome& outc
   addTimes(summary);
   addDrawing(summary);
   if (outcome.stopped) summary.stopped = stopSignalName();
-  for (const auto& part : reversedParts()) part->report(report);
+  for (auto part = parts_.rbegin(); part != parts_.rend(); ++part) (*part)->report(report);
   state_.reported = true;
   if (report.failure) summary.failure = report.failure->message;
   if (state_.folder) writeSummary(report);

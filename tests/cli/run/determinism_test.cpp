@@ -7,7 +7,7 @@
 
 #include <map>
 #include <random>
-#include <ranges>
+#include <span>
 #include <sstream>
 #include <unistd.h>
 
@@ -93,9 +93,9 @@ void expectOneHistory(const std::string& frames, int corners, std::size_t share)
   std::mt19937 random(20260711);
   const auto any = [&](const std::vector<Words>& of) { return of[random() % of.size()]; };
   std::vector<std::pair<Words, Words>> ways;
-  for (const Words& mode : modes | std::views::drop(1)) ways.emplace_back(mode, Words{});
+  for (const Words& mode : std::span(modes).subspan(1)) ways.emplace_back(mode, Words{});
   for (const Words& count : threads) ways.emplace_back(count, Words{});
-  for (const Words& e : environments | std::views::drop(1)) ways.emplace_back(Words{}, e);
+  for (const Words& e : std::span(environments).subspan(1)) ways.emplace_back(Words{}, e);
   for (int i = 0; i < corners; ++i) {
     Words how = any(modes);
     const Words count = any(threads);

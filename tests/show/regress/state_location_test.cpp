@@ -19,7 +19,7 @@ TEST(StateLocation, TakesAFieldThatIsMissingForZero) {
   const std::string now =
       "@ball\ta.evs:7\nplace\t1 2 3\nmore\t9\nspin\t4\n@part\nlevel\t1\n@part\nlevel\t2\n";
   EXPECT_EQ(firstDifference(now, kKept), "ball (a.evs:7), more is 9 now, 0 before");
-  EXPECT_EQ(firstDifference(kKept, now), "ball, more is 0 now, 9 before");
+  EXPECT_EQ(firstDifference(kKept, now), "ball (a.evs:7), more is 0 now, 9 before");
 }
 
 TEST(StateLocation, TellsNodesOfOnePathApart) {
