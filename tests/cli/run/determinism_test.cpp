@@ -134,10 +134,11 @@ void expectOneHistoryOnMachines(const std::string& frames, std::size_t share) {
       const ProgramResult r = play({"cluster", file, pathOf(show), "--frames", frames, "--size", "32x24",
                                     "--look", "plain", "--pictures", "none", "--out", folder.path() / "out"});
       ASSERT_EQ(r.status, 0) << show.name << "\n" << nodes << r.err;
-      for (const auto& node : std::filesystem::directory_iterator(folder.path() / "out"))
-        if (node.is_directory())
-          EXPECT_EQ(summaryOf(node.path())["history_hash"], reference) << show.name << "\n"
-                                                                       << nodes << node.path();
+      for (const auto& node : std::filesystem::directory_iterator(folder.path() / "out")) {
+        if (!node.is_directory()) continue;
+        EXPECT_EQ(summaryOf(node.path())["history_hash"], reference) << show.name << "\n"
+                                                                     << nodes << node.path();
+      }
     }
   }
 }
