@@ -32,6 +32,10 @@ struct DrawFour {
   [[gnu::always_inline]] static inline Floats most(Floats a, Floats b) {
     return Floats(_mm_max_ps(__m128(a), __m128(b)));
   }
+  /// The upper halves of the products.
+  [[gnu::always_inline]] static inline Halves highProduct(Halves a, Halves b) {
+    return Halves(_mm_mulhi_epu16(__m128i(a), __m128i(b)));
+  }
 #else
   [[gnu::always_inline]] static inline unsigned bits(Ints m) {
     unsigned all = 0;
@@ -47,6 +51,11 @@ struct DrawFour {
   }
   [[gnu::always_inline]] static inline Floats most(Floats a, Floats b) {
     return a > b ? a : b;
+  }
+  [[gnu::always_inline]] static inline Halves highProduct(Halves a, Halves b) {
+    typedef unsigned Wide __attribute__((vector_size(32)));
+    const Wide product = __builtin_convertvector(a, Wide) * __builtin_convertvector(b, Wide);
+    return __builtin_convertvector(product >> 16, Halves);
   }
 #endif
   [[gnu::always_inline]] static inline Ints select(Ints m, Ints a, Ints b) {
@@ -106,6 +115,9 @@ struct DrawEight {
   [[gnu::always_inline]] static inline Floats most(Floats a, Floats b) {
     return Floats(_mm256_max_ps(__m256(a), __m256(b)));
   }
+  [[gnu::always_inline]] static inline Halves highProduct(Halves a, Halves b) {
+    return Halves(_mm256_mulhi_epu16(__m256i(a), __m256i(b)));
+  }
   [[gnu::always_inline]] static inline Ints select(Ints m, Ints a, Ints b) {
     return Ints(_mm256_blendv_epi8(__m256i(b), __m256i(a), __m256i(m)));
   }
@@ -152,7 +164,7 @@ struct DrawEight {
 };
 #endif
 
-#if defined(__AVX512F__) && defined(__AVX512DQ__)
+#if defined(__AVX512F__) && defined(__AVX512BW__) && defined(__AVX512DQ__)
 struct DrawSixteen {
   typedef float Floats __attribute__((vector_size(64)));
   typedef int Ints __attribute__((vector_size(64)));
@@ -166,6 +178,9 @@ struct DrawSixteen {
   }
   [[gnu::always_inline]] static inline Floats most(Floats a, Floats b) {
     return Floats(_mm512_max_ps(__m512(a), __m512(b)));
+  }
+  [[gnu::always_inline]] static inline Halves highProduct(Halves a, Halves b) {
+    return Halves(_mm512_mulhi_epu16(__m512i(a), __m512i(b)));
   }
   [[gnu::always_inline]] static inline Ints select(Ints m, Ints a, Ints b) {
     return Ints(_mm512_ternarylogic_epi32(__m512i(m), __m512i(a), __m512i(b), 0xca));

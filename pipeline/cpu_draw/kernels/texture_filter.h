@@ -29,13 +29,34 @@ struct TextureFilter : DrawLanes<By> {
     F uRight, vRight, uUp, vUp;
   };
 
+  /// Makes linear light of texels: colours may be stored as square roots, alpha is not.
+  struct Linear {
+    int rootsOfRedBlue, factorOfRedBlue, rootsOfGreen, factorOfGreenAlpha;
+    [[gnu::always_inline]] inline explicit Linear(bool roots)
+        : rootsOfRedBlue(roots ? 0x00ff00ff : 0), factorOfRedBlue(roots ? 0 : 0x00ff00ff),
+          rootsOfGreen(roots ? 0xff : 0), factorOfGreenAlpha(roots ? 0x00ff0000 : 0x00ff00ff) {}
+    /// In sixteen bits each, where 255 * 255 is one.
+    [[gnu::always_inline]] inline H redBlue(I texel) const {
+      const I stored = texel & 0x00ff00ff;
+      return H(stored) * H((stored & rootsOfRedBlue) | factorOfRedBlue);
+    }
+    [[gnu::always_inline]] inline H greenAlpha(I texel) const {
+      const H stored = H(texel) >> 8;
+      return stored * H((I(stored) & rootsOfGreen) | factorOfGreenAlpha);
+    }
+  };
+
   /// Four means of texels in sixteen bits each: red and blue, green and alpha.
   struct Sum {
-    I redBlue{}, greenAlpha{};
-    [[gnu::always_inline]] inline void add(I texel, I weight) {
-      weight |= weight << 16;
-      redBlue = I(H(redBlue) + H(texel & 0x00ff00ff) * H(weight));
-      greenAlpha = I(H(greenAlpha) + (H(texel) >> 8) * H(weight));
+    static constexpr float kPerOne = 1.0f / 64770;  ///< of a sum with all weight, 256
+    H redBlue{}, greenAlpha{};
+    /// Each product loses half a unit on average. Four of them are added after this.
+    [[gnu::always_inline]] inline void roundFour() { redBlue += 2, greenAlpha += 2; }
+    [[gnu::always_inline]] inline void add(const Linear& linear, I texel, I weight) {
+      weight = (weight << 8) - weight;
+      const H both = H(weight | weight << 16);
+      redBlue += By::highProduct(linear.redBlue(texel), both);
+      greenAlpha += By::highProduct(linear.greenAlpha(texel), both);
     }
   };
 
@@ -67,9 +88,9 @@ struct TextureFilter : DrawLanes<By> {
           first(By::entry(t.first, number)) {}
   };
 
-  /// Adds the mean of the four texels around a place, times `weight` of 256.
-  [[gnu::always_inline]] static inline void add(const TextureParameters& t, const Levels& level, F u, F v,
-                                                F weight, Sum& sum) {
+  /// Adds the mean of the four texels around a place in linear light, times `weight` of 256.
+  [[gnu::always_inline]] static inline void add(const TextureParameters& t, const Linear& linear,
+                                                const Levels& level, F u, F v, F weight, Sum& sum) {
     const F width = L::whole(level.width);
     F x = u * width - 0.5f, y = v * L::whole(level.height) - 0.5f;
     if (t.magnifiesNearest) x = L::floor(x + 0.5f), y = L::floor(y + 0.5f);
@@ -82,12 +103,13 @@ struct TextureFilter : DrawLanes<By> {
     const I lowRight = L::truncated(L::whole(right) * (y - top)),
             lowLeft = L::truncated(L::whole(rest) * (y - top));
     const int* from = reinterpret_cast<const int*>(t.texels);
+    sum.roundFour();
     const I row = level.width + 1, column = level.first + x0;
     I here, next;
     By::pairs(from, y0 * row + column, here, next);
-    sum.add(here, rest - lowLeft), sum.add(next, right - lowRight);
+    sum.add(linear, here, rest - lowLeft), sum.add(linear, next, right - lowRight);
     By::pairs(from, y1 * row + column, here, next);
-    sum.add(here, lowLeft), sum.add(next, lowRight);
+    sum.add(linear, here, lowLeft), sum.add(linear, next, lowRight);
   }
 
   /// The level of detail: 0 = all of the texture.
@@ -107,13 +129,14 @@ struct TextureFilter : DrawLanes<By> {
     const F u = wrapped(p.u, t.wrapU), v = wrapped(p.v, t.wrapV);
     const I whole = L::truncated(level), last = I{} + (t.levels - 1);
     const F coarser = L::floor(256.0f * (level - L::whole(whole)));
+    const Linear linear(roots);
     Sum out;
-    add(t, Levels(t, whole), u, v, 256.0f - coarser, out);
-    if (L::bits(coarser > 0.0f) != 0) add(t, Levels(t, whole < last ? whole + 1 : last), u, v, coarser, out);
-    const auto low = [](I two) { return L::whole(two & 0xffff) * (1.0f / 65280); };
-    const auto high = [](I two) { return L::whole((two >> 16) & 0xffff) * (1.0f / 65280); };
-    const T colour{low(out.redBlue), low(out.greenAlpha), high(out.redBlue)};
-    return {roots ? colour * colour : colour, high(out.greenAlpha)};
+    add(t, linear, Levels(t, whole), u, v, 256.0f - coarser, out);
+    if (L::bits(coarser > 0.0f) != 0)
+      add(t, linear, Levels(t, whole < last ? whole + 1 : last), u, v, coarser, out);
+    const auto low = [](H two) { return L::whole(I(two) & 0xffff) * Sum::kPerOne; };
+    const auto high = [](H two) { return L::whole((I(two) >> 16) & 0xffff) * Sum::kPerOne; };
+    return {{low(out.redBlue), low(out.greenAlpha), high(out.redBlue)}, high(out.greenAlpha)};
   }
 };
 
