@@ -9,7 +9,7 @@ namespace stadion {
 
 struct PictureRung {
   Look look = Look::Full;
-  int samples = 4;            ///< for each pixel: 1, 4 or 8
+  int samples = 4;            ///< for each pixel: 1, 2, 4 or 8
   int shadowTaps = 16;        ///< texels of the shadow map that are compared: 16 or 4
   bool nearestLevel = false;  ///< textures are read from one level instead of two
   bool coarse = false;        ///< inside of triangles two by two pixels are shaded once
@@ -17,7 +17,7 @@ struct PictureRung {
   static PictureRung of(const RenderQuality& quality) {
     PictureRung rung;
     rung.look = quality.look;
-    rung.samples = quality.samples <= 1 ? 1 : quality.samples <= 4 ? 4 : 8;
+    rung.samples = quality.samples <= 1 ? 1 : quality.samples <= 2 ? 2 : quality.samples <= 4 ? 4 : 8;
     return rung;
   }
   bool operator==(const PictureRung&) const = default;

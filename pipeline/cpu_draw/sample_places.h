@@ -10,6 +10,7 @@ namespace stadion {
 /// From the lower left of the pixel [pixels].
 inline std::array<float, 2> samplePlace(int samples, int sample) {
   const int* place = samples == 1   ? kOneSample[0]
+                     : samples == 2 ? kTwoSamples[sample]
                      : samples == 4 ? kFourSamples[sample]
                                     : kEightSamples[sample];
   const float part = 1 / static_cast<float>(2 * samples);

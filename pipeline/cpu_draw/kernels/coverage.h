@@ -24,6 +24,8 @@ struct Coverage : DrawLanes<By> {
   static constexpr const int (*places())[2] {
     if constexpr (kSamples == 1)
       return kOneSample;
+    else if constexpr (kSamples == 2)
+      return kTwoSamples;
     else if constexpr (kSamples == 4)
       return kFourSamples;
     else

@@ -16,6 +16,7 @@ constexpr int kSurfaceFloats = 48;
 
 /// Places of samples in a pixel, in parts of 2 * samples. In each row and column of that grid there is one.
 constexpr int kOneSample[1][2] = {{1, 1}};
+constexpr int kTwoSamples[2][2] = {{1, 3}, {3, 1}};
 constexpr int kFourSamples[4][2] = {{3, 1}, {7, 3}, {1, 5}, {5, 7}};
 constexpr int kEightSamples[8][2] = {{9, 5}, {7, 11}, {13, 9}, {5, 3}, {3, 13}, {1, 7}, {11, 15}, {15, 1}};
 
@@ -45,7 +46,7 @@ struct TriangleCorners {
 /// Parameters of triangle setup.
 struct SetupParameters {
   int width, height;  ///< size of the picture [pixels]
-  int samples;        ///< for each pixel: 1, 4 or 8
+  int samples;        ///< for each pixel: 1, 2, 4 or 8
   float facing;       ///< 1: counter-clockwise triangles are visible, -1: clockwise ones, 0: both
   float mirrored;     ///< -1 if the front of a triangle is clockwise, else 1
   float leastDepth;   ///< depths at or below are behind the eye

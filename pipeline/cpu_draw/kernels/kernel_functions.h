@@ -28,6 +28,8 @@ struct KernelFunctions {
                     const int* present, const BandSamples& band) {
     if (samples == 1)
       Coverage<By, 1>::template cover<false>(triangles, count, first, present, band);
+    else if (samples == 2)
+      Coverage<By, 2>::template cover<false>(triangles, count, first, present, band);
     else if (samples == 4)
       Coverage<By, 4>::template cover<false>(triangles, count, first, present, band);
     else
@@ -40,11 +42,13 @@ struct KernelFunctions {
   static unsigned coverLayer(const TriangleRecord& t, unsigned number, int samples, const int* present,
                              const BandSamples& band, LayerFragment* out) {
     if (samples == 1) return Coverage<By, 1>::coverLayer(t, number, present, band, out);
+    if (samples == 2) return Coverage<By, 2>::coverLayer(t, number, present, band, out);
     if (samples == 4) return Coverage<By, 4>::coverLayer(t, number, present, band, out);
     return Coverage<By, 8>::coverLayer(t, number, present, band, out);
   }
   static void findFragments(FragmentSearch& row) {
     if (row.samples == 1) return FragmentFinder<By, 1>::find(row);
+    if (row.samples == 2) return FragmentFinder<By, 2>::find(row);
     if (row.samples == 4) return FragmentFinder<By, 4>::find(row);
     FragmentFinder<By, 8>::find(row);
   }

@@ -50,8 +50,12 @@ struct TextureFilter : DrawLanes<By> {
   struct Sum {
     static constexpr float kPerOne = 1.0f / 64770;  ///< of a sum with all weight, 256
     H redBlue{}, greenAlpha{};
-    /// Each product loses half a unit on average. Four of them are added after this.
-    [[gnu::always_inline]] inline void roundFour() { redBlue += 2, greenAlpha += 2; }
+    /// Each product loses half a unit on average. Four of them are added after this, in the lanes of `added`.
+    [[gnu::always_inline]] inline void roundFour(I added) {
+      const H lost = H(added & 0x00020002);
+      redBlue += lost;
+      greenAlpha += lost;
+    }
     [[gnu::always_inline]] inline void add(const Linear& linear, I texel, I weight) {
       weight = (weight << 8) - weight;
       const H both = H(weight | weight << 16);
@@ -103,7 +107,7 @@ struct TextureFilter : DrawLanes<By> {
     const I lowRight = L::truncated(L::whole(right) * (y - top)),
             lowLeft = L::truncated(L::whole(rest) * (y - top));
     const int* from = reinterpret_cast<const int*>(t.texels);
-    sum.roundFour();
+    sum.roundFour(I(all > 0));
     const I row = level.width + 1, column = level.first + x0;
     I here, next;
     By::pairs(from, y0 * row + column, here, next);

@@ -86,7 +86,10 @@ struct TriangleSetup : DrawLanes<By> {
   /// Whether triangles cover a sample of the two by two pixels at (left, low). Computes what Coverage computes.
   [[gnu::always_inline]] static inline I covers(const Corner& a, const Corner& b, const Corner& c,
                                                 const Edges& edges, F left, F low, int samples) {
-    const int(*places)[2] = samples == 1 ? kOneSample : samples == 4 ? kFourSamples : kEightSamples;
+    const int(*places)[2] = samples == 1   ? kOneSample
+                            : samples == 2 ? kTwoSamples
+                            : samples == 4 ? kFourSamples
+                                           : kEightSamples;
     const float part = 1 / static_cast<float>(2 * samples);
     I found{};
     for (int i = 0; i < 2 * samples; ++i) {

@@ -114,7 +114,7 @@ PlacedTriangles someTriangles(std::mt19937& random, int count) {
 
 TEST(CpuCoverage, TheKernelsOfAllWidthsGiveTheSameBits) {
   std::mt19937 random(1);
-  for (const int samples : {1, 4, 8})
+  for (const int samples : {1, 2, 4, 8})
     for (int round = 0; round < 20; ++round) {
       const PlacedTriangles triangles = someTriangles(random, 300);
       const CoveredBand four = drawn(triangles, samples, kDrawByFour);
@@ -155,7 +155,7 @@ int expectPlainCoverage(const ScalarTriangle& t, const CoveredBand& band, int sa
 
 TEST(CpuCoverage, ATriangleCoversTheSamplesInsideItAndNoOthers) {
   std::mt19937 random(2);
-  for (const int samples : {1, 4, 8}) {
+  for (const int samples : {1, 2, 4, 8}) {
     const PlacedTriangles all = someTriangles(random, 300);
     int inside = 0;
     for (std::size_t i = 0; i < all.a.size(); ++i) {
@@ -172,7 +172,7 @@ TEST(CpuCoverage, ATriangleCoversTheSamplesInsideItAndNoOthers) {
 
 TEST(CpuCoverage, NeighboursLeaveNoGapAndNeverOverlap) {
   std::mt19937 random(3);
-  for (const int samples : {1, 4, 8})
+  for (const int samples : {1, 2, 4, 8})
     for (int round = 0; round < 100; ++round) {
       // A net of points, shifted, that reaches beyond the picture.
       constexpr int kColumns = 12, kRows = 6;

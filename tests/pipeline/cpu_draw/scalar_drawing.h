@@ -16,6 +16,7 @@ using ScalarTriangle = std::array<ScalarCorner, 3>;
 /// Places of the samples of a pixel.
 inline std::vector<std::array<double, 2>> samplePlaces(int samples) {
   if (samples == 1) return {{0.5, 0.5}};
+  if (samples == 2) return {{0.25, 0.75}, {0.75, 0.25}};
   if (samples == 4) return {{0.375, 0.125}, {0.875, 0.375}, {0.125, 0.625}, {0.625, 0.875}};
   std::vector<std::array<double, 2>> places;
   for (const auto& p : {std::array{9, 5}, {7, 11}, {13, 9}, {5, 3}, {3, 13}, {1, 7}, {11, 15}, {15, 1}})
