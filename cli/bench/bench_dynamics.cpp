@@ -58,18 +58,18 @@ bool write(OutputFolder& folder, const std::string& name, const std::string& con
   return static_cast<bool>(file);
 }
 
-bool writeAll(OutputFolder& folder, const std::vector<bench::CaseResult>& results) {
+bool writeAll(OutputFolder& folder, const std::vector<bench::CaseComparison>& results) {
   bool ok = write(folder, "results.json", bench::resultsJson(results));
-  for (const bench::CaseResult& r : results)
+  for (const bench::CaseComparison& r : results)
     ok = write(folder, r.name + ".svg", bench::workPrecisionPlot(r.name, r.measurements)) && ok;
   return ok;
 }
 
-std::vector<bench::CaseResult> compareAndPrint(const std::vector<bench::EngineProgram>& programs,
-                                               const BenchDynamicsOptions& o) {
-  std::vector<bench::CaseResult> results;
+std::vector<bench::CaseComparison> compareAndPrint(const std::vector<bench::EngineProgram>& programs,
+                                                   const BenchDynamicsOptions& o) {
+  std::vector<bench::CaseComparison> results;
   const auto progress = [](const std::string& what) { std::fprintf(stderr, "%s\n", what.c_str()); };
-  bench::compareEngines(programs, o.comparison, progress, [&](const bench::CaseResult& r) {
+  bench::compareEngines(programs, o.comparison, progress, [&](const bench::CaseComparison& r) {
     if (o.json)
       for (const bench::Measurement& m : r.measurements) std::printf("%s\n", bench::toJson(m).c_str());
     else
@@ -100,7 +100,7 @@ int benchDynamics(const BenchDynamicsOptions& o) {
   }
   reportMissingEngines(programs);
   const auto start = std::chrono::steady_clock::now();
-  const std::vector<bench::CaseResult> results = compareAndPrint(programs, o);
+  const std::vector<bench::CaseComparison> results = compareAndPrint(programs, o);
   const std::chrono::duration<double, std::ratio<60>> minutes = std::chrono::steady_clock::now() - start;
   std::fprintf(o.json ? stderr : stdout, "%s%.1f minutes\n", bench::summaryOf(results).c_str(),
                minutes.count());

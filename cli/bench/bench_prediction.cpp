@@ -106,15 +106,16 @@ HeadPath walkOfBenchWalls() {
           }};
 }
 
-nlohmann::json json(const Distribution& d) {
+nlohmann::json json(const SampleStatistics& d) {
   return {{"mean", d.mean}, {"p95", d.p95}, {"max", d.max}};
 }
 
 /// One line of the table. Returns what prediction leaves of the error: of the way, of the turn.
 std::pair<double, double> toldErrors(const HeadPath& path, const BenchPredictionOptions& o, double ahead) {
   const Errors off = errorsOf(path, o, ahead, false), on = errorsOf(path, o, ahead, true);
-  const Distribution way = distributionOf(off.millimetres), wayThen = distributionOf(on.millimetres);
-  const Distribution turn = distributionOf(off.degrees), turnThen = distributionOf(on.degrees);
+  const SampleStatistics way = sampleStatisticsOf(off.millimetres),
+                         wayThen = sampleStatisticsOf(on.millimetres);
+  const SampleStatistics turn = sampleStatisticsOf(off.degrees), turnThen = sampleStatisticsOf(on.degrees);
   if (o.json)
     std::printf("%s\n", nlohmann::json{{"bench", "prediction"},
                                        {"path", path.name},

@@ -49,7 +49,7 @@ double processMs() {
 
 /// Two shows in one process take turns, frame by frame, and each frame's processor time is noted: of all
 /// threads, so that what collects records counts, too.
-class Turns {
+class ProcessorTurns {
 public:
   void begin(std::size_t turn) {
     std::unique_lock lock(mutex_);
@@ -82,7 +82,7 @@ private:
 class TurningShow {
 public:
   static std::unique_ptr<TurningShow> create(const ShowOptions& options, ShowRenderer& renderer,
-                                             bool recorded, Turns& turns, std::size_t turn,
+                                             bool recorded, ProcessorTurns& turns, std::size_t turn,
                                              Diagnostics& findings) {
     std::unique_ptr<TurningShow> made(new TurningShow(turns, turn));
     made->player_ = Player::create(options, findings, tell);
@@ -116,10 +116,10 @@ public:
   std::uint64_t lost() const { return recording_ ? recording_->lost() : 0; }
 
 private:
-  TurningShow(Turns& turns, std::size_t turn) : turns_(turns), turn_(turn) {}
+  TurningShow(ProcessorTurns& turns, std::size_t turn) : turns_(turns), turn_(turn) {}
   FrameProbe* probe() { return recording_ ? &recording_->probe() : nullptr; }
 
-  Turns& turns_;
+  ProcessorTurns& turns_;
   std::size_t turn_;
   std::uint64_t frames_ = 0;
   std::atomic<bool> never_ = false;
@@ -155,7 +155,7 @@ struct Measured {
 
 std::optional<Measured> measureRound(const ShowOptions& options, ShowRenderer& renderer, std::size_t recorded,
                                      Diagnostics& findings) {
-  Turns turns;
+  ProcessorTurns turns;
   std::array<std::unique_ptr<TurningShow>, 2> shows;
   for (std::size_t turn = 0; turn < 2; ++turn) {
     shows[turn] = TurningShow::create(options, renderer, turn == recorded, turns, turn, findings);

@@ -37,14 +37,14 @@ inline RigidFlight unpack(const State& y) {
 }
 
 /// Parameters of the equations above, besides the motion.
-struct Surroundings {
+struct FlightConditions {
   double mass = 1;
   Vec3 inertia = Vec3::Ones();  ///< principal moments in A [kg m2]
   Vec3 gravity = Vec3::Zero(), wind = Vec3::Zero();
 };
 
 template <class Model>
-State rate(const State& y, const Surroundings& s, const Model& model) {
+State rate(const State& y, const FlightConditions& s, const Model& model) {
   const Quat q = Quat(y[6], y[7], y[8], y[9]).normalized();
   const Vec3 v = y.segment<3>(3), w = y.segment<3>(10);
   const Wrench f = model(Vec3(q.conjugate() * (v - s.wind)), w);
@@ -57,7 +57,7 @@ State rate(const State& y, const Surroundings& s, const Model& model) {
 
 /// Takes one classical step of order 4.
 template <class Model>
-void step4(RigidFlight& f, double h, const Surroundings& s, const Model& model) {
+void step4(RigidFlight& f, double h, const FlightConditions& s, const Model& model) {
   const State y = pack(f), a = rate(y, s, model), b = rate(y + 0.5 * h * a, s, model),
               c = rate(y + 0.5 * h * b, s, model), d = rate(y + h * c, s, model);
   f = unpack(y + h / 6 * (a + 2 * b + 2 * c + d));
@@ -70,7 +70,7 @@ public:
 
   /// Advances by exactly `seconds` in steps of its own choice, at most a million.
   template <class Model>
-  void advance(RigidFlight& f, double seconds, const Surroundings& s, const Model& model) {
+  void advance(RigidFlight& f, double seconds, const FlightConditions& s, const Model& model) {
     double left = seconds;
     for (int n = 0; left > 0 && n < 1000000; ++n) {
       const double h = std::min(step_, left);
@@ -87,7 +87,7 @@ private:
 
   /// Returns the error of a step in multiples of the tolerance; leaves the result in `next_`.
   template <class Model>
-  double tryStep(const RigidFlight& f, double h, const Surroundings& s, const Model& model) {
+  double tryStep(const RigidFlight& f, double h, const FlightConditions& s, const Model& model) {
     namespace pair = dormand_prince;
     const State y = pack(f);
     State k[pair::kStages], error = State::Zero();

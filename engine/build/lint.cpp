@@ -120,7 +120,7 @@ void lintLatencies(const Document& document, Nanoseconds step, Diagnostics& find
     }
   if (!first) return;
   const std::string others = count == 1 ? "" : fmt::format("; so are {} more in this file", count - 1);
-  Reporter(document.source(), findings)
+  FindingCollector(document.source(), findings)
       .warning(first->where,
                fmt::format("the latency of {:g} s is shorter than a frame ({:.4f} s at {:g} Hz), so that "
                            "the command waits for the next frame; state {:.3f} or more{}",
@@ -131,7 +131,7 @@ void lintLatencies(const Document& document, Nanoseconds step, Diagnostics& find
 void lintTrackers(const Document& document, const std::vector<std::string>& known, const std::string& log,
                   Diagnostics& findings) {
   static const std::vector<std::string> kUsual = {kHeadTracker, kWandTracker, kFootTracker};
-  Reporter report(document.source(), findings);
+  FindingCollector report(document.source(), findings);
   const auto among = [](const std::vector<std::string>& names, std::string_view name) {
     return std::ranges::find(names, name) != names.end();
   };

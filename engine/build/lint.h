@@ -2,7 +2,7 @@
 /// Warnings about a script that is correct but hardly means what it says.
 
 #include "engine/script/document.h"
-#include "engine/script/reporter.h"
+#include "engine/script/finding_collector.h"
 
 #include <map>
 #include <string>
@@ -54,7 +54,7 @@ private:
 
   const Document& document_;
   bool alone_;
-  Reporter report_;
+  FindingCollector report_;
   std::vector<NodeUse> uses_;
   std::map<std::uint32_t, std::size_t> tallies_;
 };

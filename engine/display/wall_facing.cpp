@@ -12,7 +12,7 @@ constexpr double kClear = 0.01;   ///< so far in front of a wall is certainly in
 constexpr int kMostSteps = 4000;  ///< of the search for a point in front of every wall
 using WallSet = std::vector<bool>;
 
-struct Side {
+struct WallSide {
   Vec3 normal, through;
   double inFront(const Vec3& p) const { return normal.dot(p - through); }
 };
@@ -40,7 +40,7 @@ public:
 
   /// All walls lie in one plane.
   bool flat() const {
-    return std::ranges::all_of(sides_, [&](const Side& side) {
+    return std::ranges::all_of(sides_, [&](const WallSide& side) {
       return std::ranges::all_of(corners_,
                                  [&](const Vec3& c) { return std::fabs(side.inFront(c)) < kClear; });
     });
@@ -66,7 +66,7 @@ public:
   }
 
 private:
-  std::vector<Side> sides_;
+  std::vector<WallSide> sides_;
   std::vector<Vec3> corners_;
   Vec3 middle_ = Vec3::Zero();
 };

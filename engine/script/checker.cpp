@@ -107,7 +107,7 @@ std::size_t strayComma(std::string_view list) {
 
 }  // namespace
 
-Checker::Checker(Document& document, Reporter& report)
+Checker::Checker(Document& document, FindingCollector& report)
     : document_(document), writer_(document), report_(report) {
   const auto positionOf = [](std::string_view name) {
     const auto at = std::ranges::find(kCommonRows, name, &AttributeSpec::name);

@@ -2,14 +2,14 @@
 /// Turns raw declarations into typed ones, as the node types demand, and says what is wrong with them.
 
 #include "engine/script/document_writer.h"
-#include "engine/script/reporter.h"
+#include "engine/script/finding_collector.h"
 
 namespace stadion {
 
 class Checker {
 public:
   /// Expects that both outlive the checker.
-  Checker(Document& document, Reporter& report);
+  Checker(Document& document, FindingCollector& report);
 
   void take(const RawDeclaration& raw);
   void finish();  ///< after the last declaration
@@ -41,7 +41,7 @@ private:
 
   Document& document_;
   DocumentWriter writer_;
-  Reporter& report_;
+  FindingCollector& report_;
   std::size_t priority_, onOverrun_;  ///< positions among the common attributes
 };
 

@@ -5,7 +5,7 @@
 /// Errors   a value that was wrong by itself is stated and has no value: has() is false.
 
 #include "engine/script/document.h"
-#include "engine/script/reporter.h"
+#include "engine/script/finding_collector.h"
 #include "engine/script/syntax.h"
 
 #include <string>
@@ -15,7 +15,7 @@ namespace stadion {
 
 class DeclarationCheck {
 public:
-  DeclarationCheck(const Declaration& declaration, const RawDeclaration& raw, Reporter& report)
+  DeclarationCheck(const Declaration& declaration, const RawDeclaration& raw, FindingCollector& report)
       : declaration_(declaration), raw_(raw), report_(report) {}
 
   const Declaration& declaration() const { return declaration_; }
@@ -32,7 +32,7 @@ public:
 private:
   const Declaration& declaration_;
   const RawDeclaration& raw_;
-  Reporter& report_;
+  FindingCollector& report_;
 };
 
 /// "usertrigger needs a "sphere" or "box"": exactly one of the two, or none where the volume may be left out.

@@ -1,9 +1,9 @@
 #include "engine/core/shared_rows.h"
+#include "engine/plain_text/suggestion.h"
 #include "engine/script/attribute_text.h"
 #include "engine/script/document_writer.h"
-#include "engine/script/reporter.h"
+#include "engine/script/finding_collector.h"
 #include "engine/script/script.h"
-#include "engine/plain_text/suggestion.h"
 
 #include <unordered_map>
 #include <unordered_set>
@@ -32,7 +32,7 @@ std::string commandsOf(const RegisteredType& type) {
 
 class Resolver {
 public:
-  Resolver(Document& document, const Surroundings& surroundings, Reporter& report)
+  Resolver(Document& document, const RelatedDocuments& surroundings, FindingCollector& report)
       : document_(document), surroundings_(surroundings), writer_(document), report_(report) {}
 
   void run() {
@@ -204,17 +204,17 @@ private:
   }
 
   Document& document_;
-  const Surroundings& surroundings_;
+  const RelatedDocuments& surroundings_;
   DocumentWriter writer_;
-  Reporter& report_;
+  FindingCollector& report_;
   std::vector<std::string> visible_;
   std::size_t suggestions_ = 0;
 };
 
 }  // namespace
 
-void resolveNames(Document& document, const Surroundings& surroundings, Diagnostics& findings) {
-  Reporter report(document.source(), findings);
+void resolveNames(Document& document, const RelatedDocuments& surroundings, Diagnostics& findings) {
+  FindingCollector report(document.source(), findings);
   Resolver(document, surroundings, report).run();
 }
 

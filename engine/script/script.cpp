@@ -9,7 +9,7 @@ namespace stadion {
 
 Document parseScript(SourceText source, const NodeRegistry& types, Diagnostics& findings) {
   Document document = DocumentWriter::empty(std::move(source), types);
-  Reporter report(document.source(), findings);
+  FindingCollector report(document.source(), findings);
   Checker checker(document, report);
   parseSyntax(
       document.source(), [&](const RawDeclaration& raw) { checker.take(raw); },

@@ -7,7 +7,7 @@
 ///   resolveNames(document, {enclosing files, sub-scene files}, findings);
 ///   if (findings.hasErrors()) ...                                  // build nothing
 ///
-/// Errors   every finding is added to `findings`, at most Reporter::kMost errors per step. The returned
+/// Errors   every finding is added to `findings`, at most FindingCollector::kMost errors per step. The
 ///          document can always be read; it lacks what was wrong.
 /// Threads  a document is used by one thread until its names are resolved, then constant.
 
@@ -22,7 +22,7 @@ namespace stadion {
 Document parseScript(SourceText source, const NodeRegistry& types, Diagnostics& findings);
 
 /// The files around one file.
-struct Surroundings {
+struct RelatedDocuments {
   /// The documents of the scene nodes that this file is loaded by, the nearest first.
   std::vector<const Document*> enclosing;
   /// The document of a scene node's file, or nullptr if it is not known; then names inside it are taken on
@@ -33,7 +33,7 @@ struct Surroundings {
 /// Finds the node that each reference means and checks that it may be used there; then what depends on
 /// that: circles of parents, a body in two dynamics nodes. Expects that the enclosing documents have been
 /// parsed.
-void resolveNames(Document& document, const Surroundings& surroundings, Diagnostics& findings);
+void resolveNames(Document& document, const RelatedDocuments& surroundings, Diagnostics& findings);
 
 /// Parses a script that stands alone and resolves its names. Findings are in the order of the lines.
 Document checkScript(SourceText source, const NodeRegistry& types, Diagnostics& findings);

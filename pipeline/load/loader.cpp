@@ -210,7 +210,7 @@ std::unique_ptr<LoadedScene> Loader::build(const Job& job, std::unique_ptr<Docum
                                                    " deep; does this file load itself? It stays out");
     return nullptr;
   }
-  Surroundings surroundings;
+  RelatedDocuments surroundings;
   for (const std::uint32_t n : numbers) surroundings.enclosing.push_back(around_.at(n).document.get());
   resolveNames(*document, surroundings, findings);
   if (findings.hasErrors()) return nullptr;

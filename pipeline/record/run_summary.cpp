@@ -32,7 +32,7 @@ std::string hex(std::uint64_t hash) {
   return fmt::format("{:016x}", hash);
 }
 
-Json json(const Distribution& d) {
+Json json(const SampleStatistics& d) {
   return {{"count", d.count}, {"min", d.min}, {"mean", d.mean}, {"p50", d.p50},
           {"p95", d.p95},     {"p99", d.p99}, {"max", d.max}};
 }
@@ -44,7 +44,7 @@ struct Again {
   bool told = false;
 };
 
-std::string row(const std::string& stage, const std::string& wall, const Distribution& d) {
+std::string row(const std::string& stage, const std::string& wall, const SampleStatistics& d) {
   return fmt::format("  {:<16} {:<12} {:>9.3f} {:>9.3f} {:>9.3f} {:>9.3f}\n", stage, wall, d.p50, d.p95,
                      d.p99, d.max);
 }
@@ -57,7 +57,7 @@ double percentile(std::vector<double> values, double percent) {
   return nearestRank(values, percent);
 }
 
-Distribution distributionOf(std::vector<double> values) {
+SampleStatistics sampleStatisticsOf(std::vector<double> values) {
   keepFinite(values);
   if (values.empty()) return {};
   std::ranges::sort(values);

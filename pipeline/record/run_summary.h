@@ -19,24 +19,24 @@ namespace stadion {
 /// interpolation). Returns 0 without values. Ignores values that are not finite.
 double percentile(std::vector<double> values, double percent);
 
-struct Distribution {
+struct SampleStatistics {
   std::size_t count = 0;
   double min = 0, mean = 0, p50 = 0, p95 = 0, p99 = 0, max = 0;
 };
 /// Describes the finite values.
-Distribution distributionOf(std::vector<double> values);
+SampleStatistics sampleStatisticsOf(std::vector<double> values);
 
 /// Duration of a stage in each frame.
 struct StageTimes {
   std::string stage;  ///< app, cull, draw
   std::string wall;   ///< empty: the stage belongs to no wall
-  Distribution ms;
+  SampleStatistics ms;
   std::string method;  ///< the method of timing, such as "cpu clock around draw + finish"
 };
 
 struct WallLatency {
   std::string wall;
-  Distribution ms;  ///< from the head's pose to the picture on the wall
+  SampleStatistics ms;  ///< from the head's pose to the picture on the wall
 };
 
 /// A wall that sometimes kept an older picture because the new one was late.
@@ -76,7 +76,7 @@ struct ClusterSummary {
   std::uint64_t mostOrderBytes = 0;
   /// Waits of frames for which all others waited for this host: from the end of its drawing to the permission
   /// to show [ms].
-  Distribution barrier;
+  SampleStatistics barrier;
   std::uint64_t joined = 0, leftOut = 0;     ///< known to the leader only
   std::uint64_t compared = 0, differed = 0;  ///< scenes that were compared, and that differed
   bool stopped = false;                      ///< because they differed
@@ -151,7 +151,7 @@ struct RunSummary {
   HowDrawn howDrawn{};
   double warmUpMs = 0;  ///< before the first frame is drawn: contexts, shaders, uploads; counted here only
   std::uint64_t lateFrames = 0;
-  Distribution frameMs;  ///< from one frame shown to the next
+  SampleStatistics frameMs;  ///< from one frame shown to the next
   std::vector<StageTimes> stages;
   std::uint64_t mostTicksWithoutFrame = 0;  ///< ticks in a row without a frame on any wall
   std::vector<WallLatency> latency;         ///< motion to image

@@ -1,4 +1,4 @@
-#include "profiling/report/distribution.h"
+#include "profiling/report/duration_histogram.h"
 #include "profiling/report/node_table.h"
 #include "profiling/report/report_data.h"
 
@@ -84,7 +84,7 @@ private:
     std::vector<float> values;
     for (std::size_t row = 0; row < data_.series.rows().size(); ++row)
       if (!data_.series.rows()[row].sampled && of(row) > 0) values.push_back(of(row));
-    const Distribution d = distributionOf(std::move(values));
+    const DurationHistogram d = durationHistogramOf(std::move(values));
     return {{"name", name},           {"stage", stage},
             {"mean", number(d.mean)}, {"median", number(d.median)},
             {"p95", number(d.p95)},   {"p99", number(d.p99)},

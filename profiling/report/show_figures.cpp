@@ -60,7 +60,7 @@ private:
 
   /// Returns the number of sampled frames in which that eye saw it. If the eyes were not distinguished, both
   /// saw all.
-  std::uint64_t seenBy(std::size_t eye, std::uint32_t wall, const WallCost& cost) const {
+  std::uint64_t seenBy(std::size_t eye, std::uint32_t wall, const NodeWallCost& cost) const {
     const bool apart = profile_.shares(Span::LeftEye, wall) + profile_.shares(Span::RightEye, wall) > 0;
     const auto at = cost.shares.find(!apart ? Span::Fill : eye == 0 ? Span::LeftEye : Span::RightEye);
     return at == cost.shares.end() ? 0 : at->second;

@@ -8,7 +8,7 @@ constexpr std::size_t kMostLoads = 256;
 
 }  // namespace
 
-void WallCost::add(const WallCost& other) {
+void NodeWallCost::add(const NodeWallCost& other) {
   for (const auto& [what, count] : other.shares) shares[what] += count;
   for (std::size_t eye = 0; eye < 2; ++eye) draw[eye] += other.draw[eye], drawn[eye] += other.drawn[eye];
 }
@@ -175,7 +175,7 @@ void ShowProfile::take(const DrawnAlone& d, const std::vector<NodeShare>& nodes)
   if (nodes.empty()) return;
   eye.batches.add(d.ms);
   for (const auto& [node, part] : nodes) {
-    WallCost& wall = profileOf(node).walls[d.wall];
+    NodeWallCost& wall = profileOf(node).walls[d.wall];
     wall.draw[d.eye] += d.ms * double{part};
     ++wall.drawn[d.eye];
     profileOf(node).drawing.add(std::max(0.0, d.ms * double{part}));

@@ -30,11 +30,11 @@
 namespace stadion {
 
 /// A node's cost on one wall, for both eyes.
-struct WallCost {
+struct NodeWallCost {
   std::map<Span, std::uint64_t> shares;  ///< time of tests, fillings and so on, in sampled frames
   std::array<double, 2> draw{};          ///< drawn alone, in all, by eye
   std::array<std::uint64_t, 2> drawn{};
-  void add(const WallCost& other);
+  void add(const NodeWallCost& other);
 };
 
 struct NodeProfile {
@@ -44,7 +44,7 @@ struct NodeProfile {
   std::uint64_t published = 0;     ///< number of times, in sampled frames
   CostSeries visit;                ///< all phases of a frame together, in frames with a visit
   CostSeries drawing;              ///< times of drawing the node alone, on one wall for one eye
-  std::map<std::uint32_t, WallCost> walls;
+  std::map<std::uint32_t, NodeWallCost> walls;
   void add(const NodeProfile& other);
 };
 

@@ -243,7 +243,7 @@ ClusterSummary ClusterSession::summary() const {
   s.orders = t.orders;
   s.orderBytes = t.orders > 0 ? static_cast<double>(t.orderBytes) / static_cast<double>(t.orders) : 0;
   s.mostOrderBytes = t.mostOrderBytes;
-  s.barrier = distributionOf(t.barrier.values());
+  s.barrier = sampleStatisticsOf(t.barrier.values());
   s.stopped = t.stopped > 0;
   s.joined = t.joined, s.leftOut = t.leftOut, s.compared = t.compared, s.differed = t.differed;
   return s;

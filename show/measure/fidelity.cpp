@@ -70,9 +70,9 @@ struct Run {
 
 /// Every model in turn, round by round, so that what else the machine does befalls all alike. Of those that
 /// could be the finest the first that can be built is kept.
-class Trial {
+class ModelTrial {
 public:
-  Trial(const FidelityOptions& options, NodeRef body, NodeRef dynamics, std::vector<TriedModel>& tried)
+  ModelTrial(const FidelityOptions& options, NodeRef body, NodeRef dynamics, std::vector<TriedModel>& tried)
       : options_(options), body_(body), dynamics_(dynamics), tried_(tried), runs_(tried.size()) {}
 
   void play(const std::function<void(const std::string&)>& progress) {
@@ -140,7 +140,7 @@ void compare(const Run& run, const Run& finest, double rate, double tolerance, T
 void tryModels(const FidelityOptions& options, NodeRef ref, const PlayedShow& show, BodyFidelity& body,
                const std::function<void(const std::string&)>& progress) {
   body.tried = modelsFor(ref, body.body, options.finest);
-  Trial trial(options, ref, body.body.dynamics, body.tried);
+  ModelTrial trial(options, ref, body.body.dynamics, body.tried);
   trial.play([&](const std::string& what) { progress(body.body.name + ": " + what); });
   const Run& without = trial.without();
   for (std::size_t i = 0; i < body.tried.size(); ++i) {

@@ -52,7 +52,7 @@ private:
     Diagnostics own;
     Document document = parseScript(std::move(source.value()), *types_, own);
     std::map<std::string, std::unique_ptr<Document>> inner;
-    Surroundings around;
+    RelatedDocuments around;
     around.enclosing = enclosing;
     around.subScene = [&](Declaration scene) { return subScene(scene, inner); };
     resolveNames(document, around, own);

@@ -51,7 +51,7 @@ bool knowsNoSpans(const ChildResult& child) {
 }
 
 /// A program and where its record goes.
-struct Side {
+struct RoundSide {
   const MeasuredProgram& program;
   std::string file;
   std::vector<SpanRow> rows{};
@@ -63,7 +63,7 @@ public:
       : case_(c), mode_(mode), o_(o), turns_(mode == "sequential") {}
 
   /// False, with the reason in `fault`, if one of the two could not be played.
-  bool play(Side& first, Side& second) {
+  bool play(RoundSide& first, RoundSide& second) {
     if (!old_ && turns_) {
       const auto [a, b] = runInTurns(words(first), words(second), o_.limit, o_.stop, kDrawAlone);
       if (knowsNoSpans(a) || knowsNoSpans(b)) return old_ = true, play(first, second);
@@ -72,7 +72,7 @@ public:
     return play(first) && play(second);
   }
 
-  bool play(Side& side) {
+  bool play(RoundSide& side) {
     if (old_) {
       side.rows = playedOld(case_, mode_, side.program, o_, fault);
       return fault.empty();
@@ -85,11 +85,11 @@ public:
   std::string fault;
 
 private:
-  std::vector<std::string> words(const Side& side) const {
+  std::vector<std::string> words(const RoundSide& side) const {
     return measuredWords(case_, mode_, side.program, side.file, true);
   }
 
-  bool take(const ChildResult& child, Side& side) {
+  bool take(const ChildResult& child, RoundSide& side) {
     fault = faultOf(side.program, child);
     if (fault.empty()) side.rows = spanRows(textOf(side.file));
     if (fault.empty() && side.rows.empty()) fault = side.program.path + ": it did not write what it cost";
@@ -110,7 +110,7 @@ MeasuredRounds measureRounds(const SuiteCase& c, const std::string& mode, const 
   Rounds rounds(c, mode, options);
   MeasuredRounds measured;
   for (std::size_t i = 0; i < options.rounds && !options.stop; ++i) {
-    Side a{before, folder.path("before")}, b{now, folder.path("now")};
+    RoundSide a{before, folder.path("before")}, b{now, folder.path("now")};
     if (!(i % 2 == 0 ? rounds.play(a, b) : rounds.play(b, a))) {
       measured.fault = rounds.fault;
       return measured;
@@ -127,7 +127,7 @@ MeasuredRounds measureRounds(const SuiteCase& c, const std::string& mode, const 
   Rounds rounds(c, mode, options);
   MeasuredRounds measured;
   for (std::size_t i = 0; i < options.rounds && !options.stop; ++i) {
-    Side side{now, folder.path("now")};
+    RoundSide side{now, folder.path("now")};
     const double earlier = calibrationMs();
     if (!rounds.play(side)) {
       measured.fault = rounds.fault;

@@ -107,17 +107,17 @@ void OpenSession::addDrawing(RunSummary& summary) const {
 void OpenSession::addTimes(RunSummary& s) const {
   const FrameTimes& t = state_.loop->times();
   const ShowStages& stages = *state_.stages;
-  s.frameMs = distributionOf(t.period.values());
+  s.frameMs = sampleStatisticsOf(t.period.values());
   if (stages.drawnBy() != "") s.warmUpMs = t.warmUp;
   const std::string clock = "steady clock around the stage",
                     finish = std::string("steady clock around draw + finish + read back") +
                              (state_.settings.play.drawBeginsEarly ? ", with its waits for Cull" : "");
-  s.stages.push_back({"app", "", distributionOf(t.app.values()), clock});
+  s.stages.push_back({"app", "", sampleStatisticsOf(t.app.values()), clock});
   for (std::size_t w = 0; w < t.draw.size(); ++w) {
     const std::string& name = player_->walls().walls[w].wall.name;
-    s.stages.push_back({"cull", name, distributionOf(t.cull[w].values()), clock});
-    s.stages.push_back({"draw", name, distributionOf(t.draw[w].values()), finish});
-    s.latency.push_back({name, distributionOf(t.latency[w].values())});
+    s.stages.push_back({"cull", name, sampleStatisticsOf(t.cull[w].values()), clock});
+    s.stages.push_back({"draw", name, sampleStatisticsOf(t.draw[w].values()), finish});
+    s.latency.push_back({name, sampleStatisticsOf(t.latency[w].values())});
     if (const WallLateness& late = stages.late(w); late.frames > 0)
       s.lateWalls.push_back({name, late.frames, late.inARow});
     const std::vector<Picture>& eyes = stages.lastPictures()[w].eyes;

@@ -17,7 +17,7 @@ const std::string kRoot = STADION_SOURCE_DIR;
 class ProgramInstall : public testing::Test {
 protected:
   static void SetUpTestSuite() {
-    folder_ = new TemporaryFolder;
+    folder_ = new TestFolder;
     const ProgramResult r =
         runProgram({{"cmake", "--install", STADION_BINARY_DIR, "--prefix", prefix(), "--strip"}});
     ASSERT_EQ(r.status, 0) << r.err;
@@ -40,9 +40,9 @@ protected:
     return build + (file.empty() ? "/" + name : file);
   }
 
-  static TemporaryFolder* folder_;
+  static TestFolder* folder_;
 };
-TemporaryFolder* ProgramInstall::folder_ = nullptr;
+TestFolder* ProgramInstall::folder_ = nullptr;
 
 TEST_F(ProgramInstall, AnInstalledCopyPlaysAShow) {
   const std::string out = folder_->path() / "pictures";

@@ -55,7 +55,7 @@ private:
   }
   void makeProgram() { script("build/release/bin/stadion", "printf '<%s>' \"$@\""); }
 
-  TemporaryFolder root_;
+  TestFolder root_;
 };
 
 TEST(ProgramLauncher, BuildsTheFirstTimeAndThenOnlyStarts) {
@@ -176,7 +176,7 @@ TEST(ProgramLauncher, AFailedBuildShowsItsErrorsAndIsTriedAgain) {
 
 TEST(ProgramLauncher, WorksFromAnotherFolderAndThroughALink) {
   House house;
-  const TemporaryFolder elsewhere;
+  const TestFolder elsewhere;
   fs::create_symlink(house.path("stadion"), elsewhere.path() / "play");
   const ProgramResult r = house.start({"run", "mine.evs"}, {}, elsewhere.path() / "play", elsewhere.path());
   EXPECT_EQ(r.status, 0) << r.err;
@@ -247,7 +247,7 @@ TEST(ProgramLauncher, AnOutdatedBuildThatCannotBeRenewedIsNotStarted) {
 }
 
 TEST(ProgramLauncher, FuzzingWithoutABuildOfItsTargetsSaysWhatMakesOne) {
-  const TemporaryFolder root;
+  const TestFolder root;
   root.write("tests/fuzz/targets/walls.cpp", "// target\n");
   fs::copy_file(STADION_SOURCE_DIR "/tests/fuzz/run", root.path() / "tests/fuzz/run");
   const ProgramResult r = runProgram({{root.path() / "tests/fuzz/run", "walls"}});

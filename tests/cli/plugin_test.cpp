@@ -26,7 +26,7 @@ std::string refusal(const std::vector<std::string>& files) {
 }
 
 TEST(ProgramPlugin, AShowMayUseItsNodeTypes) {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   const std::string show = folder.write("follows.evs", kFollows), plugin = pluginFile("spring-plugin");
   const ProgramResult without = stadionProgram({"check", show});
   EXPECT_EQ(without.status, 2);

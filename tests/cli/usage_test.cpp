@@ -57,7 +57,7 @@ TEST(ProgramUsage, AFolderIsNotAScript) {
 }
 
 TEST(ProgramUsage, AWrongScriptIsNotPlayed) {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   const std::string script = folder.write("wrong.evs", "dynobject( name=a, densty=2 )\n");
   for (const char* command : {"run", "hash", "check"}) {
     const ProgramResult r = stadionProgram({command, script});
@@ -67,7 +67,7 @@ TEST(ProgramUsage, AWrongScriptIsNotPlayed) {
 }
 
 TEST(ProgramUsage, ABadWallFileIsShownWithItsLine) {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   const std::string walls = folder.write("bad.walls", "unit m\nwall front lower-left 0 0\n");
   const ProgramResult r = stadionProgram({"run", testShow("bodies.evs"), "--walls", walls, "--frames", "2"});
   EXPECT_EQ(r.status, 2);
@@ -135,7 +135,7 @@ TEST(ProgramUsage, OptionsThatWouldMeanNothingBesideOthersAreRefused) {
 }
 
 TEST(ProgramUsage, WhatIsNoPlainFileIsRefusedWithoutWaiting) {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   const std::string fifo = folder.path() / "fifo";
   ASSERT_EQ(::mkfifo(fifo.c_str(), 0600), 0);
   ProgramRun run;
@@ -163,7 +163,7 @@ TEST(ProgramUsage, WhatIsNoPlainFileIsRefusedWithoutWaiting) {
 }
 
 TEST(ProgramUsage, AHugeScriptIsRefusedBeforeItIsRead) {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   const std::string script = folder.write("huge.evs", "");
   std::filesystem::resize_file(script, std::uintmax_t{4} << 30);  // takes no room on the disk
   for (const char* command : {"run", "hash", "check"}) {
@@ -178,7 +178,7 @@ TEST(ProgramUsage, AHugeScriptIsRefusedBeforeItIsRead) {
 }
 
 TEST(ProgramUsage, WhatHappenedIsCountedWhenItIsTooMuchToTell) {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   const std::string show = folder.write("show.evs", "timer( name=tick, period=0.001, repeat=on )\n");
   const ProgramResult text = stadionProgram(shortRun(show, {}, "61"));
   ASSERT_EQ(text.status, 0) << text.err;
@@ -191,7 +191,7 @@ TEST(ProgramUsage, WhatHappenedIsCountedWhenItIsTooMuchToTell) {
 }
 
 TEST(ProgramUsage, ErrorsInSubScenesAndModelsNameTheirFile) {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   folder.write("parts/inner.evs", "# one line\nobject( file=missing.obj )\ndynobject( file=flat.obj )\n");
   folder.write("flat.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
   const std::string show =
@@ -209,7 +209,7 @@ TEST(ProgramUsage, ErrorsInSubScenesAndModelsNameTheirFile) {
 }
 
 TEST(ProgramUsage, ABadInputLogIsShownWithItsLine) {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   const std::string log = folder.write("bad.input", "stadion-input 1\npose head x\n");
   const ProgramResult r = stadionProgram({"run", testShow("bodies.evs"), "--input", log});
   EXPECT_EQ(r.status, 2);
@@ -217,7 +217,7 @@ TEST(ProgramUsage, ABadInputLogIsShownWithItsLine) {
 }
 
 TEST(ProgramUsage, AMissingModelIsAStandInInRunAndAnErrorInCheck) {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   const std::string script =
       folder.write("show.evs", "object( file=nothing_here.obj )\nobject( file=football.3ds )\n");
   const ProgramResult run = stadionProgram(shortRun(script, {"--json"}));
@@ -234,7 +234,7 @@ TEST(ProgramUsage, AMissingModelIsAStandInInRunAndAnErrorInCheck) {
 }
 
 TEST(ProgramUsage, OptionsThatMayBeRepeatedMayStandBeforeTheScript) {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   const std::string script = folder.write("show.evs", "object( name=a, file=football.3ds )\n");
   for (const char* command : {"check", "run", "hash"}) {
     std::vector<std::string> words{command,        "--asset-root", folder.path(),
@@ -256,7 +256,7 @@ TEST(ProgramUsage, OptionsThatMayBeRepeatedMayStandBeforeTheScript) {
 }
 
 TEST(ProgramUsage, JsonIsOneObjectOnStdoutAndNothingElse) {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   const std::string pictures = folder.path() / "pictures";
   const ProgramResult r =
       stadionProgram(shortRun(testShow("moving.evs"), {"--json", "--profile", "--out", pictures}));
@@ -271,7 +271,7 @@ TEST(ProgramUsage, JsonIsOneObjectOnStdoutAndNothingElse) {
 }
 
 TEST(ProgramUsage, OnlyDrawnFramesAreCountedAndTimed) {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   const std::string pictures = folder.path() / "pictures";
   const auto run = [&](const std::vector<std::string>& more) {
     std::vector<std::string> options{"--out", pictures};
@@ -295,7 +295,7 @@ TEST(ProgramUsage, OnlyDrawnFramesAreCountedAndTimed) {
 }
 
 TEST(ProgramUsage, ASubSceneThatLoadsItselfStaysOutWithAWarning) {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   const std::string show = folder.write("self.evs", "scene( name=me, file=self.evs )\n");
   const ProgramResult r = stadionProgram({"hash", show, "--frames", "3"});
   EXPECT_EQ(r.status, 0);
@@ -304,7 +304,7 @@ TEST(ProgramUsage, ASubSceneThatLoadsItselfStaysOutWithAWarning) {
 }
 
 TEST(ProgramUsage, ASubSceneFileThatIsRefusedIsToldOnce) {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   const std::string show = folder.write("outside.evs", "scene( file=\"/etc/passwd\" )\n");
   const ProgramResult r = stadionProgram({"check", show});
   EXPECT_EQ(r.status, 2);
@@ -314,7 +314,7 @@ TEST(ProgramUsage, ASubSceneFileThatIsRefusedIsToldOnce) {
 
 // Within a limit that comparing every pair would not keep.
 TEST(ProgramUsage, CheckFindsTheOneOverlapAmongTenThousandBodies) {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   std::string cube, show = "object( name=field, file=plane.3ds )\n", bodies;
   for (int i = 0; i < 8; ++i)
     cube += fmt::format("v {} {} {}\n", i & 1 ? 0.1 : -0.1, i & 2 ? 0.1 : -0.1, i & 4 ? 0.1 : -0.1);
@@ -338,7 +338,7 @@ TEST(ProgramUsage, CheckFindsTheOneOverlapAmongTenThousandBodies) {
 TEST(ProgramUsage, InterruptsEndTheShowWithItsSummary) {
   for (const int signal : {SIGINT, SIGTERM})
     for (const char* mode : {"sequential", "pipelined"}) {
-      const TemporaryFolder out;
+      const TestFolder out;
       ProgramRun run;
       run.words = {stadionPath(),  "run",         testShow("reload_with.evs"),
                    "--asset-root", assetFolder(), "--size",

@@ -11,7 +11,7 @@ namespace stadion {
 namespace {
 
 TEST(ProgramUsage, APictureThatCannotBeWrittenIsNamedOnce) {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   // A folder is in the place of a picture.
   std::filesystem::create_directory(folder.path() / "screen-left-000002.png");
   const ProgramResult r =
@@ -25,7 +25,7 @@ TEST(ProgramUsage, APictureThatCannotBeWrittenIsNamedOnce) {
 }
 
 TEST(ProgramUsage, AFurtherRunRemovesTheFilesOfTheRunBeforeAndNoOthers) {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   folder.write("screen-left-000099.png", "somebody's own");
   const auto run = [&](const char* frames) {
     return stadionProgram(
@@ -46,7 +46,7 @@ TEST(ProgramUsage, AFurtherRunRemovesTheFilesOfTheRunBeforeAndNoOthers) {
 }
 
 TEST(ProgramUsage, AListOfFilesDoesNotReachOutOfItsFolder) {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   const std::string outside = folder.write("outside.txt", "somebody's own");
   const std::string out = folder.path() / "out";
   folder.write("out/.stadion-files", "stadion-files 1\n../outside.txt\n" + outside + "\n..\n");
@@ -60,7 +60,7 @@ TEST(ProgramUsage, AListOfFilesDoesNotReachOutOfItsFolder) {
 }
 
 TEST(ProgramUsage, AnOutputFolderThatCannotBeMadeIsBadInput) {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   const std::string file = folder.write("file", "in the way");
   for (const std::string& out : {file, file + "/below", std::string("/proc/stadion-pictures")}) {
     const ProgramResult r = stadionProgram(shortRun(testShow("bodies.evs"), {"--out", out}));
@@ -79,7 +79,7 @@ TEST(ProgramUsage, AnOutputFolderThatTakesNoFilesIsFoundOutBeforePlaying) {
 }
 
 TEST(ProgramUsage, ForAVideoThatCannotBeMadeNothingIsDrawn) {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   const ProgramResult r = runProgram(
       {{stadionPath(), "run", testShow("moving.evs"), "--input", "none", "--walls", "desktop", "--size",
         "64x48", "--frames", "2000", "--json", "--video", "--out", folder.path() / "out"},
@@ -90,7 +90,7 @@ TEST(ProgramUsage, ForAVideoThatCannotBeMadeNothingIsDrawn) {
 }
 
 TEST(ProgramUsage, NothingButAnInputLogIsReplacedByAnInputLog) {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   const std::string show = folder.write("show.evs", "group( name=a )\n"),
                     log = folder.write("old.input", "stadion-input 1\npose head 0  0 0 1.7  1 0 0 0\n");
   const auto record = [&](const std::string& file, const std::string& input) {
@@ -109,7 +109,7 @@ TEST(ProgramUsage, NothingButAnInputLogIsReplacedByAnInputLog) {
 }
 
 /// A folder for --out in which the file `name` is a link to `file`.
-std::string outLinkedTo(const TemporaryFolder& folder, const std::string& name, const std::string& file) {
+std::string outLinkedTo(const TestFolder& folder, const std::string& name, const std::string& file) {
   static int made = 0;
   const std::filesystem::path out = folder.path() / ("linked" + std::to_string(++made));
   std::filesystem::create_directory(out);
@@ -118,7 +118,7 @@ std::string outLinkedTo(const TemporaryFolder& folder, const std::string& name, 
 }
 
 TEST(ProgramUsage, WhatIsReadIsNotWrittenOver) {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   const std::string show = folder.write("a.evs", "group( name=a )\n"),
                     suite = folder.write("a.suite", "case( name=a, show=a.evs )\n");
   for (const ProgramResult& r :
@@ -132,7 +132,7 @@ TEST(ProgramUsage, WhatIsReadIsNotWrittenOver) {
 }
 
 TEST(ProgramUsage, WhatIsReadWithoutBeingNamedIsNotWrittenOver) {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   const auto at = [&](const std::string& name) { return (folder.path() / name).string(); };
   const std::string walls = fileContent(STADION_SOURCE_DIR "/walls/desktop.walls"),
                     log = fileContent(STADION_SOURCE_DIR "/scripts/kick.input");
@@ -185,7 +185,7 @@ std::map<std::string, std::string> filesWithFilesInThem() {
 }
 
 TEST(ProgramUsage, WhatSubScenesAndModelsReadIsNotWrittenOver) {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   const auto at = [&](const std::string& name) { return (folder.path() / name).string(); };
   const std::map<std::string, std::string> files = filesWithFilesInThem();
   for (const auto& [name, content] : files) folder.write(name, content);
@@ -217,7 +217,7 @@ TEST(ProgramUsage, WhatSubScenesAndModelsReadIsNotWrittenOver) {
 }
 
 TEST(ProgramUsage, PicturesWhoseNamesAModelWritesInPercentsAreNotWrittenOver) {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   const std::string picture = folder.write("leaf gold.png", "a picture");
   folder.write("a.gltf", R"({"asset": {"version": "2.0"}, "images": [{"uri": "leaf%20gold.png"}]})");
   const std::string show = folder.write("a.evs", "rig( name=r )\nobject( name=a, file=a.gltf )\n");
@@ -229,7 +229,7 @@ TEST(ProgramUsage, PicturesWhoseNamesAModelWritesInPercentsAreNotWrittenOver) {
 }
 
 TEST(ProgramUsage, PicturesThatAShowReadsAreNotWrittenOverByThoseOfARun) {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   const std::string picture = folder.write("skins/screen-left-000002.png", "a picture");
   folder.write("a.mtl", "newmtl m\nmap_Kd skins/screen-left-000002.png\n");
   folder.write("a.obj", "mtllib a.mtl\nusemtl m\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");

@@ -153,6 +153,61 @@ TEST(Layering, TheRoomsOfAFloorFormNoCycle) {
   }
 }
 
+/// Reads the lines of a header and collects the classes that it defines in namespaces, by their full names.
+class HeaderClasses {
+public:
+  explicit HeaderClasses(std::map<std::string, Line>& found) : found_(found) {}
+
+  void take(const Line& line) {
+    static const std::regex named(R"(^namespace ([\w:]*) ?\{)");
+    static const std::regex defines(
+        R"(^(class|struct|union|enum( class)?) (alignas\(\w+\) )?([\w:]+)[^;<]*(\{|$))");
+    std::smatch part;
+    const bool inNamespaces = depth_ == names_.size();
+    if (inNamespaces && std::regex_search(line.text, part, named)) {
+      names_.push_back(part[1]);
+      ++depth_;
+      return;
+    }
+    if (inNamespaces && std::regex_search(line.text, part, defines)) add(part[4], line);
+    for (const char c : line.text) count(c);
+  }
+
+private:
+  void add(const std::string& name, const Line& line) {
+    std::string full;
+    for (const std::string& n : names_) full += n + "::";
+    // Names in an anonymous namespace belong to one file.
+    if (names_.empty() || names_.back().empty()) return;
+    const auto [known, isNew] = found_.emplace(full + name, line);
+    EXPECT_TRUE(isNew || known->second.file == line.file)
+        << full << name << ": " << known->second.place() << ", " << line.place();
+  }
+
+  void count(char c) {
+    if (c == '{') ++depth_;
+    if (c != '}' || depth_ == 0) return;
+    if (depth_ == names_.size()) names_.pop_back();
+    --depth_;
+  }
+
+  std::map<std::string, Line>& found_;
+  std::vector<std::string> names_;  ///< of the open namespaces
+  std::size_t depth_ = 0;           ///< of braces
+};
+
+// One program may link both: two definitions of one name break the one-definition rule.
+TEST(Layering, NoTwoHeadersDefineClassesOfOneName) {
+  std::map<std::string, Line> found;
+  for (const char* folder : {"engine", "pipeline", "dynamics", "profiling", "show", "cli", "tests"}) {
+    std::map<std::string, HeaderClasses> headers;
+    for (const Line& line : linesBelow(folder))
+      if (line.file.ends_with(".h")) headers.try_emplace(line.file, found).first->second.take(line);
+  }
+  EXPECT_TRUE(found.contains("stadion::Scene"));
+  EXPECT_GT(found.size(), 1000u);
+}
+
 TEST(Layering, NoFolderHasMoreThanFortyFiles) {
   constexpr int kMost = 40;
   std::map<std::string, int> files;

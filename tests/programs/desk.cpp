@@ -137,7 +137,7 @@ std::unique_ptr<Display> Display::openWithMonitor() {
   for (const std::string& file : {server, modules + "/drivers/dummy_drv.so", ours + "/libmonitor.so"})
     if (!std::filesystem::exists(file)) return nullptr;
   if (!hasProgram("xdotool")) return nullptr;
-  auto folder = std::make_unique<TemporaryFolder>();
+  auto folder = std::make_unique<TestFolder>();
   const std::string configuration = folder->write("xorg.conf", kMemoryServer);
   auto display = start(
       {{server, "-displayfd", "1", "-nolisten", "tcp", "-noreset", "-novtswitch", "-sharevts", "-config",

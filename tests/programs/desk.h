@@ -35,7 +35,7 @@ public:
   int status();
 
 private:
-  TemporaryFolder folder_;
+  TestFolder folder_;
   pid_t child_ = -1;
   mutable int status_ = -1;  ///< known once somebody has asked whether it runs
   mutable bool ended_ = false;
@@ -61,7 +61,7 @@ public:
 private:
   Display() = default;
   static std::unique_ptr<Display> start(const ProgramRun& server);
-  std::unique_ptr<TemporaryFolder> folder_;
+  std::unique_ptr<TestFolder> folder_;
   std::unique_ptr<RunningProgram> server_;
   std::string name_;
 };

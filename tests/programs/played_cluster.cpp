@@ -9,7 +9,7 @@
 
 namespace stadion {
 
-std::string fourNodes(const TemporaryFolder& folder, const std::string& more) {
+std::string fourNodes(const TestFolder& folder, const std::string& more) {
   return folder.write("four.cluster",
                       "walls cave4\nnode front front\nnode left left\nnode right right\nnode floor floor\n"
                       "partition p" +

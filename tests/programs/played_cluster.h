@@ -22,7 +22,7 @@ const std::string kKick = STADION_SOURCE_DIR "/scripts/kick.evs";
 inline constexpr const char* kFourNodes[] = {"front", "left", "right", "floor"};
 
 /// A cluster file of four machines with a wall each. Tests run side by side: each has a partition of its own.
-std::string fourNodes(const TemporaryFolder& folder, const std::string& more = {});
+std::string fourNodes(const TestFolder& folder, const std::string& more = {});
 
 Json summaryOf(const std::filesystem::path& folder);
 /// The lines of all nodes' picture-hashes.txt below the folder, or of one run's.

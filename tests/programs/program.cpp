@@ -72,7 +72,7 @@ pid_t startProgram(const ProgramRun& run, const std::string& out, const std::str
 }
 
 ProgramResult runProgram(const ProgramRun& run) {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   const std::string out = folder.path() / "out", err = folder.path() / "err";
   const auto start = Clock::now();
   const pid_t child = startProgram(run, out, err);
@@ -100,18 +100,18 @@ std::string assetFolder() {
   return STADION_SOURCE_DIR "/assets";
 }
 
-TemporaryFolder::TemporaryFolder() {
+TestFolder::TestFolder() {
   std::string pattern = std::filesystem::temp_directory_path() / "stadion-test-XXXXXX";
   if (!::mkdtemp(pattern.data())) throw std::runtime_error("no temporary folder");
   path_ = pattern;
 }
 
-TemporaryFolder::~TemporaryFolder() {
+TestFolder::~TestFolder() {
   std::error_code ignored;
   std::filesystem::remove_all(path_, ignored);
 }
 
-std::string TemporaryFolder::write(const std::string& name, const std::string& content) const {
+std::string TestFolder::write(const std::string& name, const std::string& content) const {
   const std::filesystem::path file = path_ / name;
   std::filesystem::create_directories(file.parent_path());
   std::ofstream(file, std::ios::binary) << content;

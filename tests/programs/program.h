@@ -50,12 +50,12 @@ std::string testShow(const std::string& name);
 std::string assetFolder();
 
 /// A folder that goes when the test does.
-class TemporaryFolder {
+class TestFolder {
 public:
-  TemporaryFolder();
-  ~TemporaryFolder();
-  TemporaryFolder(const TemporaryFolder&) = delete;
-  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+  TestFolder();
+  ~TestFolder();
+  TestFolder(const TestFolder&) = delete;
+  TestFolder& operator=(const TestFolder&) = delete;
 
   const std::filesystem::path& path() const { return path_; }
   /// Writes a file in it and returns its path.

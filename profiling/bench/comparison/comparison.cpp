@@ -90,7 +90,7 @@ std::vector<std::string> unknownCases(const ComparisonOptions& options,
 
 void compareEngines(const std::vector<EngineProgram>& programs, const ComparisonOptions& options,
                     const std::function<void(const std::string&)>& progress,
-                    const std::function<void(const CaseResult&)>& done) {
+                    const std::function<void(const CaseComparison&)>& done) {
   std::vector<Contest> contests;
   for (const ListedCase& c : casesOf(programs.front()))
     if (options.cases.empty() ||
@@ -105,7 +105,7 @@ void compareEngines(const std::vector<EngineProgram>& programs, const Comparison
       else
         playRound(c, static_cast<std::size_t>(round), options.limit);
       if (round + 1 < options.rounds) continue;
-      CaseResult result{c.about.name, c.medians(), {}};
+      CaseComparison result{c.about.name, c.medians(), {}};
       result.verdict = judge(result.name, result.measurements);
       done(result);
     }

@@ -16,7 +16,7 @@ struct ComparisonOptions {
   int limit = 30;  ///< [s] of processor time for one case on one engine
 };
 
-struct CaseResult {
+struct CaseComparison {
   std::string name;
   std::vector<Measurement> measurements;  ///< medians, Stadion first
   Verdict verdict;                        ///< points into the measurements
@@ -28,6 +28,6 @@ std::vector<std::string> unknownCases(const ComparisonOptions& options, const st
 /// Calls `done` for each case when its last round is over.
 void compareEngines(const std::vector<EngineProgram>& programs, const ComparisonOptions& options,
                     const std::function<void(const std::string& progress)>& progress,
-                    const std::function<void(const CaseResult&)>& done);
+                    const std::function<void(const CaseComparison&)>& done);
 
 }  // namespace stadion::bench

@@ -19,7 +19,7 @@ const char* wordFor(Finding::Kind kind) {
 }
 
 /// The errors that have limits, and err.
-std::vector<std::string> columnsOf(const CaseResult& result) {
+std::vector<std::string> columnsOf(const CaseComparison& result) {
   std::vector<std::string> columns{"err"};
   if (const CaseLimits* limits = limitsFor(result.name))
     for (const MetricLimit& l : limits->errors)
@@ -36,7 +36,8 @@ int widthOf(const std::string& column) {
   return std::max(9, static_cast<int>(column.size()));
 }
 
-std::string rowOf(const Measurement& m, const CaseResult& result, const std::vector<std::string>& columns) {
+std::string rowOf(const Measurement& m, const CaseComparison& result,
+                  const std::vector<std::string>& columns) {
   std::string row = fmt::format("  {:<20}{:>3}", m.engine, m.n);
   if (m.unsupported) return row + "  has no such thing\n";
   if (m.crash) return row + (m.crash == SIGALRM ? "  out of time\n" : "  crashed\n");
@@ -50,7 +51,7 @@ std::string rowOf(const Measurement& m, const CaseResult& result, const std::vec
 
 }  // namespace
 
-std::string tableOf(const CaseResult& result) {
+std::string tableOf(const CaseComparison& result) {
   const std::vector<std::string> columns = columnsOf(result);
   std::string text = fmt::format("{}\n  {:<20}{:>3}{:>12}", result.name, "engine", "n", "ns/frame");
   for (const std::string& c : columns) text += fmt::format("  {:>{}}", c, widthOf(c));
@@ -62,10 +63,10 @@ std::string tableOf(const CaseResult& result) {
   return text;
 }
 
-std::string summaryOf(const std::vector<CaseResult>& results) {
+std::string summaryOf(const std::vector<CaseComparison>& results) {
   std::size_t met = 0, missed = 0, voids = 0;
   std::string which;
-  for (const CaseResult& r : results) {
+  for (const CaseComparison& r : results) {
     met += r.verdict.count(Finding::Kind::Met);
     missed += r.verdict.count(Finding::Kind::Missed);
     voids += r.verdict.count(Finding::Kind::Void);
@@ -75,9 +76,9 @@ std::string summaryOf(const std::vector<CaseResult>& results) {
   return fmt::format("{} limits met, {} missed, {} void\n{}", met, missed, voids, which);
 }
 
-std::string resultsJson(const std::vector<CaseResult>& results) {
+std::string resultsJson(const std::vector<CaseComparison>& results) {
   nlohmann::ordered_json cases = nlohmann::ordered_json::array();
-  for (const CaseResult& r : results) {
+  for (const CaseComparison& r : results) {
     nlohmann::ordered_json measurements = nlohmann::ordered_json::array();
     for (const Measurement& m : r.measurements)
       measurements.push_back(nlohmann::ordered_json::parse(toJson(m)));
@@ -89,9 +90,9 @@ std::string resultsJson(const std::vector<CaseResult>& results) {
   return cases.dump(1) + "\n";
 }
 
-bool allMet(const std::vector<CaseResult>& results) {
+bool allMet(const std::vector<CaseComparison>& results) {
   return std::all_of(results.begin(), results.end(),
-                     [](const CaseResult& r) { return r.verdict.count(Finding::Kind::Missed) == 0; });
+                     [](const CaseComparison& r) { return r.verdict.count(Finding::Kind::Missed) == 0; });
 }
 
 }  // namespace stadion::bench

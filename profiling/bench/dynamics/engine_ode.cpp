@@ -9,7 +9,7 @@
 namespace stadion::bench {
 namespace {
 
-struct Material {
+struct ContactProperties {
   double restitution, friction;
 };
 
@@ -116,7 +116,7 @@ private:
   }
 
   void setMaterial(dGeomID geometry, double restitution, double friction) {
-    dGeomSetData(geometry, &materials_.emplace_back(Material{restitution, friction}));
+    dGeomSetData(geometry, &materials_.emplace_back(ContactProperties{restitution, friction}));
   }
 
   static void collide(void* self, dGeomID a, dGeomID b) { static_cast<OdeEngine*>(self)->collide(a, b); }
@@ -127,8 +127,8 @@ private:
     constexpr int kMost = 16;
     dContact found[kMost];
     const int n = dCollide(a, b, kMost, &found[0].geom, sizeof(dContact));
-    const auto& one = *static_cast<const Material*>(dGeomGetData(a));
-    const auto& other = *static_cast<const Material*>(dGeomGetData(b));
+    const auto& one = *static_cast<const ContactProperties*>(dGeomGetData(a));
+    const auto& other = *static_cast<const ContactProperties*>(dGeomGetData(b));
     const double e = std::max(one.restitution, other.restitution);
     for (int i = 0; i < n; ++i) {
       dSurfaceParameters& surface = found[i].surface;
@@ -145,7 +145,7 @@ private:
   dSpaceID space_;
   dJointGroupID contacts_;
   std::vector<dBodyID> bodies_;
-  std::deque<Material> materials_;  // what the library points into must not move
+  std::deque<ContactProperties> materials_;  // what the library points into must not move
   std::deque<std::vector<double>> points_;
   std::deque<std::vector<dTriIndex>> corners_;
 };

@@ -40,16 +40,16 @@ Q4 turned(Q4 q, V3 omega, double seconds) {
   return Q4{1, half.x, half.y, half.z} * q;
 }
 
-/// The rungs of the contact scheme: "stadion", and "stadion-paper-TOLERANCE" with the tolerance in metres.
-struct Rung {
+/// The variants of the contact scheme: "stadion", and "stadion-paper-TOLERANCE" with the tolerance in metres.
+struct EngineVariant {
   const char* name;
   ImpactScheme impacts;
 };
 
-constexpr Rung kRungs[] = {{"stadion", {}},
-                           {"stadion-paper-1e-3", {ImpactScheme::Kind::Paper, 1e-3}},
-                           {"stadion-paper-1e-5", {ImpactScheme::Kind::Paper, 1e-5}},
-                           {"stadion-paper-1e-7", {ImpactScheme::Kind::Paper, 1e-7}}};
+constexpr EngineVariant kVariants[] = {{"stadion", {}},
+                                       {"stadion-paper-1e-3", {ImpactScheme::Kind::Paper, 1e-3}},
+                                       {"stadion-paper-1e-5", {ImpactScheme::Kind::Paper, 1e-5}},
+                                       {"stadion-paper-1e-7", {ImpactScheme::Kind::Paper, 1e-7}}};
 
 class StadionEngine final : public Engine {
 public:
@@ -183,12 +183,13 @@ private:
 
 std::vector<std::string> engineVariants() {
   std::vector<std::string> names;
-  for (const Rung& r : kRungs) names.emplace_back(r.name);
+  for (const EngineVariant& r : kVariants) names.emplace_back(r.name);
   return names;
 }
 
 std::unique_ptr<Engine> makeEngine(const std::string& variant) {
-  return std::make_unique<StadionEngine>(std::ranges::find(kRungs, variant, &Rung::name)->impacts);
+  return std::make_unique<StadionEngine>(
+      std::ranges::find(kVariants, variant, &EngineVariant::name)->impacts);
 }
 
 }  // namespace stadion::bench

@@ -15,7 +15,7 @@ constexpr double kRounding = 1e-13, kLost = 1e-2;  ///< errors between them show
 constexpr std::size_t kTimed = 15;                 ///< flights for timing; the median counts
 
 /// Explicit in everything but positions, including gyroscopic torque, as a simple engine does it.
-void eulerStep(RigidFlight& f, double h, const runge_kutta::Surroundings& s, const AnyModel& model) {
+void eulerStep(RigidFlight& f, double h, const runge_kutta::FlightConditions& s, const AnyModel& model) {
   const Wrench air = model(Vec3(f.q.conjugate() * (f.v - s.wind)), f.w);
   f.v += h * (s.gravity + f.q * air.force / s.mass);
   f.w += h * (air.torque - f.w.cross(s.inertia.cwiseProduct(f.w))).cwiseQuotient(s.inertia);
@@ -26,7 +26,7 @@ void eulerStep(RigidFlight& f, double h, const runge_kutta::Surroundings& s, con
 using Fly = std::function<Trajectory(const Throw&, int hz)>;
 
 Trajectory byEuler(const Throw& t, int hz) {
-  const auto around = t.surroundings();
+  const auto around = t.conditions();
   const AnyModel& model = factsOf(t.thing).exact;
   return flyBy(t, hz, [&](RigidFlight& f) { eulerStep(f, 1.0 / hz, around, model); });
 }
@@ -40,7 +40,7 @@ Trajectory byDefault(const Throw& t, int hz) {
   });
 }
 Trajectory byRungeKutta(const Throw& t, int hz) {
-  const auto around = t.surroundings();
+  const auto around = t.conditions();
   const AnyModel& model = factsOf(t.thing).exact;
   return flyBy(t, hz, [&](RigidFlight& f) { runge_kutta::step4(f, 1.0 / hz, around, model); });
 }

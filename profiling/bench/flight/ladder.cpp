@@ -11,7 +11,7 @@ namespace stadion::bench {
 namespace {
 
 Trajectory flyModel(const Throw& t, const FlightModel& model, int hz) {
-  const auto around = t.surroundings();
+  const auto around = t.conditions();
   const auto air = [&model](const Vec3& u, const Vec3& w) { return aerodynamics(model, kDensity, u, w); };
   return flyBy(t, hz, [&](RigidFlight& f) { runge_kutta::step4(f, 1.0 / hz, around, air); });
 }

@@ -73,7 +73,7 @@ const ThingFacts& factsOf(Thing thing) {
   return thing == Thing::Javelin ? javelin : thing == Thing::Discus ? discus : ball;
 }
 
-runge_kutta::Surroundings Throw::surroundings() const {
+runge_kutta::FlightConditions Throw::conditions() const {
   const ThingFacts& f = factsOf(thing);
   return {f.body.mass, f.inertia(), Vec3(0, 0, -kGravity), wind};
 }
@@ -159,7 +159,7 @@ Trajectory flyBy(const Throw& release, int hz, const std::function<void(RigidFli
 
 Trajectory flyExactly(const Throw& release, double tolerance) {
   runge_kutta::DormandPrince method(tolerance);
-  const runge_kutta::Surroundings around = release.surroundings();
+  const runge_kutta::FlightConditions around = release.conditions();
   const AnyModel& model = factsOf(release.thing).exact;
   return flyBy(release, 100, [&](RigidFlight& f) { method.advance(f, 0.01, around, model); });
 }

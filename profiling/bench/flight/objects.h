@@ -44,7 +44,7 @@ struct Throw {
   RigidFlight start;
   Vec3 wind = Vec3::Zero();
 
-  runge_kutta::Surroundings surroundings() const;
+  runge_kutta::FlightConditions conditions() const;
   FlightAir air() const;
 };
 

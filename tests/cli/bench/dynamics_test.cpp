@@ -35,7 +35,7 @@ TEST(ProgramBenchDynamics, PrintsOneObjectALineWithStadionFirst) {
 }
 
 TEST(ProgramBenchDynamics, WritesPlotsAndResults) {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   const std::string out = folder.path() / "out";
   const ProgramResult r =
       stadionProgram({"bench", "dynamics", "C13_far", "C13_nan", "--rounds", "1", "--out", out});

@@ -52,7 +52,7 @@ TEST(ProgramBenchWalls, TheNumberOfNodesCanBeChosen) {
 }
 
 TEST(ProgramBenchWalls, PicturesAreThoseOfTheFrameAfterTheLast) {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   const std::string out = folder.path() / "out", prefix = out + "/picture";
   const ProgramResult r = stadionProgram(one({"--scene", "a", "--out", out}));
   ASSERT_EQ(r.status, 0) << r.err;
@@ -110,7 +110,7 @@ TEST(ProgramBenchWalls, WrongOptionsAreToldBeforeAnythingRuns) {
 }
 
 TEST(ProgramBenchWalls, ARecordThatIsNoneIsNotWrittenOver) {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   const std::string file = folder.write("letter.txt", "dear all,\nthis is no row\n");
   const ProgramResult r = stadionProgram({"bench", "walls", "--scenes", "a", "--record", file});
   EXPECT_EQ(r.status, 2);

@@ -52,7 +52,7 @@ public:
   }
 
 private:
-  TemporaryFolder folder_;
+  TestFolder folder_;
 };
 
 json drawnSummaryOf(const ProgramResult& r) {
@@ -103,7 +103,7 @@ TEST(ProgramCalibrate, PicturesAndHashesDoNotDependOnIt) {
 TEST(ProgramCalibrate, ForABudgetOnWhatIsDrawnThreadsDrawALiveShow) {
   const Home home;
   home.remember({true, 0, false});
-  const TemporaryFolder folder;
+  const TestFolder folder;
   folder.write("show.input", "stadion-input 1\nkey head 0  0 0 1.7\nkey head 0.5  0 0 1.7\n");
   const auto play = [&](const std::string& show) {
     return drawnSummaryOf(home.start({"run", folder.write("show.evs", show), "--asset-root", assetFolder(),

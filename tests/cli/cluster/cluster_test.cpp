@@ -11,7 +11,7 @@ namespace stadion {
 namespace {
 
 TEST(ProgramCluster, FourMachinesShowWhatOneShows) {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   const std::string out = folder.path() / "four", one = folder.path() / "one";
   const std::vector<std::string> same{"--size", "64x48", "--frames", "16", "--pictures", "4"};
   std::vector<std::string> cluster{"cluster", fourNodes(folder), kKick, "--out", out},
@@ -47,7 +47,7 @@ TEST(ProgramCluster, FourMachinesShowWhatOneShows) {
 }
 
 TEST(ProgramCluster, ABitThatDiffersIsNamedAndTheSceneTakenOver) {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   const std::string cluster =
       folder.write("two.cluster", "walls cave4\nnode front front left right\nnode floor floor\n"
                                   "hash-every 10\npartition d" +
@@ -81,7 +81,7 @@ TEST(ProgramCluster, ABitThatDiffersIsNamedAndTheSceneTakenOver) {
 }
 
 TEST(ProgramCluster, ANetworkThatCannotServeIsNamed) {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   const std::string file =
       folder.write("va.cluster", "walls cave4\nnode front front left right floor\ninterface va\n");
   const std::string play =
@@ -99,7 +99,7 @@ TEST(ProgramCluster, ANetworkThatCannotServeIsNamed) {
 }
 
 TEST(ProgramCluster, WhatIsWrongIsToldAtTheStart) {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   const std::string cluster = fourNodes(folder);
   const auto refused = [&](std::vector<std::string> words, const std::string& why) {
     const ProgramResult r = stadionProgram(std::move(words));

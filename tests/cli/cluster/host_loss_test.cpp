@@ -66,7 +66,7 @@ public:
   }
 
 private:
-  TemporaryFolder folder_;
+  TestFolder folder_;
   std::string file_;
   pid_t program_;
 };
@@ -107,7 +107,7 @@ TEST(ProgramCluster, TheLeaderMayDieAndTheShowGoesOn) {
 
 /// A frame a second: one machine holds the last one up until the leader is dead.
 TEST(ProgramCluster, TheLeaderMayDieInTheLastFrame) {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   const std::string file =
       folder.write("two.cluster", "walls cave4\nnode front front left right\nnode floor floor\ndeadline 6\n"
                                   "partition l" +

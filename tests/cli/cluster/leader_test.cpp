@@ -35,7 +35,7 @@ public:
 
 private:
   std::string as_(const std::string& name) const { return folder_.path() / name; }
-  TemporaryFolder folder_;
+  TestFolder folder_;
   std::string file_;
 };
 
@@ -73,7 +73,7 @@ TEST(ProgramCluster, AHostLeftOutAsTheShowEndsReportsItsMissingPictures) {
   for (int tries = 0; tries < 10 && !has(told, missing); ++tries) {
     // The leader does not lose sight of a machine that stands still before two deadlines are over.
     const TwoLive two("", "deadline 2\n");
-    const TemporaryFolder folder;
+    const TestFolder folder;
     const std::string out = folder.path() / "floor";
     const auto front = two.start("front", {"--input", "none"});
     const auto floor = two.start("floor", {"--out", out, "--pictures", "none", "--hashes"});
@@ -186,7 +186,7 @@ TEST(ProgramCluster, AShowThatWaitsForStartStillDoesWhenTheLeaderRestarts) {
 }
 
 TEST(ProgramCluster, ARecordThatWouldBeginInTheMiddleIsNotWritten) {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   const TwoLive two;
   const auto floor = two.start("floor", {"--input", "none"});
   const std::string record = folder.path() / "visitor.input";

@@ -34,7 +34,7 @@ public:
   std::string space(std::size_t node) const { return prefix_ + "-" + std::to_string(node); }
 
 private:
-  TemporaryFolder folder_;
+  TestFolder folder_;
   std::filesystem::path said_ = folder_.path() / "said";
   std::string prefix_;
   std::FILE* relay_;
@@ -49,7 +49,7 @@ struct PlayedCluster {
 void expectTheSamePictures(const PlayedCluster& how) {
   const Network network(how.loss, how.jitter);
   if (!network.isReady()) GTEST_SKIP() << "network namespaces cannot be made here (that takes root)";
-  const TemporaryFolder folder;
+  const TestFolder folder;
   const std::string cluster = folder.write(
       "net.cluster",
       "walls cave4\nnode front front\nnode left left\nnode right right\nnode floor floor\ninterface eth0\n"

@@ -14,7 +14,7 @@ namespace stadion {
 namespace {
 
 TEST(ProgramCluster, WhereAScriptLiesIsEachMachinesAffair) {
-  const TemporaryFolder ours, theirs;
+  const TestFolder ours, theirs;
   const TwoLive two;
   const std::string script = fileContent(kKick);
   const std::vector<std::string> play{"--input", "none", "--rate", "60", "--pace", "lock", "--seconds", "2"};
@@ -26,7 +26,7 @@ TEST(ProgramCluster, WhereAScriptLiesIsEachMachinesAffair) {
 }
 
 TEST(ProgramCluster, AScriptThatIsSavedIsComparedForTheNextGroup) {
-  const TemporaryFolder ours, theirs;
+  const TestFolder ours, theirs;
   const TwoLive two;
   const std::string script = fileContent(kKick), port = std::to_string(freePort());
   const lo_address desk = lo_address_new("127.0.0.1", port.c_str());
@@ -60,12 +60,12 @@ TEST(ProgramCluster, ABitOfABodyThatHasNotMovedYetIsFoundInTime) {
 }
 
 TEST(ProgramCluster, OtherModelsAreNamedAndNotPlayed) {
-  const TemporaryFolder ours, theirs;
+  const TestFolder ours, theirs;
   const char* const triangle = "v 0 0 0\nv 1 0 0\nv 0 0 1\nf 1 2 3\n";
   ours.write("thing.obj", triangle), theirs.write("thing.obj", std::string("v 0 0 2\n") + triangle);
   const TwoLive two("object( file=thing.obj, position=\"0, 3, 1\" )\nobject( name=named, file=thing.obj )\n");
   const std::vector<std::string> play{"--input", "none", "--rate", "60", "--pace", "lock", "--seconds", "4"};
-  const auto with = [&](const TemporaryFolder& assets) {
+  const auto with = [&](const TestFolder& assets) {
     std::vector<std::string> words = play;
     words.insert(words.end(), {"--asset-root", assets.path()});
     return words;
@@ -83,7 +83,7 @@ TEST(ProgramCluster, OtherModelsAreNamedAndNotPlayed) {
 class OtherFiles {
 public:
   OtherFiles() {
-    for (const TemporaryFolder* folder : {&ours_, &models_, &scenes_}) {
+    for (const TestFolder* folder : {&ours_, &models_, &scenes_}) {
       folder->write("show.evs", kShow);
       folder->write("thing.obj", std::string(folder == &models_ ? "v 0 0 -1\n" : "v 0 0 0\n") + kRest);
       folder->write("sub.evs", std::string("object( name=one, file=thing.obj )\n") +
@@ -103,7 +103,7 @@ private:
       "dynobject( name=ball, file=thing.obj, position=\"0, 3, 1\", density=1 )\n"
       "scene( name=sub, file=sub.evs )\n";
   static constexpr const char* kRest = "v 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n";
-  TemporaryFolder ours_, models_, scenes_;
+  TestFolder ours_, models_, scenes_;
 };
 
 TEST(ProgramCluster, ALateHostWithOtherModelsOrSubScenesMayComeAgain) {
@@ -143,7 +143,7 @@ TEST(ProgramCluster, ALeaderThatComesBackWithOtherFilesRestartsTheShow) {
 }
 
 TEST(ProgramCluster, WhereFilesOrDeadlinesDifferTheFollowerSaysWhichAndEnds) {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   const auto file = [&](const std::string& name, const std::string& more) {
     return folder.write(name, "walls cave4\npartition files" + std::to_string(getpid()) + "\n" + more);
   };

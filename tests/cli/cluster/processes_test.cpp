@@ -76,7 +76,7 @@ public:
   }
 
 private:
-  TemporaryFolder folder_;
+  TestFolder folder_;
   std::string file_;
   pid_t program_ = -1;
   std::optional<int> status_{};
@@ -172,7 +172,7 @@ std::size_t startsIn(const fs::path& count) {
 }
 
 TEST(ProgramClusterProcesses, ANodeWithoutMemoryOrOpenGlRestartsAfterAPauseIfItFailsAtOnce) {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   ClusterNodes nodes(twoNodes(), false, terminal);
   // The leader plays until the other one has begun for the third time, half a minute at most.
   nodes.add("front", {"sh", "-c",
@@ -190,7 +190,7 @@ TEST(ProgramClusterProcesses, ANodeWithoutMemoryOrOpenGlRestartsAfterAPauseIfItF
 }
 
 TEST(ProgramClusterProcesses, AFaultInTheShowIsNoReasonToRestart) {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   for (const int code : {1, 2}) {
     const std::string name = "starts" + std::to_string(code);
     ClusterNodes nodes(twoNodes(), false, terminal);
@@ -204,7 +204,7 @@ TEST(ProgramClusterProcesses, AFaultInTheShowIsNoReasonToRestart) {
 constexpr std::chrono::milliseconds kShort{300};  // patience
 
 TEST(ProgramClusterProcesses, AFollowerThatFindsOtherFilesComesBackOnceTheyAreAlike) {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   const std::string starts = folder.write("starts", "");
   ClusterNodes nodes(twoNodes(), false, terminal);
   nodes.add("front",
@@ -223,7 +223,7 @@ TEST(ProgramClusterProcesses, AFollowerThatFindsOtherFilesComesBackOnceTheyAreAl
 }
 
 TEST(ProgramClusterProcesses, ALeaderThatHangsIsReplaced) {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   const std::string starts = folder.write("starts", "");
   ClusterNodes nodes(twoNodes(), false, terminal);
   nodes.add("front", {"sh", "-c", "echo >>" + starts + "; [ $(wc -l <" + starts + ") -gt 1 ] || sleep 600"});
@@ -256,7 +256,7 @@ TEST(ProgramClusterProcesses, AHostThatFindsTheShowAtItsEndHasNotFailed) {
 
 TEST(ProgramClusterProcesses, WherePicturesAreKeptAHostThatDiedAndIsNotBackHasFailed) {
   for (const bool needed : {false, true}) {
-    const TemporaryFolder folder;
+    const TestFolder folder;
     const std::string starts = folder.write("starts", "");
     ClusterNodes nodes(twoNodes(), false, terminal, kShort);
     if (needed) nodes.needAll();
@@ -284,7 +284,7 @@ TEST(ProgramClusterProcesses, WherePicturesAreKeptAHostThatWasNotDoneHasFailed) 
 /// The others wait for the leader, which was asked to end before there was a show.
 TEST(ProgramClusterProcesses, AShowThatIsOverForTheOthersIsNotPlayedAgainByTheLeaderAlone) {
   for (const bool endsFirst : {true, false}) {
-    const TemporaryFolder folder;
+    const TestFolder folder;
     const std::string starts = folder.write("starts", "");
     ClusterNodes nodes(twoNodes(), false, terminal);
     nodes.add("front", {"sh", "-c",
@@ -308,7 +308,7 @@ TEST(ProgramClusterProcesses, OfAShowThatWasStoppedNoPictureIsMissed) {
 }
 
 TEST(ProgramClusterProcesses, AShowThatEndsForADifferenceDoesNotRestart) {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   ClusterFile cluster = twoNodes();
   cluster.stopOnDifference = true;
   ClusterNodes nodes(cluster, false, terminal);
@@ -320,7 +320,7 @@ TEST(ProgramClusterProcesses, AShowThatEndsForADifferenceDoesNotRestart) {
 
 TEST(ProgramClusterProcesses, AHostThatHangsIsKilledOnceTheLeaderHasEnded) {
   for (const char* lead : {"exit 0", "exit 1"}) {
-    const TemporaryFolder folder;
+    const TestFolder folder;
     const std::string hangs = folder.path() / "hangs";
     ClusterNodes nodes(twoNodes(), false, terminal, kShort);
     nodes.add("front", {"sh", "-c", "until [ -e " + hangs + " ]; do sleep 0.1; done; " + lead});
@@ -346,7 +346,7 @@ TEST(ProgramClusterProcesses, AHostThatHangsIsKilledAfterASignal) {
 }
 
 TEST(ProgramClusterProcesses, WhatBecomesOfANodeIsToldInItsJournal) {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   const auto file = [&](const char* node) { return (folder.path() / node).string(); };
   ClusterNodes nodes(twoNodes(), false, terminal);
   nodes.add("front", {"sh", "-c", "until [ $(wc -l <" + file("starts") + ") = 2 ]; do sleep 0.1; done"},
@@ -375,7 +375,7 @@ std::vector<std::string> shortCluster(const std::string& file, const std::vector
 }
 
 TEST(ProgramClusterProcesses, FilesGetTheNodesNamesAndWhatTheInputWasIsWrittenOnce) {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   const auto file = [&](const std::string& name) { return (folder.path() / name).string(); };
   const ProgramResult r = stadionProgram(
       shortCluster(fourNodes(folder), {"--frames", "5", "--trace=" + file("trace.json"), "--journal",
@@ -428,7 +428,7 @@ TEST(ProgramClusterProcesses, TheJournalOfANodeSaysThatItDied) {
 }
 
 TEST(ProgramClusterProcesses, WithJsonTheStandardOutputIsOneObject) {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   const ProgramResult r = stadionProgram(shortCluster(fourNodes(folder), {"--frames", "3", "--json"}));
   ASSERT_EQ(r.status, 0) << r.err;
   const Json said = Json::parse(r.out, nullptr, false);
@@ -438,7 +438,7 @@ TEST(ProgramClusterProcesses, WithJsonTheStandardOutputIsOneObject) {
 }
 
 TEST(ProgramClusterProcesses, WhatEachNodeWouldRefuseIsToldOnceBeforeAnyIsStartedAsRunTellsIt) {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   const std::string four = fourNodes(folder);
   const auto expectAsRun = [&](const std::vector<std::string>& words) {
     std::vector<std::string> run{"run"}, cluster{"cluster", four};
@@ -475,7 +475,7 @@ TEST(ProgramClusterProcesses, WhatEachNodeWouldRefuseIsToldOnceBeforeAnyIsStarte
 }
 
 TEST(ProgramClusterProcesses, FilesThatCannotBeWrittenAreToldOnceBeforeAnyNodeIsStarted) {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   const std::string four = fourNodes(folder), nowhere = folder.path() / "nowhere" / "x.log";
   std::filesystem::create_directory(folder.path() / "there-front");
   const auto refused = [&](const std::string& option, const std::string& file, const std::string& why) {
@@ -494,7 +494,7 @@ TEST(ProgramClusterProcesses, FilesThatCannotBeWrittenAreToldOnceBeforeAnyNodeIs
 }
 
 TEST(ProgramClusterProcesses, WhatAllNodesWouldWarnOfIsToldOnce) {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   const std::string three = folder.write("three.cluster", "node a front left\nnode b right\npartition w" +
                                                               std::to_string(getpid()) + "\n");
   const ProgramResult r = stadionProgram(shortCluster(three, {"--frames", "3", "--gl", "none"}));
@@ -503,7 +503,7 @@ TEST(ProgramClusterProcesses, WhatAllNodesWouldWarnOfIsToldOnce) {
 }
 
 TEST(ProgramClusterProcesses, OptionsMayStandWhereverTheyLike) {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   const ProgramResult r = stadionProgram(
       {"cluster", "--frames", "3", fourNodes(folder), "--size", "16x12", kKick, "--no-sound", "--json"});
   EXPECT_EQ(r.status, 0) << r.err;

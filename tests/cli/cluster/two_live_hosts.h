@@ -54,7 +54,7 @@ public:
 private:
   std::string journal(const std::string& node) const { return folder_->path() / (node + ".log"); }
 
-  std::shared_ptr<const TemporaryFolder> folder_ = std::make_shared<TemporaryFolder>();
+  std::shared_ptr<const TestFolder> folder_ = std::make_shared<TestFolder>();
   std::string script_, file_;
 };
 

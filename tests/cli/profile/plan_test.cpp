@@ -12,7 +12,7 @@ namespace {
 const std::string kKick = STADION_SOURCE_DIR "/scripts/kick.evs";
 
 TEST(ProgramPlan, TellsEveryNumberOfWallsInBothModes) {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   const std::string out = folder.path() / "plan";
   const ProgramResult r = stadionProgram(
       {"plan", kKick, "--wall-count", "3", "--frames", "12", "--size", "64x48", "--json", "--out", out});
@@ -37,7 +37,7 @@ TEST(ProgramPlan, TellsEveryNumberOfWallsInBothModes) {
 }
 
 TEST(ProgramPlan, SaysWhatIsWrong) {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   const ProgramResult none = stadionProgram({"plan"});
   EXPECT_EQ(none.status, 2);
   const ProgramResult many = stadionProgram({"plan", kKick, "--wall-count", "257"});
@@ -70,7 +70,7 @@ TEST(ProgramPlan, SaysWhatIsWrong) {
 }
 
 TEST(ProgramPlan, MeasuresTheLookThatIsAskedForAndSaysWhichItWas) {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   const auto measured = [&](const std::vector<std::string>& more) {
     std::vector<std::string> words{"plan", kKick,    "--wall-count", "1",     "--frames",
                                    "6",    "--size", "32x24",        "--json"};
@@ -98,7 +98,7 @@ TEST(ProgramPlan, MeasuresTheLookThatIsAskedForAndSaysWhichItWas) {
 }
 
 TEST(ProgramPlan, BesideMeasuredCostsWallsAreObeyedAndWhatMeasuresIsRefused) {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   const ProgramResult measured =
       stadionProgram({"plan", kKick, "--wall-count", "2", "--frames", "6", "--size", "32x24", "--json"});
   ASSERT_EQ(measured.status, 0) << measured.err;

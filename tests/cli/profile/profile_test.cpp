@@ -110,7 +110,7 @@ TEST(ProgramProfile, PicturesAndStatesAreThoseOfAPlainRun) {
 }
 
 TEST(ProgramProfile, OfTwoThingsOfOneModelTheLargeOneIsTheDearOne) {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   const std::string show =
       folder.write("two.evs", "light( direction=\"-1, 2, -3\" )\n"
                               "object( name=huge, file=football.3ds, scale=10, position=\"0, 3, "
@@ -134,7 +134,7 @@ TEST(ProgramProfile, OfTwoThingsOfOneModelTheLargeOneIsTheDearOne) {
 }
 
 TEST(ProgramProfile, TheShadowsRingsAreTheLights) {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   const std::string show = folder.write(
       "shade.evs", "light( name=sun, direction=\"0.3, 0.2, -1\" )\nobject( file=crude_foot.obj )\n");
   double ms = 0;
@@ -191,7 +191,7 @@ TEST(ProgramProfile, ARunOfWhichNothingIsRecordedIsRefused) {
 }
 
 TEST(ProgramProfile, WhatCannotBeToldOfARunThatWasIsRefusedBesideItsLastFrames) {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   const std::string box = folder.path() / "box", file = folder.path() / "out";
   ASSERT_EQ(stadionProgram({"run", STADION_SOURCE_DIR "/scripts/kick.evs", "--frames", "9", "--gl", "none",
                             "--black-box", box})
@@ -213,7 +213,7 @@ TEST(ProgramProfile, WhatCannotBeToldOfARunThatWasIsRefusedBesideItsLastFrames) 
 }
 
 TEST(ProgramProfile, LastFramesAreAPageAndJsonToo) {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   const std::string box = folder.write("box", ""), out = folder.path() / "page";
   ASSERT_EQ(stadionProgram({"run", STADION_SOURCE_DIR "/scripts/kick.evs", "--frames", "30", "--gl", "none",
                             "--black-box", box})
@@ -232,7 +232,7 @@ TEST(ProgramProfile, LastFramesAreAPageAndJsonToo) {
 }
 
 TEST(ProgramProfile, TheFolderReceivesTheFiguresToo) {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   const std::string out = folder.path() / "out";
   const std::vector<std::string> words{
       "profile", STADION_SOURCE_DIR "/scripts/kick.evs", "--frames", "9", "--gl", "none", "--out", out};
@@ -270,7 +270,7 @@ TEST(ProgramProfile, WhatWouldNotBeObeyedIsRefused) {
 }
 
 /// A folder in which `name` is a link to `file`.
-std::string linkTo(const TemporaryFolder& folder, const std::string& name, const std::string& file) {
+std::string linkTo(const TestFolder& folder, const std::string& name, const std::string& file) {
   const std::filesystem::path made =
       folder.path() / ("links" + std::to_string(std::hash<std::string>{}(name + file)));
   std::filesystem::create_directories(made);
@@ -279,7 +279,7 @@ std::string linkTo(const TemporaryFolder& folder, const std::string& name, const
 }
 
 TEST(ProgramProfile, TwoOutputsAreNotOneFile) {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   const std::string file = folder.path() / "out", show = STADION_SOURCE_DIR "/scripts/kick.evs";
   const std::string same = (folder.path() / "." / "out").string();
   for (const auto& words : std::vector<std::vector<std::string>>{

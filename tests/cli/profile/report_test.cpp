@@ -64,7 +64,7 @@ protected:
     return from == std::string::npos ? "" : dom.substr(from, dom.find("</section>", from) - from);
   }
 
-  TemporaryFolder folder_;
+  TestFolder folder_;
 };
 
 TEST_F(ProgramReport, ABrowserFillsItsTablesAndPlotsWithoutAComplaint) {
@@ -157,7 +157,7 @@ TEST_F(ProgramFullReportOfMany, TwoThousandNodesAreGatheredAndAllInTheTable) {
 }
 
 TEST(ProgramTrace, TheTraceOfARunIsTakenByAViewerWithoutAComplaint) {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   for (const std::string mode : {"pipelined", "sequential"}) {
     const fs::path file = folder.path() / (mode + ".json");
     const ProgramResult r =
@@ -174,7 +174,7 @@ TEST(ProgramTrace, TheTraceOfARunIsTakenByAViewerWithoutAComplaint) {
 }
 
 TEST(ProgramTrace, ALiveRunIsTracedToo) {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   const fs::path file = folder.path() / "live.json";
   const ProgramResult r = stadionProgram({"run", kKickShow, "--frames", "40", "--size", "96x72", "--walls",
                                           "desktop", "--look", "plain", "--trace", file.string()});
@@ -185,7 +185,7 @@ TEST(ProgramTrace, ALiveRunIsTracedToo) {
 }
 
 TEST(ProgramTrace, AShortRunIsTracedFromItsFirstFrameOn) {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   for (const char* command : {"profile", "run"})
     for (const char* mode : {"pipelined", "sequential"}) {
       const std::string file = folder.path() / (std::string(command) + mode + ".json");
@@ -201,7 +201,7 @@ TEST(ProgramTrace, AShortRunIsTracedFromItsFirstFrameOn) {
 }
 
 TEST(ProgramTrace, FramesAfterTheRunsEndAreSaidToBeMissing) {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   const std::string file = folder.path() / "trace.json";
   for (const char* command : {"profile", "run"}) {
     const ProgramResult r =

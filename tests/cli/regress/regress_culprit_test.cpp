@@ -11,7 +11,7 @@ namespace stadion {
 namespace {
 
 /// A "build" in which something costs more than in ours.
-std::string spoilt(const TemporaryFolder& folder, const std::string& planted) {
+std::string spoilt(const TestFolder& folder, const std::string& planted) {
   const std::string path =
       folder.write("stadion", "#!/bin/sh\nfor word; do [ \"$word\" = --spans ] && set -- \"$@\" --plant " +
                                   planted + "; done\nexec " + stadionPath() + " \"$@\"\n");
@@ -19,7 +19,7 @@ std::string spoilt(const TemporaryFolder& folder, const std::string& planted) {
   return path;
 }
 
-std::string crowdSuite(const TemporaryFolder& folder, const std::string& compare) {
+std::string crowdSuite(const TestFolder& folder, const std::string& compare) {
   return folder.write("crowd.suite",
                       "stadion-suite 1\nsize 32x24\nstereo off\ncase crowd\n  show " STADION_SOURCE_DIR
                       "/scripts/crowd.evs\n  walls " STADION_SOURCE_DIR
@@ -29,7 +29,7 @@ std::string crowdSuite(const TemporaryFolder& folder, const std::string& compare
 
 // Not five percent but several times as much, so that the test does not depend on the machine.
 TEST(ProgramFullRegress, ANodeThatBecameDearerIsNamedByItsTime) {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   const ProgramResult r = regress({crowdSuite(folder, "times"), "--against", stadionPath(), "--stadion",
                                    spoilt(folder, "simulate:lane_07=2000000")});
   EXPECT_EQ(r.status, 1) << r.out << r.err;
@@ -46,7 +46,7 @@ TEST(ProgramFullRegress, HitchesAreFoundAndNamedWithTheirFrames) {
                {"draw:west=20ms/20+3", "frames 3, 23 longer by 2", "moved: draw of wall west"},
                {"frame:=sleep20ms/100+9", "frame 9 longer by 2", "moved: frame, between the stages"}};
   for (const auto& kind : kinds) {
-    const TemporaryFolder folder;
+    const TestFolder folder;
     const ProgramResult r = regress(
         {crowdSuite(folder, "times"), "--against", stadionPath(), "--stadion", spoilt(folder, kind.planted)});
     EXPECT_EQ(r.status, 1) << kind.planted << r.out << r.err;
@@ -58,7 +58,7 @@ TEST(ProgramFullRegress, HitchesAreFoundAndNamedWithTheirFrames) {
 
 TEST(ProgramFullRegress, AWallWhoseCullingBecameDearerIsNamedByItsInstructions) {
   if (runProgram({{"valgrind", "--version"}}).status != 0) GTEST_SKIP() << "there is no valgrind";
-  const TemporaryFolder folder;
+  const TestFolder folder;
   const ProgramResult r = regress({crowdSuite(folder, "instructions"), "--instructions", "--against",
                                    stadionPath(), "--stadion", spoilt(folder, "cull:west=20000")});
   EXPECT_EQ(r.status, 1) << r.out << r.err;
@@ -68,7 +68,7 @@ TEST(ProgramFullRegress, AWallWhoseCullingBecameDearerIsNamedByItsInstructions) 
 
 TEST(ProgramFullRegress, AgainstABaselineTheNodeThatMovedIsNamedToo) {
   if (runProgram({{"valgrind", "--version"}}).status != 0) GTEST_SKIP() << "there is no valgrind";
-  const TemporaryFolder folder;
+  const TestFolder folder;
   const std::string suite = crowdSuite(folder, "instructions");
   ASSERT_EQ(regress({suite, "--instructions", "--update"}).status, 0);
   const ProgramResult r =
@@ -79,7 +79,7 @@ TEST(ProgramFullRegress, AgainstABaselineTheNodeThatMovedIsNamedToo) {
 }
 
 TEST(ProgramFullRegress, AgainstABaselinesTimesTheNodeThatMovedIsNamedToo) {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   const std::string suite = crowdSuite(folder, "times");
   ASSERT_EQ(regress({suite, "--update"}).status, 0);
   const ProgramResult r = regress({suite, "--stadion", spoilt(folder, "simulate:lane_07=2000000")});
@@ -90,7 +90,7 @@ TEST(ProgramFullRegress, AgainstABaselinesTimesTheNodeThatMovedIsNamedToo) {
 
 TEST(ProgramFullRegress, AProgramMayHaveAnyNameWhereInstructionsAreCounted) {
   if (runProgram({{"valgrind", "--version"}}).status != 0) GTEST_SKIP() << "there is no valgrind";
-  const TemporaryFolder folder;
+  const TestFolder folder;
   const std::string other = folder.path() / "before the change", link = folder.path() / "now";
   std::filesystem::copy_file(stadionPath(), other);
   std::filesystem::create_symlink(stadionPath(), link);

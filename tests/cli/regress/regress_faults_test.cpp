@@ -16,7 +16,7 @@ namespace stadion {
 namespace {
 
 /// A baseline for smallSuite() that knows these of its case, too.
-void writeBaseline(const TemporaryFolder& folder, const Json& more) {
+void writeBaseline(const TestFolder& folder, const Json& more) {
   ASSERT_EQ(regress({smallSuite(folder), "--update"}).status, 0);
   Json baseline = Json::parse(fileContent(folder.path() / "small.baseline.json"));
   baseline["cases"][kSmallCase].update(more);
@@ -24,7 +24,7 @@ void writeBaseline(const TemporaryFolder& folder, const Json& more) {
 }
 
 /// The program, after which something else is done.
-std::string thenDoes(const TemporaryFolder& folder, const std::string& what) {
+std::string thenDoes(const TestFolder& folder, const std::string& what) {
   const std::string path = folder.write("wrap.sh", "#!/bin/sh\n" + stadionPath() + " \"$@\"\nstatus=$?\n" +
                                                        what + "\nexit $status\n");
   std::filesystem::permissions(path, std::filesystem::perms::owner_all);
@@ -32,7 +32,7 @@ std::string thenDoes(const TemporaryFolder& folder, const std::string& what) {
 }
 
 TEST(ProgramRegress, StoppedJustWhenAProgramHasEndedItSaysSo) {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   writeBaseline(folder, {{"times", {{"app", {1, 2, 3}}}}});
   const std::string suite = smallSuite(folder, "  compare state times\n"), mark = folder.path() / "once";
   const std::string program = thenDoes(folder, "mkdir " + mark + " && kill -INT $PPID");
@@ -47,7 +47,7 @@ TEST(ProgramRegress, StoppedJustWhenAProgramHasEndedItSaysSo) {
 }
 
 TEST(ProgramRegress, WithoutValgrindItSaysWhatToInstall) {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   writeBaseline(folder, {{"instructions", {{"app", 1e6}}}, {"counted_by", "callgrind"}});
   const std::string suite = smallSuite(folder, "  compare instructions\n");
   const ProgramResult r =
@@ -62,7 +62,7 @@ TEST(ProgramRegress, WithoutValgrindItSaysWhatToInstall) {
 }
 
 TEST(ProgramRegress, TimesOfABaselineThatSayNothingAreNoPass) {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   writeBaseline(folder, {{"times", {{"app", {0, 0, 0}}, {"cull of wall screen", Json::array()}}}});
   const ProgramResult r = regress({smallSuite(folder, "  compare state times\n")});
   EXPECT_EQ(r.status, 1) << r.out << r.err;
@@ -70,7 +70,7 @@ TEST(ProgramRegress, TimesOfABaselineThatSayNothingAreNoPass) {
 }
 
 TEST(ProgramRegress, AfterHalfALineOfHistoryTheNextRunHasOneOfItsOwn) {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   const std::filesystem::path out = folder.path() / "out";
   std::filesystem::create_directory(out);
   const std::string half = "{\"when\": \"2024-";
@@ -83,7 +83,7 @@ TEST(ProgramRegress, AfterHalfALineOfHistoryTheNextRunHasOneOfItsOwn) {
 
 TEST(ProgramRegress, WhatCannotBeWrittenInTheFolderIsToldBeforeAnythingIsPlayed) {
   for (const char* name : {"report.html", "results.json", "junit.xml", "history.jsonl"}) {
-    const TemporaryFolder folder;
+    const TestFolder folder;
     const std::filesystem::path out = folder.path() / "out";
     std::filesystem::create_directories(out / name);
     folder.write("out/progress.jsonl", "of before\n");
@@ -97,7 +97,7 @@ TEST(ProgramRegress, WhatCannotBeWrittenInTheFolderIsToldBeforeAnythingIsPlayed)
 }
 
 TEST(ProgramRegress, WhatWasPlayedIsKeptWhereItCouldNotBeWritten) {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   writeBaseline(folder, Json::object());
   const std::filesystem::path out = folder.path() / "out";
   const std::string page = out / "report.html";
@@ -115,7 +115,7 @@ TEST(ProgramRegress, WhatWasPlayedIsKeptWhereItCouldNotBeWritten) {
 }
 
 TEST(ProgramRegress, AnUpdateOfALinkedBaselineWritesTheFileThatItLeadsTo) {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   std::filesystem::create_directory(folder.path() / "kept");
   std::filesystem::create_symlink("kept/small.json", folder.path() / "small.baseline.json");
   for (int i = 0; i < 2; ++i) {
@@ -136,7 +136,7 @@ ProgramResult interrupted(const std::string& suite, const std::string& out) {
 }
 
 TEST(ProgramRegress, AnInterruptedSuiteGoesOnWhereItWas) {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   std::string text =
       "stadion-suite 1\nsize 16x12\nwalls desktop\nlook plain\ncompare state\nmodes sequential "
       "pipelined\nasset-root " +
@@ -156,7 +156,7 @@ TEST(ProgramRegress, AnInterruptedSuiteGoesOnWhereItWas) {
 }
 
 TEST(ProgramRegress, AnInterruptedSuiteStartsFromTheBeginningWhenAShowHasChanged) {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   const std::string show = folder.write("show.evs", "group( name=a )\n");
   std::string text =
       "stadion-suite 1\nsize 16x12\nwalls desktop\nlook plain\ncompare state\nmodes sequential pipelined\n";
@@ -171,7 +171,7 @@ TEST(ProgramRegress, AnInterruptedSuiteStartsFromTheBeginningWhenAShowHasChanged
 }
 
 TEST(ProgramRegress, WrongUseAndWrongSuitesAreToldWithTheFix) {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   const std::string suite = smallSuite(folder);
   const auto refused = [](const ProgramResult& r, const std::string& why) {
     EXPECT_EQ(r.status, 2) << r.out << r.err;
@@ -189,7 +189,7 @@ TEST(ProgramRegress, WrongUseAndWrongSuitesAreToldWithTheFix) {
 }
 
 TEST(ProgramRegress, AFolderThatAnotherOneWritesIsLeftAlone) {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   const std::string out = folder.path() / "out";
   std::filesystem::create_directories(out);
   const int other = ::open(out.c_str(), O_RDONLY | O_DIRECTORY);
@@ -203,7 +203,7 @@ TEST(ProgramRegress, AFolderThatAnotherOneWritesIsLeftAlone) {
 }
 
 TEST(ProgramRegress, WhereNothingWasComparedItIsNotGreen) {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   const std::string suite = smallSuite(folder);
   const auto refused = [](const ProgramResult& r, const std::string& why) {
     EXPECT_EQ(r.status, 2) << r.out << r.err;
@@ -220,7 +220,7 @@ TEST(ProgramRegress, WhereNothingWasComparedItIsNotGreen) {
 }
 
 TEST(ProgramRegress, ModesThatAgreeAreNotGreenWhereTheBaselineSaysNothing) {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   const std::string suite = smallSuite(folder, "  modes sequential pipelined\n  compare state\n");
   ASSERT_EQ(regress({suite, "--update"}).status, 0);
   const std::string file = folder.path() / "small.baseline.json";
@@ -233,7 +233,7 @@ TEST(ProgramRegress, ModesThatAgreeAreNotGreenWhereTheBaselineSaysNothing) {
 
 /// As `env` would read it, it says what the environment is.
 TEST(ProgramRegress, AProgramsPathMayHoldAnEqualsSign) {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   const std::string build = folder.path() / "build=release";
   std::filesystem::create_directory(build);
   std::filesystem::create_symlink(stadionPath(), build + "/stadion");
@@ -245,7 +245,7 @@ TEST(ProgramRegress, AProgramsPathMayHoldAnEqualsSign) {
 }
 
 TEST(ProgramRegress, WhatCannotBeWrittenIsToldBeforeAnythingIsPlayed) {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   const std::string suite = smallSuite(folder);
   const ProgramResult r = regress({suite, "--update", "--baseline", "nowhere/b.json"});
   EXPECT_EQ(r.status, 2) << r.err;
@@ -254,7 +254,7 @@ TEST(ProgramRegress, WhatCannotBeWrittenIsToldBeforeAnythingIsPlayed) {
 }
 
 TEST(ProgramRegress, EverythingThatIsCountedIsCompared) {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   const std::string suite = smallSuite(folder);
   ASSERT_EQ(regress({suite, "--update"}).status, 0);
   const std::string file = folder.path() / "small.baseline.json";
@@ -272,7 +272,7 @@ TEST(ProgramRegress, EverythingThatIsCountedIsCompared) {
 }
 
 TEST(ProgramRegress, AProgramThatFailsIsAFaultNotADifference) {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   const ProgramResult r = regress({smallSuite(folder), "--stadion", "/bin/false"});
   EXPECT_EQ(r.status, 3) << r.out << r.err;
   EXPECT_NE(r.out.find("/bin/false: exit status 1"), std::string::npos) << r.out;

@@ -20,7 +20,7 @@ TEST(ProgramRegress, TheShippedSuiteHasTheHashesAndCountsOfItsBaseline) {
 }
 
 TEST(ProgramRegress, WritesABaselineAndThenAgreesWithIt) {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   const std::string suite = smallSuite(folder, "  modes sequential pipelined\n");
   const ProgramResult without = regress({suite});
   EXPECT_EQ(without.status, 2) << "the modes agree, but with what was before?" << without.out << without.err;
@@ -35,7 +35,7 @@ TEST(ProgramRegress, WritesABaselineAndThenAgreesWithIt) {
 }
 
 TEST(ProgramRegress, NamesWhatIsNotAsInTheBaseline) {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   const std::string suite = smallSuite(folder);
   ASSERT_EQ(regress({suite, "--update"}).status, 0);
   const std::string file = folder.path() / "small.baseline.json";
@@ -55,7 +55,7 @@ TEST(ProgramRegress, NamesWhatIsNotAsInTheBaseline) {
 
 /// The figures of one look say nothing of the other.
 TEST(ProgramRegress, ABaselineOfAnotherLookIsNotComparedWith) {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   const std::string file = folder.path() / "small.baseline.json";
   ASSERT_EQ(regress({smallSuite(folder, {}, "full"), "--update"}).status, 0);
   const Json full = Json::parse(fileContent(file))["cases"]["bodies/sequential"];
@@ -79,7 +79,7 @@ TEST(ProgramRegress, ABaselineOfAnotherLookIsNotComparedWith) {
 }
 
 /// Two cases, one of them in both modes.
-std::string pairSuite(const TemporaryFolder& folder, const std::string& second = "b") {
+std::string pairSuite(const TestFolder& folder, const std::string& second = "b") {
   const std::string show = "\n  show " + testShow("bodies.evs") + "\n  frames 5\n";
   return folder.write("pair.suite", "stadion-suite 1\nsize 32x24\nwalls desktop\nlook plain\nasset-root " +
                                         assetFolder() + "\ncase a" + show +
@@ -87,7 +87,7 @@ std::string pairSuite(const TemporaryFolder& folder, const std::string& second =
 }
 
 TEST(ProgramRegress, WhatAnUpdateDoesNotCompareStaysInTheBaselineAsItWas) {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   const std::string suite = pairSuite(folder);
   ASSERT_EQ(regress({suite, "--update"}).status, 0);
   const std::string file = folder.path() / "pair.baseline.json";
@@ -107,7 +107,7 @@ TEST(ProgramRegress, WhatAnUpdateDoesNotCompareStaysInTheBaselineAsItWas) {
 }
 
 TEST(ProgramRegress, CasesThatTheSuiteNoLongerHasAreToldAndRemoved) {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   ASSERT_EQ(regress({pairSuite(folder), "--update"}).status, 0);
   const std::string suite = pairSuite(folder, "renamed"), file = folder.path() / "pair.baseline.json";
   const ProgramResult compared = regress({suite});
@@ -127,7 +127,7 @@ TEST(ProgramRegress, CasesThatTheSuiteNoLongerHasAreToldAndRemoved) {
 }
 
 TEST(ProgramRegress, AnUpdateWritesOverNothingThatIsNoBaseline) {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   const std::string thesis = folder.write("thesis.txt", "the only copy");
   const ProgramResult r = regress({smallSuite(folder), "--baseline", thesis, "--update"});
   EXPECT_EQ(r.status, 2) << r.out << r.err;
@@ -136,7 +136,7 @@ TEST(ProgramRegress, AnUpdateWritesOverNothingThatIsNoBaseline) {
 }
 
 TEST(ProgramRegress, WhatAShowWarnsOfIsToldOnceAndFailsNothing) {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   folder.write("w.evs", "rig( position=\"0, -4, 0\" )\nobject( name=a, file=gone.obj )\n");
   const std::string suite =
       folder.write("w.suite", "stadion-suite 1\nsize 16x12\nwalls desktop\nlook plain\nframes 3\n"
@@ -163,7 +163,7 @@ TEST(ProgramRegress, WhatAShowWarnsOfIsToldOnceAndFailsNothing) {
 }
 
 TEST(ProgramRegress, AShowWithMistakesIsToldByItsMistakeNotByTheCaretBelowIt) {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   folder.write("wrong.evs", "object( nmae=a )\n");
   const ProgramResult r =
       regress({folder.write("wrong.suite", "stadion-suite 1\ncase a\n  show wrong.evs\n  frames 3\n")});
@@ -173,7 +173,7 @@ TEST(ProgramRegress, AShowWithMistakesIsToldByItsMistakeNotByTheCaretBelowIt) {
 }
 
 TEST(ProgramRegress, AShowThatChangedIsFoundAgainstItsOldBaseline) {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   const auto suiteOf = [&](const std::string& height) {
     folder.write("drop.evs", "rig( position=\"0, -4, 0\" )\nforcelinear( name=g, direction=\"0, 0, -1\" )\n"
                              "dynobject( name=a, file=football.3ds, position=\"0, 0, " +
@@ -190,7 +190,7 @@ TEST(ProgramRegress, AShowThatChangedIsFoundAgainstItsOldBaseline) {
 }
 
 TEST(ProgramRegress, ReportsForMachinesAreWhatTheyClaimToBe) {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   const std::string suite = smallSuite(folder), out = folder.path() / "out", junit = out + "/junit.xml";
   ASSERT_EQ(regress({suite, "--update"}).status, 0);
   const ProgramResult r = regress({suite, "--json", "--out", out});
@@ -212,7 +212,7 @@ TEST(ProgramRegress, ReportsForMachinesAreWhatTheyClaimToBe) {
 }
 
 TEST(ProgramRegress, ComparesWithAnotherBuild) {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   const std::string suite = smallSuite(folder);
   const ProgramResult r = regress({suite, "--against", stadionPath()});
   EXPECT_EQ(r.status, 0) << r.out << r.err;
@@ -220,7 +220,7 @@ TEST(ProgramRegress, ComparesWithAnotherBuild) {
 }
 
 TEST(ProgramRegress, SaysInWhichFrameNodeAndFieldStatesBeginToDiffer) {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   const std::string here =
       folder.write("a.input", "stadion-input 1\nkey foot 0 1 2 0.5\nkey foot 1 1 2 0.5\n");
   const std::string there =

@@ -15,7 +15,7 @@ namespace stadion {
 using Json = nlohmann::json;
 
 /// A suite of one small case, in the look that costs less.
-inline std::string smallSuite(const TemporaryFolder& folder, const std::string& more = {},
+inline std::string smallSuite(const TestFolder& folder, const std::string& more = {},
                               const std::string& look = "plain") {
   return folder.write("small.suite", "stadion-suite 1\nsize 32x24\nwalls desktop\nlook " + look +
                                          "\ncase bodies\n  show " + testShow("bodies.evs") +

@@ -127,7 +127,7 @@ void expectOneHistoryOnMachines(const std::string& frames, std::size_t share) {
     ASSERT_FALSE(reference.empty());
     for (std::size_t i = first++ % share; i < std::size(clusters); i += share) {
       const char* nodes = clusters[i];
-      const TemporaryFolder folder;
+      const TestFolder folder;
       const std::string file =
           folder.write("some.cluster", std::string("walls cave4\n") + nodes + "deadline 5\npartition h" +
                                            std::to_string(getpid()) + "\n");

@@ -59,7 +59,7 @@ struct ShownWindow {
 /// What stands on the two screens once the program says that the walls are shown.
 std::optional<ShownWindow> shownBy(const Display& display, std::vector<std::string> arguments,
                                    std::uint32_t width, std::uint32_t height) {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   RunningProgram program(onDisplay(display, std::move(arguments)));
   if (!program.says("the walls are shown")) return {};
   const std::string first = folder.path() / "0.png", second = folder.path() / "1.png";
@@ -106,7 +106,7 @@ protected:
     EXPECT_EQ(quarter->two.rgba, changed(plain->two, kHeight, kWidth, clockwise).rgba);
   }
 
-  TemporaryFolder folder_;
+  TestFolder folder_;
   std::unique_ptr<Display> display_;
   std::string show_, look_ = "plain";
 };
@@ -249,7 +249,7 @@ TEST_F(ProgramDisplay, AnOutputThatIsNotThereIsNamedWithItsLine) {
 }
 
 TEST(ProgramWalls, ThePatternIsWrittenForBothEyes) {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   const ProgramResult r =
       stadionProgram({"walls", "cave4", "--pattern", "--out", folder.path(), "--size", "300x300"});
   EXPECT_EQ(r.status, 0) << r.err;

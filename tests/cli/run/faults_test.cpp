@@ -69,7 +69,7 @@ protected:
     return parts;
   }
 
-  TemporaryFolder folder_;
+  TestFolder folder_;
   std::string show_;
 };
 
@@ -379,7 +379,7 @@ TEST_F(ProgramFaults, ARunThatIsKilledLeavesARecordThatTheNextOneTellsOf) {
 
 /// Where a script may name a file, it names one that is not the show's.
 TEST_F(ProgramFaults, FilesOutsideOfTheShowsFoldersAreNotOpened) {
-  const TemporaryFolder outside;
+  const TestFolder outside;
   const std::string secret = outside.write("secret.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
   outside.write("secret.evs", "object( name=told )\n");
   fs::create_symlink(outside.path(), folder_.path() / "way");

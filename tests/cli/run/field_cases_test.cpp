@@ -95,7 +95,7 @@ private:
     ASSERT_FALSE(track_.rows.empty()) << file;
   }
 
-  TemporaryFolder folder_;
+  TestFolder folder_;
   ProgramResult result_;
   BodyTrack track_;
 };
@@ -192,7 +192,7 @@ TEST_P(ProgramFieldCase, BodiesWithShieldsThatMeetHeadOnStayOnTheirLine) {
 }
 
 TEST(ProgramFieldEvents, AreTheSameOnTwoHosts) {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   const std::string show = STADION_SOURCE_DIR "/tests/corpus/field/expiry.evs", out = folder.path() / "out";
   const std::string hosts =
       folder.write("two.cluster", "walls cave4\nnode front front left right\nnode floor floor\n"
@@ -210,7 +210,7 @@ TEST(ProgramFieldEvents, AreTheSameOnTwoHosts) {
 }
 
 TEST(ProgramFieldAnchor, AtTheOriginIsOffTheCentreOfMass) {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   std::string show = fileContent(STADION_SOURCE_DIR "/tests/corpus/field/shields.evs");
   for (std::size_t at = 0; (at = show.find("mode=repel", at)) != show.npos; at += 30)
     show.replace(at, 10, "mode=repel, anchor=origin");
@@ -233,7 +233,7 @@ TEST(ProgramFieldAnchor, AtTheOriginIsOffTheCentreOfMass) {
 }
 
 TEST(ProgramFieldEvents, CheckWarnsOfWhatNeverHappens) {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   const ProgramResult r = stadionProgram(
       {"check",
        folder.write("never.evs",

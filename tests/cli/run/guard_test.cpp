@@ -38,7 +38,7 @@ protected:
   }
   std::string kick() const { return STADION_SOURCE_DIR "/scripts/kick.evs"; }
 
-  TemporaryFolder folder_;
+  TestFolder folder_;
 };
 
 TEST_F(ProgramGuard, EndsTheRunAtAWrongWriteAndNamesIt) {

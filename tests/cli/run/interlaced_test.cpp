@@ -83,7 +83,7 @@ protected:
   }
 
   std::unique_ptr<Display> display_;
-  TemporaryFolder folder_;
+  TestFolder folder_;
   int shots_ = 0;
 };
 

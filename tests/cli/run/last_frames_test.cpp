@@ -34,7 +34,7 @@ ProgramResult played(const std::vector<std::string>& more, const std::vector<std
 }
 
 TEST(ProgramLastFrames, AFileOfSomethingElseIsNotTouched) {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   const std::string thesis = folder.write("thesis.txt", "the only copy");
   const ProgramResult r = played({"--black-box", thesis});
   EXPECT_EQ(r.status, 2) << r.err;
@@ -52,7 +52,7 @@ TEST(ProgramLastFrames, AFileOfSomethingElseIsNotTouched) {
 const std::string kNoState = "XDG_STATE_HOME=/dev/null";
 
 TEST(ProgramLastFrames, WithoutAFolderForThemTheShowIsPlayedWithout) {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   const std::string none = "TMPDIR=" + (folder.path() / "not there").string();
   const ProgramResult r = played({}, {none, kNoState});
   EXPECT_EQ(r.status, 130) << r.err;
@@ -64,7 +64,7 @@ TEST(ProgramLastFrames, WithoutAFolderForThemTheShowIsPlayedWithout) {
 }
 
 TEST(ProgramLastFrames, WhatIsDamagedIsSaidToBe) {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   const std::string box = folder.path() / "box";
   RunningProgram run({live({"--black-box", box, "--input", "none"})});
   ASSERT_TRUE(run.says("playing until Ctrl-C"));
@@ -94,7 +94,7 @@ TEST(ProgramLastFrames, WhatIsDamagedIsSaidToBe) {
 }
 
 TEST(ProgramLastFrames, ACrashedRunReportsItsLastFramesAlsoWhileAnotherOneWaits) {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   ProgramRun run;
   run.words = live({"--frames", "10000000", "--input", "none"});
   run.environment = {kNoState, "TMPDIR=" + folder.path().string()};
@@ -115,7 +115,7 @@ TEST(ProgramLastFrames, ACrashedRunReportsItsLastFramesAlsoWhileAnotherOneWaits)
 }
 
 TEST(ProgramLastFrames, ARunInWhichEveryFrameCountsLeavesNothingIfItEndsWell) {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   ProgramRun run;
   run.words = live({"--frames", "30", "--input", "none"});
   run.environment = {"XDG_STATE_HOME=" + folder.path().string()};
@@ -125,7 +125,7 @@ TEST(ProgramLastFrames, ARunInWhichEveryFrameCountsLeavesNothingIfItEndsWell) {
 }
 
 TEST(ProgramLastFrames, AKilledRunsAreFoundWithoutTheirNameAndOldOnesGo) {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   const std::string state = "XDG_STATE_HOME=" + folder.path().string();
   const fs::path boxes = folder.path() / "stadion/last-frames";
   const auto told = [&] { return runProgram({{stadionPath(), "profile", "--black-box"}, {state}}); };
@@ -149,7 +149,7 @@ TEST(ProgramLastFrames, AKilledRunsAreFoundWithoutTheirNameAndOldOnesGo) {
 }
 
 TEST(ProgramLastFrames, ThatBudgetsDoNotKnowWhatProcessesDrawIsTold) {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   const std::string show = folder.write("show.evs", "object( name=ball, file=football.3ds, budget=1 )\n");
   ProgramRun run;
   run.words = {stadionPath(), "run",   show,         "--asset-root", assetFolder(),    "--walls", "desktop",
@@ -167,7 +167,7 @@ TEST(ProgramLastFrames, ThatBudgetsDoNotKnowWhatProcessesDrawIsTold) {
 }
 
 TEST(ProgramLastFrames, WhatIsDrawnOfAFileThatComesLaterKeepsItsBudgetToo) {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   folder.write("stone.obj", "v -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 2\nf 1 2 3\nf 1 3 4\n");
   folder.write("arena.evs", "object( name=stone, file=stone.obj, budget=0.0001, position=\"0, 4, 0\" )\n");
   const std::string show =

@@ -31,7 +31,7 @@ std::string lastHash(const std::string& show, const std::string& input) {
 }
 
 /// Plays while a head goes to and fro before the walls; the summary.
-json visit(const TemporaryFolder& folder, const std::vector<std::string>& more) {
+json visit(const TestFolder& folder, const std::vector<std::string>& more) {
   const std::string show = folder.write("show.evs", kShow);
   const std::string tracker = std::to_string(freePort()), desk = std::to_string(freePort());
   ProgramRun run{{stadionPath(), "run", show, "--asset-root", assetFolder(), "--walls", kLatencyWalls,
@@ -54,7 +54,7 @@ json visit(const TemporaryFolder& folder, const std::vector<std::string>& more) 
 
 TEST(ProgramLatency, FramesAreDrawnFromTheNewestHeadByThreadsAndByProcesses) {
   for (const char* workers : {"thread", "process"}) {
-    const TemporaryFolder folder;
+    const TestFolder folder;
     const json s = visit(folder, {"--late-latch", "--wall-workers", workers});
     ASSERT_TRUE(s.is_object());
     const json& latch = s.at("late_latch");
@@ -71,7 +71,7 @@ TEST(ProgramLatency, FramesAreDrawnFromTheNewestHeadByThreadsAndByProcesses) {
 }
 
 TEST(ProgramLatency, TheRecordOfAHeadThatWasForeseenReplaysToTheSameState) {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   const std::string record = folder.path() / "visit.input";
   const json s = visit(folder, {"--predict", "auto", "--late-latch", "--record-input", record});
   ASSERT_TRUE(s.is_object());

@@ -70,7 +70,7 @@ public:
   }
 
 private:
-  TemporaryFolder folder_;
+  TestFolder folder_;
   std::string walls_ = folder_.write("hall.walls", ringOf(32));
 };
 
@@ -90,7 +90,7 @@ TEST(ProgramFullManyViews, AreTheSameFromWorkerProcesses) {
 }
 
 TEST(ProgramFullManyViews, OfMonoWallsAreProfiledOneByOne) {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   const std::string walls = folder.write("hall.walls", ringOf(64));
   const ProgramResult profile = played("profile", walls, {"--stereo", "off", "--out", folder.path()});
   ASSERT_EQ(profile.status, 0) << profile.err;

@@ -87,7 +87,7 @@ TEST(ProgramFullOlympia, AllGoAsFarAtOtherFrameRatesAndWhenFramesAreLate) {
   EXPECT_EQ(distances(visit, "30"), usual);
   EXPECT_EQ(distances(visit, "90"), usual);
   // As on a machine that has much else to do: frames come 1/240 s to 33 ms after each other, in no order.
-  const TemporaryFolder folder;
+  const TestFolder folder;
   const std::string late = folder.path() / "late.input";
   std::string log = fileContent(visit);
   log.replace(0, log.find('\n'), "stadion-input 2\nrate 240");
@@ -103,7 +103,7 @@ TEST(ProgramFullOlympia, AllGoAsFarAtOtherFrameRatesAndWhenFramesAreLate) {
 
 // His legs carry the hand along once they are free again, which must not be before it lets go.
 TEST(ProgramOlympia, AVisitorThatPushesTheJoypadAllTheWhileThrowsAsFarAtAnyRate) {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   const std::string log = folder.path() / "push.input";
   std::ofstream(log) << R"(stadion-input 1
 key head 0 0 6 1.7
@@ -129,7 +129,7 @@ key wand 5     0   6    1
 // In real time as long as the machine is fast enough: what is late is simulated all the same, and loads are
 // waited for.
 TEST(ProgramFullOlympia, AsItComesFromTheClockTheVisitIsTheRecordedOne) {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   const std::string log = folder.path() / "short.input";
   std::ofstream(log)
       << "stadion-input 1\nkey head 0 0 0 1.7\nkey head 2.5 0 0 1.7\n"
@@ -183,7 +183,7 @@ key wand 36   0.52 0.44  1.68  turn 33 0 0
 )";
 
 TEST(ProgramOlympia, ADiscusDroppedOnItsStandEndsTheTurnAndCanBeTakenAgain) {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   const std::string log = folder.path() / "drop.input";
   std::ofstream(log) << kTake << kDrop;
   const ProgramResult played =
@@ -201,7 +201,7 @@ TEST(ProgramOlympia, ADiscusDroppedOnItsStandEndsTheTurnAndCanBeTakenAgain) {
 // He has taken the discus, so the joypad does not move him; a few steps on his own feet must not end the
 // game.
 TEST(ProgramOlympia, AVisitorWithTheDiscusCanStepForwardThrowItAndWalkOn) {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   const std::string log = folder.path() / "step.input";
   std::ofstream(log) << kTake << R"(
 key head 10    0    0    1.70

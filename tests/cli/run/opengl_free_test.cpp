@@ -49,7 +49,7 @@ protected:
     return words;
   }
 
-  TemporaryFolder folder_;
+  TestFolder folder_;
   std::unique_ptr<Display> display_;
   std::string walls_ =
       folder_.write("one.walls", "wall one  lower-left -1 2 0  lower-right 1 2 0  upper-left -1 2 2\n"

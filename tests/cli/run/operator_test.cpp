@@ -66,7 +66,7 @@ public:
   std::string err;
 
 private:
-  TemporaryFolder folder_;
+  TestFolder folder_;
   std::string show_;
   std::uint16_t port_ = freePort();
   std::unique_ptr<RunningProgram> program_;
@@ -92,7 +92,7 @@ std::string lastOf(const json& summary) {
 }
 
 TEST(ProgramOperator, EveryGroupsRecordReplaysToItsOwnState) {
-  const TemporaryFolder records;
+  const TestFolder records;
   const std::string record = records.path() / "visit.input";
   const std::uint16_t trackers = freePort();
   LiveShow live({"--record-input", record, "--tracker", fmt::format("osc:{}", trackers)});
@@ -132,7 +132,7 @@ TEST(ProgramOperator, EveryGroupsRecordReplaysToItsOwnState) {
 }
 
 TEST(ProgramOperator, ANextGroupWhoseScriptHasErrorsWaitsForItToBeMended) {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   const std::string show = folder.write("show.evs", kOperated), port = std::to_string(freePort());
   ProgramRun run{{stadionPath(), "run", show, "--asset-root", assetFolder(), "--walls", "desktop", "--size",
                   "64x48", "--look", "plain", "--no-sound", "--osc", port}};
@@ -180,7 +180,7 @@ TEST(ProgramOperator, TheNextGroupSeesTheSamePictures) {
 }
 
 TEST(ProgramOperator, OrdersOfALogAreObeyedInTheirFrame) {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   const std::string show = folder.write("show.evs", kOperated);
   const auto picturesWith = [&](const std::string& orders) {
     const std::string log =
@@ -205,7 +205,7 @@ TEST(ProgramOperator, OrdersOfALogAreObeyedInTheirFrame) {
 }
 
 TEST(ProgramOperator, KeysOfATerminalCommandTheShowAndTheTerminalIsGivenBack) {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   const std::string show = folder.write("show.evs", kOperated), out = folder.path() / "out";
   int terminal = -1, other = -1;
   ASSERT_EQ(openpty(&terminal, &other, nullptr, nullptr, nullptr), 0);
@@ -241,7 +241,7 @@ TEST(ProgramOperator, KeysOfATerminalCommandTheShowAndTheTerminalIsGivenBack) {
 }
 
 TEST(ProgramOperator, WhatNeedsAnOperatorIsRefusedWhereEveryFrameCounts) {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   const std::string show = folder.write("show.evs", kOperated);
   for (const std::vector<std::string>& words :
        {std::vector<std::string>{"--osc", "0"}, {"--wait"}, {"--tracker", "osc:0"}}) {
@@ -258,7 +258,7 @@ TEST(ProgramOperator, WhatNeedsAnOperatorIsRefusedWhereEveryFrameCounts) {
 }
 
 TEST(ProgramTracker, ShowsWhatArrivesAndCalibratesTheRoom) {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   const std::uint16_t port = freePort();
   std::atomic<bool> ending = false;
   std::thread sender([&] {

@@ -96,7 +96,7 @@ key head 2    3  2   1.7   turn 10 0 0  smooth
 
 TEST_P(ProgramPictureHistory, IsNotSeenAfterASnapshotNorWhereFramesWereNotDrawn) {
   HistoryCase c = GetParam();
-  const TemporaryFolder folder;
+  const TestFolder folder;
   if (c.script.empty())
     c.script = folder.write("walk.evs", kWalk), c.input = folder.write("walk.input", kWalkInput);
   auto provider = openGlProvider(GlProviderKind::OsMesa);

@@ -125,7 +125,7 @@ TEST(ProgramRenderer, ContradictionsAreRefused) {
 
 /// By file name.
 std::map<std::string, Picture> picturesDrawnBy(const Options& renderer, const std::string& show) {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   Options how{"--walls", "cave4", "--size", "800x600", "--out", folder.path().string()};
   how.insert(how.end(), renderer.begin(), renderer.end());
   const ProgramResult r = stadionProgram(runOf(show, "2", how));

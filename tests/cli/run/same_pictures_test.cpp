@@ -52,7 +52,7 @@ std::map<std::string, std::string> pictureFilesIn(const std::string& folder) {
 /// Plays the show and returns every picture file by name.
 std::map<std::string, std::string> picturesOf(const std::string& mode, const std::string& walls,
                                               const std::string& look) {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   std::vector<std::string> words = playing(mode, walls, framesOn(walls));
   words.insert(words.begin(), "run");
   words.insert(words.end(), {"--look", look});
@@ -145,7 +145,7 @@ void expectSamePicturesInEveryMode(const std::vector<std::string>& show) {
                                                    {"--mode", "pipelined", "--wall-workers", "process"}};
   std::map<std::string, std::string> expected;
   for (const auto& way : ways) {
-    const TemporaryFolder folder;
+    const TestFolder folder;
     std::vector<std::string> words{"run", "--json", "--pictures", "2", "--out", folder.path()};
     words.insert(words.end(), show.begin(), show.end());
     words.insert(words.end(), way.begin(), way.end());
@@ -160,7 +160,7 @@ void expectSamePicturesInEveryMode(const std::vector<std::string>& show) {
 
 TEST(ProgramFullSamePictures, OfTheBenchsScenesInEveryMode) {
   for (const char name : {'a', 'b', 'c'}) {
-    const TemporaryFolder folder;
+    const TestFolder folder;
     bench::WallScene scene;
     scene.letter = name;
     ASSERT_EQ(bench::writeWallScene(folder.path().string(), scene, 4, true, 12), "");
@@ -188,7 +188,7 @@ TEST(ProgramFullSamePictures, OfShowsOnFourWallsInEveryMode) {
 
 /// Ten thousand nodes.
 void expectSamePicturesOfAGrid(const char* walls) {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   const std::string script = folder.write("grid.evs", gridScript());
   for (const char* look : {"full", "plain"})
     expectSamePicturesInEveryMode({script, "--asset-root", std::string(STADION_SOURCE_DIR) + "/scripts",
@@ -209,7 +209,7 @@ TEST(ProgramSameState, OfACrowdOfPathsAndBallsInEveryMode) {
 }
 
 TEST(ProgramSameState, OfHundredsThatSwayInEveryMode) {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   bench::WallScene scene{'b', 1000};
   ASSERT_EQ(bench::writeWallScene(folder.path().string(), scene, 4, true, 62), "");
   expectSameState({folder.path().string() + "/show.evs", "--walls", folder.path().string() + "/room.walls",

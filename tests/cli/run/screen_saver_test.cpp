@@ -101,7 +101,7 @@ struct Showing {
 TEST(ProgramScreenSaver, WaitsForEveryKindOfOutputAndGoesOnWhenItEndsOrIsKilled) {
   if (!Display::open())
     GTEST_SKIP() << "needs Xvfb, xdotool and import: apt-get install xvfb xdotool imagemagick";
-  const TemporaryFolder folder;
+  const TestFolder folder;
   const std::string show = folder.write("ball.evs", "object( file=football.3ds, position=\"0, 3, 1.5\" )\n");
   const Kind kinds[] = {{"rectangle", "rectangle 0 0 96 64"},
                         {"fullscreen", "monitor 1 fullscreen"},
@@ -166,7 +166,7 @@ TEST(ProgramScreenSaver, AMonitorIsLitWhileAShowIsShownAndGoesDarkWhenItEndsOrIs
   ASSERT_TRUE(client->hasDpms());
   client->setTimeout(0);  // so that DPMS alone can darken it
   client->setDpmsTimeouts(1);
-  const TemporaryFolder folder;
+  const TestFolder folder;
   const std::string show = folder.write("ball.evs", "object( file=football.3ds, position=\"0, 3, 1.5\" )\n");
   const std::string plane = "wall one  lower-left -1 2 0  lower-right 1 2 0  upper-left -1 2 2\n";
   const std::string window = folder.write("window.walls", plane + "output one  rectangle 0 0 96 64\n");

@@ -82,7 +82,7 @@ public:
   }
 
 private:
-  TemporaryFolder folder_, journals_;
+  TestFolder folder_, journals_;
   pid_t pid_ = -1;
 };
 
@@ -264,7 +264,7 @@ TEST(ProgramSupervise, APlayerDoesNotOutliveItsSupervisor) {
 }
 
 TEST(ProgramSupervise, OutputWithoutAReaderIsNoEnd) {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   const std::string journal = folder.path() / "run.log";
   // The reader of its messages is gone at once; the watcher and the player say something all the same.
   const pid_t watcher = startProgram({{"bash",        "-c",        "exec \"$0\" \"$@\" 2> >(exec true)",
@@ -308,7 +308,7 @@ TEST(ProgramSupervise, WhatIsWrongWithTheShowIsNoReasonToTryAgain) {
 }
 
 TEST(ProgramSupervise, WhatBelongsToOneProcessIsRefused) {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   const auto refused = [&](std::vector<std::string> more, const std::string& why) {
     std::vector<std::string> words{"run", kKick, "--supervise", "--seconds", "1"};
     words.insert(words.end(), more.begin(), more.end());

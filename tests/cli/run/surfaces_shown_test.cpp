@@ -24,7 +24,7 @@ struct ShownPixels {
 
 ShownPixels shownOf(const std::string& script, const std::string& walls, const std::string& look,
                     const std::string& workers, const std::string& size, const std::string& assets) {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   const std::string show = folder.write("show.evs", script), file = folder.write("one.walls", walls);
   const std::string out = folder.path() / "out";
   const ProgramResult r = stadionProgram({"run",      show, "--asset-root",   assets,  "--walls",    file,
@@ -61,7 +61,7 @@ constexpr ShownBy kWays[] = {{"full", "thread", "96x72"},
 using Ways = std::span<const ShownBy>;
 const Ways kEachOnce = Ways(kWays).first(2), kEachOnceOtherwise = Ways(kWays).last(2), kAll = kWays;
 
-std::string sheets(const TemporaryFolder& folder, double distance, double gap) {
+std::string sheets(const TestFolder& folder, double distance, double gap) {
   for (const auto& [name, colour] : {std::pair("red", "1 0 0"), std::pair("green", "0 1 0")}) {
     folder.write(std::string(name) + ".mtl", std::string("newmtl a\nKd ") + colour + "\n");
     folder.write(std::string(name) + ".obj",
@@ -85,7 +85,7 @@ struct SheetsShown {
 void expectTheNearerOfTwoSheets(const std::vector<SheetsShown>& cases) {
   for (const auto& [distance, gap, ways] : cases)
     for (const ShownBy& by : ways) {
-      const TemporaryFolder folder;
+      const TestFolder folder;
       const std::string script = sheets(folder, distance, gap);
       const ShownPixels found =
           shownOf(script, distance > 900 ? kOffAxis : std::string("near 0.1\n") + kFront, by.look, by.workers,

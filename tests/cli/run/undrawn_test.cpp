@@ -16,7 +16,7 @@ namespace {
 const std::string kKickScript = STADION_SOURCE_DIR "/scripts/kick.evs";
 
 TEST(ProgramUndrawn, ATrackNeedsNoRasteriser) {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   const auto run = [&](const std::string& out, std::vector<std::string> more) {
     more.insert(more.begin(), {"run", kKickScript, "--frames", "30", "--walls", "desktop", "--size", "32x24",
                                "--look", "plain", "--track", "ball", "--out", folder.path() / out});
@@ -49,7 +49,7 @@ std::vector<std::string> hashedRun(std::vector<std::string> more) {
 }
 
 TEST(ProgramUndrawn, HashesWithoutAFolderAreLinesOnStdout) {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   const ProgramResult lines = runProgram({hashedRun({"--frames", "12"})});
   ASSERT_EQ(lines.status, 0) << lines.err;
   ASSERT_EQ(

@@ -89,7 +89,7 @@ private:
 
   std::string journal() const { return folder_.path() / "run.log"; }
 
-  TemporaryFolder folder_;
+  TestFolder folder_;
   std::string port_ = std::to_string(freePort());
   RunningProgram program_;
   lo_address to_;

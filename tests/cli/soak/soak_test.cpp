@@ -15,7 +15,7 @@ bool holds(const std::string& text, const std::string& what) {
 }
 
 TEST(ProgramSoak, SomeThousandFramesAreTheSameInEveryWayAndInEveryProcess) {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   const std::string record = folder.path() / "soak.record";
   const ProgramResult first =
       stadionProgram({"soak", "--frames", "3000", "--visit", "1000", "--no-memory", "--record", record});
@@ -35,7 +35,7 @@ TEST(ProgramSoak, SomeThousandFramesAreTheSameInEveryWayAndInEveryProcess) {
 }
 
 TEST(ProgramSoak, ThatIsFinishedIsNotPlayedAgainAndHasTheSameVerdict) {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   const std::string record = folder.path() / "soak.record";
   // Ends in a visit without samples.
   const std::vector<std::string> words{"soak", "--frames",    "2500",     "--visit",
@@ -56,7 +56,7 @@ std::vector<std::string> shortSoak(const std::string& record, const char* frames
 
 /// More samples might hide what has grown.
 TEST(ProgramSoak, WhatHasFailedOnceHasFailed) {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   const std::string record = folder.path() / "soak.record";
   const auto words = [&](const char* frames) { return shortSoak(record, frames); };
   ASSERT_EQ(stadionProgram(words("1000")).status, 0);
@@ -79,7 +79,7 @@ TEST(ProgramSoak, MemoryThatCouldNotBeJudgedIsNoPass) {
 }
 
 TEST(ProgramSoak, ARecordOfAnotherSoakIsRefusedAndLeftAlone) {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   const std::string record = folder.write("notes.txt", "not a record\n");
   const ProgramResult r = stadionProgram({"soak", "--frames", "1000", "--no-memory", "--record", record});
   EXPECT_EQ(r.status, 2);
@@ -88,7 +88,7 @@ TEST(ProgramSoak, ARecordOfAnotherSoakIsRefusedAndLeftAlone) {
 }
 
 TEST(ProgramSoak, AStateThatIsNotThatOfBeforeFails) {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   const std::string record = folder.path() / "soak.record";
   ASSERT_EQ(stadionProgram({"soak", "--frames", "1000", "--visit", "1000", "--no-memory", "--record", record})
                 .status,
@@ -108,7 +108,7 @@ TEST(ProgramSoak, AStateThatIsNotThatOfBeforeFails) {
 }
 
 TEST(ProgramSoak, AStateThatIsNotThatOfBeforeIsNotForgottenWhenTheSoakIsKilled) {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   const std::string record = folder.path() / "soak.record";
   const auto words = [&](const char* frames) { return shortSoak(record, frames); };
   ASSERT_EQ(stadionProgram(words("1000")).status, 0);
@@ -157,7 +157,7 @@ protected:
     return stadionProgram(words(folder_.write("soak.record", text), frames));
   }
 
-  TemporaryFolder folder_;
+  TestFolder folder_;
   std::string record_ = folder_.path() / "soak.record";
   std::string whole_, head_;
 };

@@ -76,7 +76,7 @@ private:
     return w;
   }
 
-  TemporaryFolder folder_;
+  TestFolder folder_;
   const Display& display_;
   RunningProgram program_;
   bool playing_ = false;
@@ -227,7 +227,7 @@ INSTANTIATE_TEST_SUITE_P(ProgramFull, ProgramViewThrow,
 
 TEST(ProgramView, KeysWalkAndASavedScriptKeepsTheVisitorsPlace) {
   REQUIRE_DISPLAY(display);
-  const TemporaryFolder scripts;
+  const TestFolder scripts;
   scripts.write("desk_corner.evs", fileContent(testShow("desk_corner.evs")));
   const std::string text = fileContent(testShow("desk.evs"));
   const std::string show = scripts.write("desk.evs", text);
@@ -320,7 +320,7 @@ TEST(ProgramView, TheNextGroupFindsTheShowAtItsStartAndHasARecordOfItsOwn) {
 
 TEST(ProgramView, AGroupsDistancesAreToldWhenItEnds) {
   REQUIRE_DISPLAY(display);
-  const TemporaryFolder scripts;
+  const TestFolder scripts;
   Viewing view(*display, scripts.write("drop.evs", R"(forcelinear( name=gravity, direction="0, 0, -1" )
 object( name=floor, file=plane.3ds )
 dynobject( name=ours, file=football.3ds, position="-1, 4.37, 1", hook=gravity )
@@ -344,7 +344,7 @@ timer( period=0.1, repeat=off, eventmessage="timesup, visitor, start", eventmess
 
 TEST(ProgramView, ANextGroupWhoseScriptHasErrorsWaitsForItToBeMended) {
   REQUIRE_DISPLAY(display);
-  const TemporaryFolder scripts;
+  const TestFolder scripts;
   scripts.write("desk_corner.evs", fileContent(testShow("desk_corner.evs")));
   const std::string text = fileContent(testShow("desk.evs"));
   const std::string show = scripts.write("desk.evs", text);
@@ -370,7 +370,7 @@ constexpr const char* kCountingShow =
 
 TEST(ProgramView, ABrokenScriptThatIsSavedCostsNothingOfTheRecord) {
   REQUIRE_DISPLAY(display);
-  const TemporaryFolder scripts;
+  const TestFolder scripts;
   scripts.write("part.evs", "timer( name=inside, period=1 )\n");
   const std::string show = scripts.write("show.evs", kCountingShow);
   Viewing view(*display, show);
@@ -390,7 +390,7 @@ TEST(ProgramView, ABrokenScriptThatIsSavedCostsNothingOfTheRecord) {
 
 TEST(ProgramView, ARecordEndsOnceWhereAnotherScriptBegins) {
   REQUIRE_DISPLAY(display);
-  const TemporaryFolder scripts;
+  const TestFolder scripts;
   scripts.write("part.evs", "timer( name=inside, period=1 )\n");
   const std::string show = scripts.write("show.evs", kCountingShow);
   Viewing view(*display, show);
@@ -406,7 +406,7 @@ TEST(ProgramView, ARecordEndsOnceWhereAnotherScriptBegins) {
 
 TEST(ProgramView, TheOldShowPlaysWithTheSubScenesThatItWasCheckedWith) {
   REQUIRE_DISPLAY(display);
-  const TemporaryFolder scripts;
+  const TestFolder scripts;
   const std::string part = scripts.write("part.evs", "timer( name=inside, period=1 )\n");
   Viewing view(*display, scripts.write("show.evs", kCountingShow));
   ASSERT_TRUE(view.playing());
@@ -440,7 +440,7 @@ TEST(ProgramView, AServerThatEndsEndsTheShowWithItsRecordWritten) {
 
 TEST(ProgramView, ASubSceneThatIsSavedIsReadAgainToo) {
   REQUIRE_DISPLAY(display);
-  const TemporaryFolder scripts;
+  const TestFolder scripts;
   const std::string corner = fileContent(testShow("desk_corner.evs"));
   scripts.write("desk_corner.evs", corner);
   Viewing view(*display, scripts.write("desk.evs", fileContent(testShow("desk.evs"))));
@@ -483,7 +483,7 @@ TEST(ProgramView, TheFrameBudgetAndTheOverviewAreOnTheScreenshot) {
 
 TEST(ProgramView, WhatTakesTooLongGivesUpAndTheRecordObeys) {
   REQUIRE_DISPLAY(display);
-  const TemporaryFolder folder;
+  const TestFolder folder;
   const std::string script = folder.path() / "dear.evs";
   std::ofstream(script)
       << "forcelinear( name=gravity, direction=\"0, 0, -1\" )\n"
@@ -506,7 +506,7 @@ TEST(ProgramView, WhatTakesTooLongGivesUpAndTheRecordObeys) {
 
 TEST(ProgramView, WhyFramesWereLateIsKept) {
   REQUIRE_DISPLAY(display);
-  const TemporaryFolder folder;
+  const TestFolder folder;
   const std::string box = folder.path() / "last.frames";
   Viewing viewing(*display, STADION_SOURCE_DIR "/scripts/kick.evs",
                   {"--walls", "desktop", "--look", "full", "--rate", "1000", "--black-box", box});
@@ -523,7 +523,7 @@ TEST(ProgramView, WhyFramesWereLateIsKept) {
 
 TEST(ProgramView, OlympiaShowsItsBudgetAndIsReadAgainWhenSaved) {
   REQUIRE_DISPLAY(display);
-  const TemporaryFolder scripts;
+  const TestFolder scripts;
   const std::filesystem::path from = std::filesystem::path(assetFolder()) / "../scripts";
   std::filesystem::copy(from / "olympia", scripts.path() / "olympia",
                         std::filesystem::copy_options::recursive);

@@ -11,7 +11,7 @@ namespace stadion::test {
 namespace {
 
 TEST(AssetCheck, CountsWhatLoadsAndWhatDoesNot) {
-  TemporaryFolder folder;
+  TestFolder folder;
   std::filesystem::copy(models(), folder.path() / "models");
   folder.write("horse.fbx", "x");
   folder.write("notes.txt", "x");
@@ -76,7 +76,7 @@ private:
 
 TEST(AssetCheck, MutatedModelsNeverHarmTheShow) {
   const auto [count, seed] = mutations(200);
-  TemporaryFolder folder;
+  TestFolder folder;
   std::filesystem::copy_file(models() / "arms.bin", folder.path() / "arms.bin");
   ImportLimits limits;
   limits.timeout = std::chrono::milliseconds(2000);

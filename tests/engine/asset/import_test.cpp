@@ -98,7 +98,7 @@ TEST(AssetImport, MaterialsColoursAndTexturesArrive) {
 }
 
 TEST(AssetImport, ASolidOfGlassHasTwoSidesUnlessItsFormatSaysOtherwise) {
-  TemporaryFolder folder;
+  TestFolder folder;
   std::ofstream(folder.path() / "m.mtl") << "newmtl glass\nKd 0 1 0\nd 0.5\nnewmtl stone\nKd 1 0 0\n";
   std::ofstream(folder.path() / "m.obj")
       << "mtllib m.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nusemtl glass\nf 1 3 2\nf 1 2 4\nf 2 3 4\n"
@@ -124,7 +124,7 @@ TEST(AssetImport, BadTrianglesAreLeftOutAndCounted) {
 }
 
 TEST(AssetImport, FilesOutsideTheFolderAreNotRead) {
-  TemporaryFolder outer;
+  TestFolder outer;
   const auto inner = outer.path() / "inner";
   std::filesystem::create_directory(inner);
   std::filesystem::copy_file(models() / "arms.png", outer.path() / "secret.png");
@@ -166,7 +166,7 @@ TEST(AssetImport, ErrorsAreOneClearSentence) {
 }
 
 TEST(AssetImport, RefusedFormatsAreNamed) {
-  TemporaryFolder folder;
+  TestFolder folder;
   folder.write("horse.FBX", "whatever");
   Importer importer = importerOf(folder.path());
   const auto mesh = importer.load("horse.FBX");
@@ -176,7 +176,7 @@ TEST(AssetImport, RefusedFormatsAreNamed) {
 }
 
 TEST(AssetImport, AFileIsReadOnlyByTheLoaderOfItsName) {
-  TemporaryFolder folder;
+  TestFolder folder;
   folder.write("arms.obj", bytesOf(models() / "arms.3ds"));
   folder.write("ply.stl", "ply\nformat ascii 1.0\nelement vertex 3\n");
   Importer importer = importerOf(folder.path());
@@ -185,7 +185,7 @@ TEST(AssetImport, AFileIsReadOnlyByTheLoaderOfItsName) {
 }
 
 TEST(AssetImport, ANamedPipeDoesNotHoldTheShow) {
-  TemporaryFolder folder;
+  TestFolder folder;
   ASSERT_EQ(::system(("mkfifo " + (folder.path() / "pipe.obj").string()).c_str()), 0);
   Importer importer = importerOf(folder.path());
   const auto mesh = importer.load("pipe.obj");
@@ -244,7 +244,7 @@ protected:
     EXPECT_FALSE(mesh);
     return mesh ? std::string() : mesh.error().message;
   }
-  TemporaryFolder folder_;
+  TestFolder folder_;
 };
 
 TEST_F(AssetImportFakeProgram, ThatHangsIsKilledInTime) {

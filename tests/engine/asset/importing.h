@@ -23,18 +23,18 @@ inline Importer importerOf(const std::filesystem::path& folder, ImportLimits lim
 }
 
 /// A folder that goes away with the test.
-class TemporaryFolder {
+class TestFolder {
 public:
-  TemporaryFolder() {
+  TestFolder() {
     std::string name = (std::filesystem::temp_directory_path() / "stadion-test-XXXXXX").string();
     path_ = ::mkdtemp(name.data()) ? name : std::string();
   }
-  ~TemporaryFolder() {
+  ~TestFolder() {
     std::error_code error;
     std::filesystem::remove_all(path_, error);
   }
-  TemporaryFolder(const TemporaryFolder&) = delete;
-  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+  TestFolder(const TestFolder&) = delete;
+  TestFolder& operator=(const TestFolder&) = delete;
   const std::filesystem::path& path() const { return path_; }
 
   std::filesystem::path write(const std::string& name, const std::string& bytes) const {

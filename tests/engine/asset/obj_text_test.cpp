@@ -30,7 +30,7 @@ protected:
     EXPECT_FALSE(mesh) << text;
     return mesh ? std::string() : mesh.error().message;
   }
-  TemporaryFolder folder_;
+  TestFolder folder_;
 };
 
 TEST_F(ObjText, MayOmitDigitsBeforeAndAfterThePoint) {

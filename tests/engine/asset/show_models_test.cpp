@@ -12,7 +12,7 @@ namespace {
 const std::filesystem::path kAssets = std::filesystem::path(STADION_SOURCE_DIR) / "assets";
 
 TEST(AssetShowModels, AndTheAthletesScriptsAreMadeByTheirProgramByteForByte) {
-  TemporaryFolder models, scripts;
+  TestFolder models, scripts;
   const auto program = Importer::installedProgram().parent_path() / "stadion-assets";
   const std::string folders = "' '" + models.path().string() + "' '" + scripts.path().string() + "'";
   ASSERT_EQ(::system(("'" + program.string() + folders).c_str()), 0);

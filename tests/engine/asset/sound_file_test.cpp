@@ -11,7 +11,7 @@ const std::filesystem::path kSoundAssets = std::filesystem::path(STADION_SOURCE_
 
 /// A file of that content, opened by name below its folder.
 Result<Sound> readBytes(const std::string& bytes) {
-  TemporaryFolder folder;
+  TestFolder folder;
   std::ofstream(folder.path() / "s.wav", std::ios::binary) << bytes;
   AssetRoots roots;
   roots.add(folder.path());

@@ -61,7 +61,7 @@ std::string squareOf(const std::string& material, const std::string& picture, bo
 
 /// The two pictures of the corpus, and room for a model.
 struct ModelFolder {
-  TemporaryFolder folder;
+  TestFolder folder;
   ModelFolder() {
     for (const char* name : {"leaf.png", "lamp.png"})
       std::filesystem::copy_file(models() / name, folder.path() / name);

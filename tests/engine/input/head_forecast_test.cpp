@@ -86,7 +86,7 @@ TEST(TrackerFeed, AHeadThatIsAimedDoesNotLagBehindForBeingSmoothed) {
 }
 
 TEST(TrackerFeed, WhatWasForeseenIsInTheRecordAndTheReplayHasItToTheBit) {
-  const test::TemporaryFolder folder;
+  const test::TestFolder folder;
   const std::string path = folder.path() / "aimed.input";
   TrackerFeed feed(bareRig());
   std::vector<InputSample> live;

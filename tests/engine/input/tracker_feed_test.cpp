@@ -305,7 +305,7 @@ TEST(TrackerFeed, TheRecordOfAWildVisitGivesTheVerySameSamples) {
       seed = seed * 6364136223846793005ull + 1442695040888963407ull;
       return static_cast<double>(seed >> 11) / 9007199254740992.0;
     };
-    test::TemporaryFolder folder;
+    test::TestFolder folder;
     const std::string path = folder.path() / "visit.input";
     InputRecorder recorder(path);
     std::vector<InputSample> live;

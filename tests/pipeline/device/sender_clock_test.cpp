@@ -219,7 +219,7 @@ TEST(SenderClock, TheRecordOfAVisitWithSetClocksGivesTheVerySameSamples) {
   for (const Nanoseconds step : {-450 * kMs, -5'000 * kMs, 600 * kMs}) {
     std::vector<InputSample> live;
     SwayingHead{.jitter = 0.008, .step = step, .swapped = 5, .trackers = {"head", "wand"}}.worst(4, &live);
-    test::TemporaryFolder folder;
+    test::TestFolder folder;
     const std::string path = folder.path() / "visit.input";
     InputRecorder recorder(path);
     for (const InputSample& sample : live) recorder.record(sample);

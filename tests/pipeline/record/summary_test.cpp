@@ -41,8 +41,8 @@ TEST(Percentile, OfAnyCountHasAtLeastThatPartBelow) {
     for (int p = 1; p <= 100; ++p) ASSERT_EQ(percentile(oneTo(n), p), (n * p + 99) / 100) << n << " " << p;
 }
 
-TEST(Distribution, LeavesOutWhatIsNotFinite) {
-  const Distribution d = distributionOf({3, NAN, 1, INFINITY, 2});
+TEST(SampleStatistics, LeavesOutWhatIsNotFinite) {
+  const SampleStatistics d = sampleStatisticsOf({3, NAN, 1, INFINITY, 2});
   EXPECT_EQ(d.count, 3u);
   EXPECT_EQ(d.min, 1);
   EXPECT_EQ(d.mean, 2);
@@ -63,9 +63,10 @@ RunSummary example() {
   s.seconds = 5;
   s.elapsedSeconds = 10;
   s.lateFrames = 2;
-  s.frameMs = distributionOf(oneTo(10));
-  s.stages = {{"app", "", distributionOf({1, 2}), ""}, {"draw", "front", distributionOf({9}), "cpu clock"}};
-  s.latency = {{"front", distributionOf({40})}};
+  s.frameMs = sampleStatisticsOf(oneTo(10));
+  s.stages = {{"app", "", sampleStatisticsOf({1, 2}), ""},
+              {"draw", "front", sampleStatisticsOf({9}), "cpu clock"}};
+  s.latency = {{"front", sampleStatisticsOf({40})}};
   s.lastFrame = 299;
   s.stateHash = 0x12abULL;
   s.imageHashes = {{"front", "left", 0xfedcba9876543210ULL}};

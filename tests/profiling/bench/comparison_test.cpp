@@ -154,12 +154,12 @@ TEST(Comparison, WhatRefusedTheCasesMeshHasNoNumbers) {
   EXPECT_FALSE(m->played());
   EXPECT_NE(toJson(*m).find(R"("ns_per_body_frame":null)"), std::string::npos) << toJson(*m);
   ASSERT_TRUE(parseMeasurement(toJson(*m))) << "it reads what it writes";
-  CaseResult r{"C13_degenerate_mesh", {*m}, {}};
+  CaseComparison r{"C13_degenerate_mesh", {*m}, {}};
   EXPECT_NE(tableOf(r).find("refused the mesh"), std::string::npos) << tableOf(r);
 }
 
 TEST(Comparison, TheReportNamesWhatWasMissed) {
-  CaseResult r{"C01_ballistic", {of("stadion", "C01_ballistic", 1, 20, {{"err", 1}})}, {}};
+  CaseComparison r{"C01_ballistic", {of("stadion", "C01_ballistic", 1, 20, {{"err", 1}})}, {}};
   r.verdict = judge(r.name, r.measurements);
   EXPECT_FALSE(allMet({r}));
   EXPECT_NE(summaryOf({r}).find("0 limits met, 1 missed, 1 void"), std::string::npos);

@@ -45,7 +45,7 @@ TEST(FlightBench, TheDefaultStepAt60HzKeepsToThem) {
 TEST(FlightBench, RungeAndKuttaAt960HzReproduceEachSmoothOne) {
   for (const ReferenceFlight& f : references()) {
     if (!f.smooth) continue;
-    const auto around = f.release.surroundings();
+    const auto around = f.release.conditions();
     const AnyModel& model = factsOf(f.release.thing).exact;
     const Trajectory path =
         flyBy(f.release, 960, [&](RigidFlight& r) { runge_kutta::step4(r, 1.0 / 960, around, model); });

@@ -1,6 +1,6 @@
 /// The report of a profile: what it keeps, and that what it is told stays text.
 
-#include "profiling/report/distribution.h"
+#include "profiling/report/duration_histogram.h"
 #include "profiling/report/node_table.h"
 #include "profiling/report/report_data.h"
 #include "profiling/report/report_recording.h"
@@ -118,11 +118,11 @@ TEST(FrameSeries, ALateFrameHasItsCauseAndItsNode) {
   EXPECT_EQ(late[0].dearest(), (NodeRef{1, 59}));
 }
 
-TEST(Distribution, ItsMarksAreThoseOfTheValuesAndEveryValueIsInABin) {
+TEST(DurationHistogram, ItsMarksAreThoseOfTheValuesAndEveryValueIsInABin) {
   std::vector<float> values;
   for (int i = 1; i <= 1000; ++i) values.push_back(static_cast<float>(i) / 100);
   values.push_back(500);
-  const Distribution d = distributionOf(values);
+  const DurationHistogram d = durationHistogramOf(values);
   EXPECT_NEAR(d.median, 5.01, 1e-5);
   EXPECT_NEAR(d.p95, 9.51, 1e-5);
   EXPECT_NEAR(d.p99, 9.91, 1e-5);
@@ -133,8 +133,8 @@ TEST(Distribution, ItsMarksAreThoseOfTheValuesAndEveryValueIsInABin) {
   EXPECT_LT(d.from + d.step * static_cast<double>(d.bins.size()), 13)
       << "one far value does not press the others together";
   EXPECT_GE(d.bins.back(), 1U);
-  EXPECT_TRUE(distributionOf({}).bins.empty());
-  EXPECT_EQ(distributionOf({3, 3, 3}).median, 3);
+  EXPECT_TRUE(durationHistogramOf({}).bins.empty());
+  EXPECT_EQ(durationHistogramOf({3, 3, 3}).median, 3);
 }
 
 TEST(NodeTable, NodesBeyondTheMostAreOneRowTogether) {

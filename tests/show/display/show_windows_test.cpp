@@ -143,7 +143,7 @@ protected:
     return d;
   }
 
-  TemporaryFolder folder_;
+  TestFolder folder_;
   std::unique_ptr<Display> display_;
   std::unique_ptr<WindowSystem> system_;
   std::vector<EyePictures> pictures_;

@@ -39,7 +39,7 @@ std::vector<std::string> fitWords(const std::string& object, const std::string& 
 }
 
 TEST(ProgramFit, WritesItsTableOverNothingThatItReads) {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   const std::string object = folder.write("discus.obj", discus()),
                     flight = folder.write("flight.csv", fileContent(kFlights + "disc_25_35_s40_a-10.csv"));
   for (const std::string& read : {object, flight}) {
@@ -55,7 +55,7 @@ TEST(ProgramFit, WritesItsTableOverNothingThatItReads) {
 }
 
 TEST(ProgramFit, FindsAPlateForADiscusAndSaysWhatToWrite) {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   auto words = fitWords(folder.write("discus.obj", discus()), "disc_25_35_s40_a-10.csv");
   words.insert(words.end(), {"--within", "0.5", "--attitude", "2"});
   const ProgramResult r = stadionProgram(words);
@@ -65,7 +65,7 @@ TEST(ProgramFit, FindsAPlateForADiscusAndSaysWhatToWrite) {
 }
 
 TEST(ProgramFit, WritesATableThatCanBeReadWhereNothingCheaperIsGoodEnough) {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   auto words = fitWords(folder.write("discus.obj", discus()), "disc_25_35_s40_a-10_head5.csv");
   const std::string table = (folder.path() / "discus-flight.csv").string();
   words.insert(words.end(),
@@ -78,7 +78,7 @@ TEST(ProgramFit, WritesATableThatCanBeReadWhereNothingCheaperIsGoodEnough) {
 }
 
 TEST(ProgramFit, ADynobjectOfAScriptIsMeantByItsName) {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   folder.write("discus.obj", discus());
   const std::string script =
       folder.write("throw.evs", "dynobject(name=disc, file=discus.obj, mass=2)\ndynamics(collidee=disc)\n");
@@ -135,7 +135,7 @@ struct FlownThing {
 };
 
 void expectThePromiseOf(const FlownThing& thing, const std::string& tolerance) {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   std::vector<std::string> words{"fit",         assetFolder() + "/" + thing.model,
                                  "--gravity",   "9.81",
                                  "--density",   "1.2",
@@ -184,7 +184,7 @@ TEST(ProgramFit, AShowWithThePrintedLineFliesAsWellAsItPromises) {
 }
 
 TEST(ProgramFit, MomentsThatNoBodyHasAreRefused) {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   const ProgramResult r = stadionProgram({"fit", folder.write("discus.obj", discus()), "--inertia", "3", "1",
                                           "--reference", kFlights + "disc_25_35_s40_a-10.csv"});
   EXPECT_EQ(r.status, 2);
@@ -192,7 +192,7 @@ TEST(ProgramFit, MomentsThatNoBodyHasAreRefused) {
 }
 
 TEST(ProgramFit, BadInputIsSaidWithItsPlace) {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   const std::string object = folder.write("discus.obj", discus());
   const std::string flight = folder.write("bad.csv", "t,px\n0,1\n");
   const ProgramResult columns = stadionProgram({"fit", object, "--reference", flight});
@@ -231,7 +231,7 @@ std::string beginningOf(const std::string& flight, int rows) {
 }
 
 TEST(ProgramFit, AFlightThatEndsInTheAirOrHasHardlyARowIsRefused) {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   const std::string object = folder.write("discus.obj", discus());
   const auto said = [&](int rows) {
     const std::string flight = folder.write("part.csv", beginningOf("disc_25_35_s40_a-10.csv", rows));
@@ -264,7 +264,7 @@ TEST(ProgramFit, ADynobjectOfASubSceneIsNamedWithItsFile) {
 }
 
 TEST(ProgramCheck, WhatFliesAsIfMatterFilledItEvenlyIsToldWithTheNumbers) {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   const auto told = [&](const std::string& words) {
     const std::string script = folder.write(
         "throw.evs", "medium( name=air )\ndynobject( name=spear, file=javelin.glb, mass=0.8, hook=air" +
@@ -280,7 +280,7 @@ TEST(ProgramCheck, WhatFliesAsIfMatterFilledItEvenlyIsToldWithTheNumbers) {
 }
 
 TEST(ProgramBenchFlight, PrintsItsLimitsAndWritesNumbersAndPlots) {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   const std::string plots = folder.path() / "plots";
   const ProgramResult r =
       stadionProgram({"bench", "flight", "--flights", "20", "--rounds", "20", "--json", "--out", plots});

@@ -9,7 +9,7 @@ namespace {
 TEST(PictureHashes, GoOnWithAWholeLineAfterARunThatWasKilledInTheMiddleOfOne) {
   for (const char* left :
        {"", "0 front left 0123456789abcdef\n", "0 front left 0123456789abcdef\n1 fro", "0 fro"}) {
-    const TemporaryFolder folder;
+    const TestFolder folder;
     const std::string hashes = folder.write(PictureHashes::kHashes, left),
                       times = folder.write(PictureHashes::kTimes, "0 1000\n1 10");
     const auto out = OutputFolder::open(folder.path());

@@ -48,7 +48,7 @@ Athlete playAthlete(const std::string& name) {
   if (said == std::string::npos || there == std::string::npos) return athlete;
   std::sscanf(athlete.script.c_str() + athlete.script.rfind('#', said), "# %lf", &athlete.release);
   std::sscanf(athlete.script.c_str() + there, "It is then at (%lf,%lf,%lf)", &p.x(), &p.y(), &p.z());
-  const TemporaryFolder folder;
+  const TestFolder folder;
   const auto player = openShow(folder.write(
       "athlete.evs", athlete.script +
                          "\ntimer( period=0.48, eventmessage=\"timesup, go, enable, latency=0.02\" )\n"

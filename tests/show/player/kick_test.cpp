@@ -105,7 +105,7 @@ std::string kickScript() {
 }
 
 /// A copy of the script that says `after` instead of `before`, with the input of the kick.
-std::string copyWith(const TemporaryFolder& folder, const std::string& name, const std::string& script,
+std::string copyWith(const TestFolder& folder, const std::string& name, const std::string& script,
                      const std::string& before, const std::string& after) {
   std::string text = fileContent(script);
   const std::size_t at = text.find(before);
@@ -116,12 +116,12 @@ std::string copyWith(const TemporaryFolder& folder, const std::string& name, con
 }
 
 /// The same show with a kick field that has no strength.
-std::string withoutField(const TemporaryFolder& folder, const std::string& script) {
+std::string withoutField(const TestFolder& folder, const std::string& script) {
   return copyWith(folder, "without", script, "0, 5, 0", "0, 0, 0");
 }
 
 /// The same show with the contact scheme of the paper.
-std::string withPaperImpacts(const TemporaryFolder& folder) {
+std::string withPaperImpacts(const TestFolder& folder) {
   return copyWith(folder, "paper", kickScript(), "name=”sim_kick”,", "name=”sim_kick”, impact=paper,");
 }
 
@@ -193,7 +193,7 @@ void tellFigures(double rate, const Figures& with, const Figures& without) {
 
 void expectTheKick(double rate, const std::string& script = kickScript()) {
   SCOPED_TRACE(fmt::format("at {} Hz", rate));
-  const TemporaryFolder folder;
+  const TestFolder folder;
   const Figures f = figuresOf(playKick(script, rate));
   const Figures bare = figuresOf(playKick(withoutField(folder, script), rate));
   tellFigures(rate, f, bare);
@@ -226,7 +226,7 @@ TEST(Kick, ItDoesSoAtOtherFrameRates) {
 }
 
 TEST(Kick, ItPlaysWithTheContactSchemeOfThePaper) {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   for (const double rate : {60., 144.}) expectTheKick(rate, withPaperImpacts(folder));
 }
 

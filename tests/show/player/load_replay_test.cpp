@@ -89,7 +89,7 @@ std::string playLive(const std::string& show, const std::string& log, Mode mode,
 
 TEST(ProgramLoadReplay, ARunThatGaveUpThingsReplaysToTheSameHashesInEveryMode) {
   for (const Mode mode : {Mode::Sequential, Mode::Pipelined}) {
-    const TemporaryFolder folder;
+    const TestFolder folder;
     const std::string show = folder.write("show.evs", kDegradationShow), log = folder.path() / "live.input";
     const std::string live = playLive(show, log, mode, true);
     ASSERT_FALSE(live.empty());
@@ -106,7 +106,7 @@ TEST(ProgramLoadReplay, ARunThatGaveUpThingsReplaysToTheSameHashesInEveryMode) {
 }
 
 TEST(ProgramLoadReplay, TheSummaryTellsWhatWasObeyed) {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   const std::string show = folder.write("show.evs", kDegradationShow);
   const std::string log = folder.write("a.input", "stadion-input 2\nrate 60\nframe 30 0.5\nrelief 5 1 3 3\n"
                                                   "stress 6 5\nstress 9 2\nrelief 8 1 3 1\n");
@@ -132,7 +132,7 @@ TEST(ProgramLoadReplay, TheSummaryTellsWhatWasObeyed) {
 }
 
 TEST(ProgramLoadReplay, DecisionsAboutNothingAreTold) {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   const std::string show = folder.write("show.evs", kDegradationShow);
   const std::string log = folder.write("a.input", "stadion-input 2\nrate 60\nframe 30 0.5\nrelief 5 1 3 3\n"
                                                   "relief 6 7 5 1\nrelief 7 1 99 1\nrelief 8 1 99 0\n"
@@ -147,7 +147,7 @@ TEST(ProgramLoadReplay, DecisionsAboutNothingAreTold) {
 }
 
 TEST(ProgramLoadReplay, WithoutTheDecisionsItIsAnotherRun) {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   const std::string show = folder.write("show.evs", kDegradationShow), log = folder.path() / "live.input";
   const std::string live = playLive(show, log, Mode::Sequential, true);
   std::string text = fileContent(log);

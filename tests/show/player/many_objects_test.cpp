@@ -28,7 +28,7 @@ std::string manyObjects(int count) {
 }
 
 TEST(ProgramManyObjects, AppVisitsTenNodesAFrameAndPublishesTenChanges) {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   const std::string script = folder.write("many.evs", manyObjects(kStatic));
   const ProgramResult r = stadionProgram({"run", script, "--asset-root", assetFolder(), "--walls", "desktop",
                                           "--gl", "none", "--frames", "20", "--input", "none", "--json"});
@@ -45,7 +45,7 @@ std::size_t bytesInUse() {
 
 /// Memory that an opened show holds: what was allocated for it, and its static chunk.
 std::size_t bytesOf(int count) {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   const std::string script = folder.write("many.evs", manyObjects(count));
   const std::size_t before = bytesInUse();
   const auto player = openShow(script);

@@ -146,7 +146,7 @@ TEST(ProgramFullReload, NoFrameTakesLongerBecauseOfIt) {
   if (!fullRuns()) GTEST_SKIP() << "measures time; runs with --full";
   auto provider = openGlProvider(GlProviderKind::OsMesa);
   ASSERT_TRUE(provider);
-  const TemporaryFolder folder;
+  const TestFolder folder;
   folder.write("part.evs", fileContent(testShow("part.evs")));
   Playing what;
   what.script =

@@ -146,7 +146,7 @@ TEST_P(SavedState, GoesOnAsIfNothingHadBeen) {
 
 /// What has stood for long has nothing to make up for; what goes on does so every frame.
 TEST(SavedStateOfADay, GoesOnWhateverIsOffOrFinishedOrRuns) {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   const std::string file = folder.write("day.evs", R"(
 forcelinear( name=gravity, direction="0, 0, -1" )
 object( name=floor, file=plane.3ds )

@@ -17,7 +17,7 @@ constexpr const char* kShow = "scene( name=part, file=part.evs, initstate=off, r
 
 TEST(ShowTexts, ASubSceneIsLoadedAsItWasWhenTheShowWasOpenedWhateverBecomesOfItsFile) {
   for (const char* later : {"dynobj(", ""}) {
-    const TemporaryFolder folder;
+    const TestFolder folder;
     const std::string part = folder.write("part.evs", "timer( name=inside, period=1 )\n");
     const auto player = openShow(folder.write("show.evs", kShow));
     ASSERT_TRUE(player);
@@ -35,7 +35,7 @@ TEST(ShowTexts, ASubSceneIsLoadedAsItWasWhenTheShowWasOpenedWhateverBecomesOfIts
 }
 
 TEST(ShowTexts, ArePartsOfPartsToo) {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   folder.write("b.evs", "timer( name=b, period=1 )\n");
   folder.write("a.evs", "scene( file=b.evs )\nscene( file=missing.evs )\n");
   const std::string show = folder.write("show.evs", "scene( file=a.evs )\n");
@@ -47,7 +47,7 @@ TEST(ShowTexts, ArePartsOfPartsToo) {
 }
 
 TEST(ShowTexts, OfLargePartsAreReadAgainAndMustBeWhatTheyWere) {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   const std::string large(std::size_t{1} << 20, '#'), name = "large.evs";
   folder.write(name, "timer( name=b, period=1 )\n" + large);
   folder.write("small.evs", "timer( name=b, period=1 )\n");
@@ -74,7 +74,7 @@ int asked(ScriptWatch& watch, std::string& said) {
 
 class SavedScripts : public testing::Test {
 protected:
-  TemporaryFolder folder_;
+  TestFolder folder_;
   const std::string part_ = folder_.write("part.evs", "timer( period=1 )\n");
   const std::string show_ = folder_.write("show.evs", kShow);
   ScriptWatch watch_{show_, {}, standardNodes()};

@@ -150,7 +150,7 @@ TEST_P(WriteGuardTest, NamesAWriteToAStaticObject) {
       if (const ChunkView chunk = view.chunk(id); !chunk.records.empty())
         const_cast<InstanceRecord&>(chunk.records[0]).flags ^= InstanceRecord::kShown;
   };
-  const TemporaryFolder folder;
+  const TestFolder folder;
   const auto player =
       openShow(folder.write("still.evs", "object( file=football.3ds, position=\"0, 5, 1\" )\n"), "cave4");
   ASSERT_TRUE(player);

@@ -22,7 +22,7 @@ ProgramResult playLive(const std::string& show, const std::vector<std::string>& 
 }
 
 TEST(ProgramLiveLoad, StressIsToldAlsoOfAShowWithoutBudgets) {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   const std::string show =
       folder.write("show.evs", "lod( name=tree, ranges=\"5, 20\", position=\"0, 9, 0\" )\n"
                                "object( file=football.3ds, parent=tree )\n");
@@ -46,7 +46,7 @@ TEST(ProgramLiveLoad, StressIsToldAlsoOfAShowWithoutBudgets) {
 }
 
 TEST(ProgramLiveLoad, ASkyKeepsItsBudgetOrNot) {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   const std::string show =
       folder.write("show.evs", "sky( name=dusk, zenith=\"0.1, 0.1, 0.3\", budget=0.0001 )\n");
   // On a busy machine the first frames may come late: then it plays longer.

@@ -16,7 +16,7 @@ namespace {
 
 /// A ball, and a part of the show that is to be there at once when it is asked for: so large that it will
 /// come late on the fastest machine.
-std::string writeShow(const TemporaryFolder& folder) {
+std::string writeShow(const TestFolder& folder) {
   std::string part = fileContent(testShow("part.evs"));
   for (int i = 0; i < 20000; ++i) part += fmt::format("group( name=g{}, position=\"0, 0, {}\" )\n", i, i);
   folder.write("part.evs", part);
@@ -67,7 +67,7 @@ LiveRun playLive(const std::string& show, const std::string& log, Mode mode) {
 
 TEST(ProgramLiveRun, WithMissedTicksAndLateFilesReplaysToTheSameHashes) {
   for (const Mode mode : {Mode::Sequential, Mode::Pipelined}) {
-    const TemporaryFolder folder;
+    const TestFolder folder;
     const std::string show = writeShow(folder), log = folder.path() / "live.input";
     const LiveRun live = playLive(show, log, mode);
     EXPECT_GE(live.missed, 6u);
@@ -89,7 +89,7 @@ TEST(ProgramLiveRun, WithMissedTicksAndLateFilesReplaysToTheSameHashes) {
 }
 
 TEST(ProgramLiveRun, ThatIsStoppedReplaysToItsLastFrame) {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   const std::string show = writeShow(folder), log = folder.path() / "live.input";
   ProgramRun run;
   // A thousand ticks a second are more than can be drawn.
@@ -123,7 +123,7 @@ TEST(ProgramLiveRun, ThatIsToldTwiceAtOnceToStopEndsInOrder) {
   bool inOrder = false;
   std::string told;
   for (int tries = 0; tries < 20 && !inOrder; ++tries) {
-    const TemporaryFolder folder;
+    const TestFolder folder;
     const std::string journal = folder.path() / "run.log", out = folder.path() / "out";
     RunningProgram program({{stadionPath(), "run", writeShow(folder), "--asset-root", assetFolder(), "--walls",
                              "desktop", "--size", "64x48", "--frames", "1000000", "--pictures", "none",

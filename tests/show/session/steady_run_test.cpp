@@ -30,7 +30,7 @@ public:
   std::uint64_t soFar() const { return count_.value(); }
 
 private:
-  TemporaryFolder folder_;
+  TestFolder folder_;
   SharedCount count_;
 };
 
@@ -48,7 +48,7 @@ struct Asked {
   bool none() const { return here == 0 && walls == 0; }
 };
 
-std::string showOf(const TemporaryFolder& folder, bool lamps) {
+std::string showOf(const TestFolder& folder, bool lamps) {
   std::string text = "light( direction=\"-1, 2, -3\" )\nrig( name=room )\n"
                      "path( target=room, loop=on, key=\"0, 0,0,0, 0,0,0\", key=\"0.2, 0,1,0, 0,0,20\", "
                      "key=\"0.4, 0,0,0, 0,0,0\" )\n";
@@ -68,7 +68,7 @@ std::optional<Asked> askedIn(const Way& way) {
   constexpr std::uint64_t kWarm = 48, kCounted = 24;
   // Of the newest frames it is chance which are shown, and so when the one with the most in it has been.
   const std::uint64_t most = way.everyFrame ? 1 : 6;  // times kCounted
-  const TemporaryFolder folder;
+  const TestFolder folder;
   const CountedChildren children;
   ShowOptions show;
   show.script = showOf(folder, std::string(way.look) == "full"), show.walls = way.walls, show.size = "64x48";

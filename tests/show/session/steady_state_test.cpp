@@ -15,7 +15,7 @@ namespace {
 /// the log says.
 std::uint64_t allocationsOfApp(const std::string& script, const std::string& log = {},
                                std::uint64_t warm = 120) {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   ShowOptions options;
   options.script = script, options.walls = "cave4", options.size = "64x48";
   options.input = log.empty() ? "none" : folder.write("visitor.input", "stadion-input 1\n" + log);
@@ -69,7 +69,7 @@ std::uint64_t allocationsOfDraw(const std::string& script, const std::string& lo
   return asked.count;
 }
 
-std::string showOf(const TemporaryFolder& folder, const std::string& text) {
+std::string showOf(const TestFolder& folder, const std::string& text) {
   return folder.write("show.evs", text);
 }
 
@@ -81,7 +81,7 @@ protected:
   void SetUp() override {
     if (!countsAllocations()) GTEST_SKIP() << "this build does not count";
   }
-  TemporaryFolder folder_;
+  TestFolder folder_;
 };
 
 TEST_F(ProgramSteadyState, OfWhatStandsStill) {

@@ -66,7 +66,7 @@ using Fate = std::function<void(const std::atomic<std::size_t>& shown, Watched& 
 
 /// Plays the show until `fate` is over.
 std::optional<Watched> watch(const std::string& look, const std::string& walls, const Fate& fate) {
-  const TemporaryFolder folder;
+  const TestFolder folder;
   ShowOptions show;
   show.script = folder.write("show.evs", "object( name=floor, file=plane.3ds )\n"
                                          "object( file=football.3ds, position=\"0, 3, 1\" )\n");

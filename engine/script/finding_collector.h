@@ -6,12 +6,12 @@
 
 namespace stadion {
 
-class Reporter {
+class FindingCollector {
 public:
   static constexpr std::size_t kMost = 100;  ///< limit of the number of errors, and of warnings
 
-  /// Expects that both outlive the reporter.
-  Reporter(const SourceText& source, Diagnostics& findings) : source_(source), findings_(findings) {}
+  /// Expects that both outlive the collector.
+  FindingCollector(const SourceText& source, Diagnostics& findings) : source_(source), findings_(findings) {}
 
   void error(std::uint32_t offset, std::string message) {
     report(Severity::Error, errors_, offset, std::move(message));

@@ -1,4 +1,4 @@
-#include "profiling/report/distribution.h"
+#include "profiling/report/duration_histogram.h"
 
 #include <algorithm>
 #include <cmath>
@@ -16,8 +16,8 @@ double rank(const std::vector<float>& sorted, double percent) {
 
 }  // namespace
 
-Distribution distributionOf(std::vector<float> ms) {
-  Distribution d;
+DurationHistogram durationHistogramOf(std::vector<float> ms) {
+  DurationHistogram d;
   d.count = ms.size();
   if (ms.empty()) return d;
   std::ranges::sort(ms);
