@@ -46,8 +46,8 @@ struct Played {
   std::vector<double> periods;         ///< by frame, since the one before [ms]
   std::optional<std::uint64_t> named;  ///< App's frame when the node was told of first
   std::string toldAs;
-  std::vector<FrameFacts> kept;  ///< in the black box
-  LoadDecisions decisions;       ///< in its log
+  std::vector<FrameFacts> kept;    ///< in the black box
+  DegradationDecisions decisions;  ///< in its log
   std::uint64_t history = 0;
 };
 

@@ -32,12 +32,12 @@ void addTrackerOptions(CLI::App& command, TrackerOptions& o) {
 void addLoadOptions(CLI::App& command, RunOptions& run) {
   CommandOptions options(command);
   PlaySettings& o = run.settings.play;
-  options.add("--load-control", o.loadControl).notes(run.loadAsked);
-  options.add("--stress-frac", o.stress.frac).notes(run.loadAsked);
-  options.add("--stress-low", o.stress.low).notes(run.loadAsked);
-  options.add("--stress-high", o.stress.high).notes(run.loadAsked);
-  options.add("--stress-scale", o.stress.scale).notes(run.loadAsked);
-  options.add("--stress-max", o.stress.max).notes(run.loadAsked);
+  options.add("--load-control", o.degradationControl).notes(run.degradationAsked);
+  options.add("--stress-frac", o.stress.frac).notes(run.degradationAsked);
+  options.add("--stress-low", o.stress.low).notes(run.degradationAsked);
+  options.add("--stress-high", o.stress.high).notes(run.degradationAsked);
+  options.add("--stress-scale", o.stress.scale).notes(run.degradationAsked);
+  options.add("--stress-max", o.stress.max).notes(run.degradationAsked);
 }
 
 void addClusterOptions(CLI::App& command, ClusterSettings& o) {

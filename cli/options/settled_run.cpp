@@ -175,7 +175,7 @@ void RunOptions::settleLive(Diagnostics& findings) {
   if (everyFrame && s.console.oscPort >= 0) refuse("--osc");
   if (everyFrame && s.console.wait) refuse("--wait");
   if (everyFrame && !trackers.device.empty()) refuse("--tracker");
-  if (everyFrame && loadAsked) refuse("--load-control (and --stress-...)");
+  if (everyFrame && degradationAsked) refuse("--load-control (and --stress-...)");
   if (!trackers.rig.empty() && trackers.device.empty())
     findings.error({}, "--rig says where trackers are, and there are none: --tracker osc:PORT");
   s.play.everyFrame = everyFrame;

@@ -93,11 +93,11 @@ inline double stressOf(std::uint32_t level) {
 /// Decides, in a live run, which nodes give up what.
 ///
 /// Threads  called by App.
-class LoadDecider {
+class DegradationDecider {
 public:
-  virtual ~LoadDecider() = default;
+  virtual ~DegradationDecider() = default;
   /// Returns the degradation that takes effect with this frame.
-  virtual FrameLoad decide(std::uint64_t frame) = 0;
+  virtual FrameDecisions decide(std::uint64_t frame) = 0;
 };
 
 }  // namespace stadion

@@ -106,7 +106,7 @@ std::string inputLogHeading(double rate = 0);
 std::string formatFrameTime(std::uint64_t frame, Nanoseconds time);
 std::string formatLateLoad(std::uint32_t load, Nanoseconds time);
 std::string formatOrder(std::uint64_t frame, const OperatorCommand& order);
-std::string formatDegradation(std::uint64_t frame, const LoadDecision& decision);
+std::string formatDegradation(std::uint64_t frame, const DegradationDecision& decision);
 
 /// Plays a log.
 class InputReplay final : public InputDevice {

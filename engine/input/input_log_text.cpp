@@ -104,11 +104,11 @@ private:
     if (level && in_.finished()) decide(*frame, {0, 0, static_cast<std::uint32_t>(*level)});
   }
 
-  void decide(std::uint64_t frame, const LoadDecision& decision) {
-    LoadDecisions& known = log_.decisions.degradation;
-    if (known.count(frame) == FrameLoad::kMost)
+  void decide(std::uint64_t frame, const DegradationDecision& decision) {
+    DegradationDecisions& known = log_.decisions.degradation;
+    if (known.count(frame) == FrameDecisions::kMost)
       return in_.error(in_.keyword(),
-                       fmt::format("at most {} of these take effect in one frame", FrameLoad::kMost));
+                       fmt::format("at most {} of these take effect in one frame", FrameDecisions::kMost));
     const auto [first, last] = known.equal_range(frame);
     for (auto at = first; at != last; ++at)
       if (at->second.load == decision.load && at->second.position == decision.position)
@@ -311,7 +311,7 @@ std::string formatOrder(std::uint64_t frame, const OperatorCommand& order) {
   return fmt::format("order {} {} {}\n", frame, nameOf(order.action), order.value.value_or(0));
 }
 
-std::string formatDegradation(std::uint64_t frame, const LoadDecision& d) {
+std::string formatDegradation(std::uint64_t frame, const DegradationDecision& d) {
   if (d.load == 0) return fmt::format("stress {} {}\n", frame, d.level);
   return fmt::format("relief {} {} {} {}\n", frame, d.load, d.position, d.level);
 }

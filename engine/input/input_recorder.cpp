@@ -47,7 +47,7 @@ void InputRecorder::frame(const TimeSignature& now) {
     file_.write(formatFrameTime(now.frame, now.time));
     expected_.emplace(rate_, now);
   }
-  for (const LoadDecision& d : now.load) file_.write(formatDegradation(now.frame, d));
+  for (const DegradationDecision& d : now.decisions) file_.write(formatDegradation(now.frame, d));
   lastFrame_ = now;
   lastIsWritten_ = !onTick || now.frame == 0;
 }

@@ -21,7 +21,7 @@ namespace stadion {
 using RunOrders = std::multimap<std::uint64_t, OperatorCommand>;
 
 /// Degradations because of overload, by their first frame.
-using LoadDecisions = std::multimap<std::uint64_t, LoadDecision>;
+using DegradationDecisions = std::multimap<std::uint64_t, DegradationDecision>;
 
 struct RunDecisions {
   double rate = 0;                              ///< frames a second of the recorded run; 0 = not said
@@ -29,7 +29,7 @@ struct RunDecisions {
   std::map<std::uint32_t, Nanoseconds> loads;   ///< load number to when it took effect, because it came late
 
   RunOrders orders;  ///< about pictures and sounds alone, with their figures
-  LoadDecisions degradation;
+  DegradationDecisions degradation;
 
   bool empty() const { return frames.empty() && loads.empty() && orders.empty() && degradation.empty(); }
 

@@ -16,7 +16,7 @@
 ///           it.
 /// Times     nodes that watch a target get its way inside the frame, as chords of 2 ms on a grid of show
 ///           time.
-/// Load      kept from running, it goes on where it stopped. In one of several frames, its targets are then
+/// Rests     kept from running, it goes on where it stopped. In one of several frames, its targets are then
 ///           where its own time has them; watching nodes see them go straight there within that frame.
 /// Frames    displacement and angular velocity are in the coordinates of the target's parent.
 

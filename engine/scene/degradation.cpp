@@ -36,12 +36,12 @@ const NodeTerms* Degradation::termsOf(NodeRef node) const {
 }
 
 void Degradation::apply(const TimeSignature& now) {
-  for (const LoadDecision& d : now.load) apply(d);
+  for (const DegradationDecision& d : now.decisions) apply(d);
   const bool nothing = levels_.empty() && degraded_.empty();
-  if (now.load.count > 0 || (!nothing && treeVersion_ != tree_.version())) spread();
+  if (now.decisions.count > 0 || (!nothing && treeVersion_ != tree_.version())) spread();
 }
 
-void Degradation::apply(const LoadDecision& d) {
+void Degradation::apply(const DegradationDecision& d) {
   const NodeRef node{d.load, d.position};
   if (!node.valid()) {
     stressLevel_ = std::min(d.level, kMostStress);

@@ -81,7 +81,7 @@ private:
     }
   };
 
-  void apply(const LoadDecision& decision);
+  void apply(const DegradationDecision& decision);
   void spread();
   void degrade(NodeRef node, const NodeDegradation& before, const NodeDegradation& now);
   const NodeTerms* termsOf(NodeRef node) const;

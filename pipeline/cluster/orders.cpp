@@ -115,7 +115,8 @@ const Order& WrittenOrder::write(const OrderNumbers& numbers, const FrameOrder& 
   w.explain = numbers.explain;
   w.frame = o.signature.frame, w.time = o.signature.time, w.step = o.signature.step;
   decisions_.clear(), trackers_.clear();
-  for (const LoadDecision& d : o.signature.load) decisions_.push_back({d.load, d.position, d.level});
+  for (const DegradationDecision& d : o.signature.decisions)
+    decisions_.push_back({d.load, d.position, d.level});
   lend(decisions_, w.decisions);
   w.last = o.last, w.shown = written(o.presentation);
   w.still = static_cast<std::uint8_t>(o.still), w.stands_after = static_cast<std::uint8_t>(o.standsAfter);
@@ -154,7 +155,7 @@ std::optional<HeardOrder> readOrder(const Order& w) {
   TimeSignature& now = heard.order.signature;
   now.frame = w.frame, now.time = w.time, now.step = w.step;
   for (const stadion_wire_Decision& d : spanOf(w.decisions))
-    if (!now.load.add({d.load, d.position, d.level})) return {};
+    if (!now.decisions.add({d.load, d.position, d.level})) return {};
   const auto shown = cluster::read(w.shown);
   const auto still = readStandstill(w.still), standsAfter = readStandstill(w.stands_after);
   if (!shown || !still || !standsAfter) return {};

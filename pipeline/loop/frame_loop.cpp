@@ -112,7 +112,7 @@ FrameLoop::FrameLoop(Stages& stages, const FrameLoopOptions& options, const std:
   pacer_.startLate(std::chrono::nanoseconds(options.late));
   if (!options.after) return;
   clock_ = FrameClock(options.rate, *options.after, options.frameTimes);
-  lastSignature_ = *options.after, lastSignature_.load = {};
+  lastSignature_ = *options.after, lastSignature_.decisions = {};
   nextIndex_ = options.after->frame + 1;
   begun_ = true;  // the show may stand still at that frame
 }
@@ -301,7 +301,7 @@ std::optional<FrameOrder> FrameLoop::nextOrder() {
   const bool single = options_.playback && options_.playback->paused();
   TimeSignature now = signatureAfter(single ? 1 : ticks, speed);
   if (options_.end > 0 && now.time > options_.end) return std::nullopt;
-  now.load = loadOf(now.frame);
+  now.decisions = decisionsFor(now.frame);
   ++nextIndex_;
   begun_ = true;
   lastSignature_ = now;
@@ -338,11 +338,11 @@ std::optional<FrameOrder> FrameLoop::leadersOrder() {
 }
 
 // Returns the decision of the log, or in a live run of the decider, which measures time.
-FrameLoad FrameLoop::loadOf(std::uint64_t frame) {
-  FrameLoad load = options_.decider ? options_.decider->decide(frame) : FrameLoad{};
+FrameDecisions FrameLoop::decisionsFor(std::uint64_t frame) {
+  FrameDecisions decisions = options_.decider ? options_.decider->decide(frame) : FrameDecisions{};
   const auto [first, last] = options_.degradation.equal_range(frame);
-  for (auto at = first; at != last; ++at) load.add(at->second);
-  return load;
+  for (auto at = first; at != last; ++at) decisions.add(at->second);
+  return decisions;
 }
 
 // Applies the operator's commands to the whole coming frame. Returns false if no frame follows.

@@ -53,10 +53,10 @@ struct FrameLoopOptions {
   /// Show times that a recorded run chose for some of its frames (see RunDecisions); the loop applies them.
   std::map<std::uint64_t, Nanoseconds> frameTimes{};
   /// A recorded run's decisions about overload; the loop applies them.
-  LoadDecisions degradation{};
-  LoadDecider* decider = nullptr;        ///< makes these decisions in a live run; null = none are made
-  Playback* playback = nullptr;          ///< pauses a live run or slows it down; null = never
-  OperatorControls* controls = nullptr;  ///< commands, taken at the start of each frame; null = none
+  DegradationDecisions degradation{};
+  DegradationDecider* decider = nullptr;  ///< makes these decisions in a live run; null = none are made
+  Playback* playback = nullptr;           ///< pauses a live run or slows it down; null = never
+  OperatorControls* controls = nullptr;   ///< commands, taken at the start of each frame; null = none
   /// The other hosts that play this show, which is then shown frame by frame; null = there are none.
   FrameOrders* orders = nullptr;
   /// Ends the run at the first write of a stage to what it may only read; null = nothing is watched. While it
@@ -106,7 +106,7 @@ private:
   bool takeCommands();
   std::size_t mostInFlight() const;
   std::size_t wallsLeft() const;
-  FrameLoad loadOf(std::uint64_t frame);
+  FrameDecisions decisionsFor(std::uint64_t frame);
   TimeSignature signatureAfter(std::uint64_t ticks, double speed);
   bool noneFollows();
   bool isPastEnd() const;

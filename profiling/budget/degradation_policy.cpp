@@ -63,11 +63,11 @@ void DegradationPolicy::relay(std::vector<LevelSavings> levels, const std::vecto
   level_ = becomes.at(level_), wanted_ = becomes.at(wanted_);
 }
 
-void DegradationPolicy::note(const LoadCost& cost) {
+void DegradationPolicy::note(const BudgetedCost& cost) {
   window_[seen_ % kWindow] = cost;
   // For nodes that run now and then, the frames in between belong to the cycle.
   const std::size_t cycle = levels_[level_].cycle;
-  LoadCost typical;
+  BudgetedCost typical;
   for (std::size_t i = 0; i < std::min(cycle, seen_ + 1); ++i) {
     typical.app += window_[(seen_ - i) % kWindow].app / static_cast<double>(cycle);
     typical.drawn += window_[(seen_ - i) % kWindow].drawn / static_cast<double>(cycle);
@@ -104,7 +104,7 @@ void DegradationPolicy::giveUp(std::uint64_t frame) {
     failures_ = std::min(failures_ + 1, kMostFailures);
   trying_ = false;
   // Frames over budget weigh more than the smoothed cost.
-  LoadCost worst;
+  BudgetedCost worst;
   for (std::size_t i = 0; i < std::min(seen_, kWindow); ++i)
     if (window_[i].total() > worst.total()) worst = window_[i];
   const double cycle = levels_[level_].cycle;
@@ -141,7 +141,7 @@ void DegradationPolicy::takeBack(std::uint64_t frame) {
   wanted_ = level_ - 1;
 }
 
-std::uint32_t DegradationPolicy::take(std::uint64_t frame, const LoadCost& cost) {
+std::uint32_t DegradationPolicy::take(std::uint64_t frame, const BudgetedCost& cost) {
   if (frame < since_ || wanted_ != level_) return wanted_;
   note(cost);
   if (isTooMuch())

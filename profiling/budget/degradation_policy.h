@@ -23,7 +23,7 @@
 namespace stadion {
 
 /// The cost of one frame.
-struct LoadCost {
+struct BudgetedCost {
   double app = 0;    ///< [ms] of App
   double drawn = 0;  ///< [ms] of Cull and Draw, all walls and eyes
   double total() const { return app + drawn; }
@@ -48,7 +48,7 @@ public:
 
   /// Adds a frame's cost; frames come in order. Frames from before the last level took effect do not count.
   /// Returns the level that is wanted now.
-  std::uint32_t take(std::uint64_t frame, const LoadCost& cost);
+  std::uint32_t take(std::uint64_t frame, const BudgetedCost& cost);
   /// Reports that the wanted level takes effect with this frame.
   void applied(std::uint64_t frame);
   /// Replaces the ladder. `becomes` maps each level of the old one, from 0 on, to the equal level of the new
@@ -63,7 +63,7 @@ public:
 private:
   static constexpr std::size_t kWindow = 8;
 
-  void note(const LoadCost& cost);
+  void note(const BudgetedCost& cost);
   bool isTooMuch() const;
   void giveUp(std::uint64_t frame);
   void takeBack(std::uint64_t frame);
@@ -74,11 +74,11 @@ private:
   std::vector<LevelSavings> levels_;
   std::uint32_t level_ = 0, wanted_ = 0;
   std::uint64_t since_ = 0;  ///< frame from which level_ counts
-  std::array<LoadCost, kWindow> window_{};
+  std::array<BudgetedCost, kWindow> window_{};
   std::array<int, kWindow> strikes_{};
   std::size_t seen_ = 0;        ///< frames at this level
   std::uint64_t calm_ = 0;      ///< the last of them without overruns
-  LoadCost mean_;               ///< smoothed
+  BudgetedCost mean_;           ///< smoothed
   std::uint32_t failures_ = 0;  ///< failed tries to recover a level, in a row
   bool trying_ = false;         ///< the present level is such a try
   bool troubled_ = false;       ///< the last level was left for an overrun: one clear sign is enough now

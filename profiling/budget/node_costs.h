@@ -26,8 +26,8 @@ struct GovernedNode {
 
 /// The cost of such a node in one frame.
 struct NodeCost {
-  LoadCost cost;
-  LoadCost sure;  ///< the part that two samples in a row confirm
+  BudgetedCost cost;
+  BudgetedCost sure;  ///< the part that two samples in a row confirm
   /// The node's drawing was sampled since the last change of how it is drawn.
   bool known = true;
   bool drawKnown = true;         ///< the node's drawing was sampled, or the node was never visible

@@ -18,8 +18,9 @@ struct PlaySettings {
   bool drawBeginsEarly =
       true;            ///< Draw begins with the first part of a frame's list; else it waits for all of it
   bool guard = false;  ///< writes of a stage to what it may only read end the show
-  bool loadControl = true;  ///< a live show applies what its script says (onoverrun) if frames take too long
-  StressOptions stress{};   ///< stress control of the whole show
+  bool degradationControl =
+      true;                ///< a live show applies what its script says (onoverrun) if frames take too long
+  StressOptions stress{};  ///< stress control of the whole show
 
   /// Returns true if every frame counts in this show: because of `everyFrame`, or because its input log holds
   /// what a clock decided.

@@ -88,7 +88,7 @@ void RunWatch::see(const TimeSignature& now, const InputSample& input, const Sce
   visited_ += c.nodesVisited, published_ += c.changesPublished;
   delivered_ += c.messagesDelivered, lost_ += c.messagesLost;
   for (const EventRecord& e : scene.events()) note(e, scene);
-  for (const LoadDecision& d : now.load) note(d, scene);
+  for (const DegradationDecision& d : now.decisions) note(d, scene);
   if (recorder_) recorder_->frame(now), recorder_->record(input);
   for (NodeTrace& t : traces_) t.record(now, scene);
 }
@@ -114,7 +114,7 @@ void RunWatch::note(const EventRecord& event, const Scene& scene) {
     measured_.push_back({toSeconds(event.when), nameIn(scene, event.node), *event.figure});
 }
 
-void RunWatch::note(const LoadDecision& d, const Scene& scene) {
+void RunWatch::note(const DegradationDecision& d, const Scene& scene) {
   const NodeRef node{d.load, d.position};
   Obeyed& o = givenUp_[node];
   if (o.node.empty() && givesUp(scene, node)) o.node = nameIn(scene, node);

@@ -50,7 +50,7 @@ private:
   explicit RunWatch(Player& player) : player_(player) {}
   void recordInput(const std::string& file, bool everyFrame, Diagnostics& findings);
   void note(const EventRecord& event, const Scene& scene);
-  void note(const LoadDecision& decision, const Scene& scene);
+  void note(const DegradationDecision& decision, const Scene& scene);
   void addObeyed(RunSummary& summary) const;
 
   Player& player_;

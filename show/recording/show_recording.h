@@ -4,14 +4,14 @@
 ///
 /// Threads  made before the run; see() on the App thread; figures() once the run is over.
 
-#include "profiling/budget/load_governor.h"
+#include "profiling/budget/degradation_governor.h"
 #include "profiling/record/black_box.h"
 #include "profiling/report/report_data.h"
 #include "profiling/report/report_recording.h"
 #include "profiling/report/show_figures.h"
 #include "profiling/trace/trace_file.h"
 #include "show/recording/crash_report.h"
-#include "show/recording/live_load.h"
+#include "show/recording/governor_options.h"
 
 #include <optional>
 #include <utility>
@@ -43,7 +43,7 @@ public:
     if (options.profile) readers.push_back(&made->profile_);
     if (options.also) readers.push_back(options.also);
     if (options.govern) {
-      made->governor_ = std::make_unique<LoadGovernor>(std::move(*options.govern), made->names_);
+      made->governor_ = std::make_unique<DegradationGovernor>(std::move(*options.govern), made->names_);
       readers.push_back(made->governor_.get());
     }
     if (options.keep) {
@@ -85,7 +85,7 @@ public:
     log_->setSamples(sampled_ || hasDrawnBudgets(scene));
   }
   /// Decides which nodes are degraded; null if budgets are not watched.
-  LoadGovernor* governor() { return governor_.get(); }
+  DegradationGovernor* governor() { return governor_.get(); }
   /// Nothing more will come.
   void finish() { log_->finish(); }
   /// Completes the trace, if there is one.
@@ -139,7 +139,7 @@ private:
   bool sampled_ = false;  ///< drawing, also without a budget
   NodeNames names_;
   ShowProfile profile_{&names_};
-  std::unique_ptr<LoadGovernor> governor_;
+  std::unique_ptr<DegradationGovernor> governor_;
   std::unique_ptr<BlackBox> box_;
   std::optional<ToldInCrash> told_;  ///< names the file of the black box in a crash message
   std::unique_ptr<TraceFile> trace_;

@@ -5,7 +5,7 @@
 #include "engine/base/installed_files.h"
 #include "pipeline/target/rasteriser_settings.h"
 #include "show/player/script_watch.h"
-#include "show/recording/live_load.h"
+#include "show/recording/governor_options.h"
 
 #include <mutex>
 #include <thread>

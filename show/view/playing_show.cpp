@@ -1,8 +1,8 @@
 #include "show/view/playing_show.h"
 
 #include "show/player/write_watching.h"
+#include "show/recording/governor_options.h"
 #include "show/recording/last_frames.h"
-#include "show/recording/live_load.h"
 
 #include <cmath>
 

@@ -3,8 +3,8 @@
 /// They are recorded in every run, so that late frames have a cause and a program that crashes leaves what
 /// its last frames were spent on. Only a run that is measured for a comparison goes without.
 
+#include "show/recording/governor_options.h"
 #include "show/recording/last_frames.h"
-#include "show/recording/live_load.h"
 #include "show/recording/show_recording.h"
 #include "show/session/session_part.h"
 
@@ -82,7 +82,7 @@ private:
   }
 
   void addBudgets(RunSummary& summary) const {
-    const LoadGovernor* governor = recording_->governor();
+    const DegradationGovernor* governor = recording_->governor();
     if (!governor) return;
     if (const auto stress = governor->stress())
       summary.stress = StressFelt{stress->highest, stress->now, stress->changes};

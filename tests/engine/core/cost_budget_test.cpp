@@ -82,9 +82,9 @@ struct LoadFixture : ShowFixture {
     load.names[name] = position;
   }
 
-  void frame(std::initializer_list<LoadDecision> decisions = {}) {
+  void frame(std::initializer_list<DegradationDecision> decisions = {}) {
     TimeSignature now = signatureAt(next++, rate);
-    for (const LoadDecision& d : decisions) EXPECT_TRUE(now.load.add(d));
+    for (const DegradationDecision& d : decisions) EXPECT_TRUE(now.decisions.add(d));
     input.time = now.time;
     scene.advance(now, input, changes, nullptr);
     for (const ChangeSet::Instance& i : changes.instances) records[i.record.owner] = i.record;
@@ -99,7 +99,7 @@ struct LoadFixture : ShowFixture {
   std::map<NodeRef, InstanceRecord> records;
 };
 
-TEST(LoadControl, WhatRunsHalfAsOftenRunsInEverySecondFrameWithTheStepsAddedUp) {
+TEST(DegradationControl, WhatRunsHalfAsOftenRunsInEverySecondFrameWithTheStepsAddedUp) {
   LoadFixture f;
   f.frames(4);
   f.frame({{1, 2, 1}});
@@ -114,7 +114,7 @@ TEST(LoadControl, WhatRunsHalfAsOftenRunsInEverySecondFrameWithTheStepsAddedUp) 
   }
 }
 
-TEST(LoadControl, MessagesReachWhatRunsMoreSeldomAtOnce) {
+TEST(DegradationControl, MessagesReachWhatRunsMoreSeldomAtOnce) {
   LoadFixture f;
   f.frames(4);
   f.frame({{1, 2, 3}});
@@ -127,7 +127,7 @@ TEST(LoadControl, MessagesReachWhatRunsMoreSeldomAtOnce) {
   EXPECT_EQ(f.running->cycles.size(), before + 1);
 }
 
-TEST(LoadControl, WhatRestsStandsStillAndGoesOnWithOneStep) {
+TEST(DegradationControl, WhatRestsStandsStillAndGoesOnWithOneStep) {
   LoadFixture f;
   f.frames(4);
   f.frame({{1, 2, 3}});
@@ -142,7 +142,7 @@ TEST(LoadControl, WhatRestsStandsStillAndGoesOnWithOneStep) {
   EXPECT_FALSE(f.running->cycles[1].rested);
 }
 
-TEST(LoadControl, WhatIsHiddenIsNotDrawnWithAllBelowItUntilItComesBack) {
+TEST(DegradationControl, WhatIsHiddenIsNotDrawnWithAllBelowItUntilItComesBack) {
   LoadFixture f;
   f.frames(2);
   EXPECT_TRUE(f.shown(1));
@@ -152,7 +152,7 @@ TEST(LoadControl, WhatIsHiddenIsNotDrawnWithAllBelowItUntilItComesBack) {
   EXPECT_TRUE(f.shown(1));
 }
 
-TEST(LoadControl, TheAuthorsOwnHidingIsNotUndone) {
+TEST(DegradationControl, TheAuthorsOwnHidingIsNotUndone) {
   LoadFixture f;
   f.frames(2);
   f.scene.command("object", CommandId::Hide, {}, 0);
@@ -165,7 +165,7 @@ TEST(LoadControl, TheAuthorsOwnHidingIsNotUndone) {
   EXPECT_TRUE(f.shown(1));
 }
 
-TEST(LoadControl, LessDetailIsInTheRecordsOfAllBelow) {
+TEST(DegradationControl, LessDetailIsInTheRecordsOfAllBelow) {
   LoadFixture f;
   f.frames(2);
   f.frame({{1, 0, 2}});
@@ -173,7 +173,7 @@ TEST(LoadControl, LessDetailIsInTheRecordsOfAllBelow) {
   EXPECT_EQ(f.scene.degradation().of(LoadFixture::kRunning), NodeDegradation{});
 }
 
-TEST(LoadControl, DecisionsAboutNoNodeAreIgnored) {
+TEST(DegradationControl, DecisionsAboutNoNodeAreIgnored) {
   LoadFixture f;
   f.frames(2);
   f.frame({{7, 3, 2}, {1, 1, 1}, {1, 999, 1}});
@@ -183,7 +183,7 @@ TEST(LoadControl, DecisionsAboutNoNodeAreIgnored) {
   EXPECT_TRUE(f.scene.degradation().of(LoadFixture::kRunning).rests);
 }
 
-TEST(LoadControl, TheSameDecisionsGiveTheSameHashAndOthersDoNot) {
+TEST(DegradationControl, TheSameDecisionsGiveTheSameHashAndOthersDoNot) {
   const auto hashes = [](std::uint64_t at, std::uint32_t level) {
     LoadFixture f;
     std::vector<std::uint64_t> all;
@@ -253,7 +253,7 @@ struct StandsFixture : ShowFixture {
   }
   void decide(NodeRef node, std::uint32_t level) {
     TimeSignature now = signatureAt(next++, rate);
-    EXPECT_TRUE(now.load.add({node.load, node.position, level}));
+    EXPECT_TRUE(now.decisions.add({node.load, node.position, level}));
     input.time = now.time;
     scene.advance(now, input, changes, nullptr);
   }
@@ -266,7 +266,7 @@ double swellAt(double t) {
   return std::sin(0.5 * 3.14159265358979323846 * t);
 }
 
-TEST(LoadControl, WhatMovesByTheTimeInASceneAtHalfPaceIsInEverySecondFrameWhereItsTimeHasIt) {
+TEST(DegradationControl, WhatMovesByTheTimeInASceneAtHalfPaceIsInEverySecondFrameWhereItsTimeHasIt) {
   StandsFixture f;
   f.decide(StandsFixture::kScene, StandsFixture::kHalf);
   int pathRan = 0, swayRan = 0;
@@ -281,7 +281,7 @@ TEST(LoadControl, WhatMovesByTheTimeInASceneAtHalfPaceIsInEverySecondFrameWhereI
   EXPECT_NEAR(swayRan, 150, 2) << "twice it turns within two frames";
 }
 
-TEST(LoadControl, WhatMovesByTheTimeStandsStillInASceneThatRestsAndGoesOnFromThere) {
+TEST(DegradationControl, WhatMovesByTheTimeStandsStillInASceneThatRestsAndGoesOnFromThere) {
   StandsFixture f;
   f.frames(60);
   const double x = f.x(), t = f.now();
@@ -301,7 +301,7 @@ TEST(LoadControl, WhatMovesByTheTimeStandsStillInASceneThatRestsAndGoesOnFromThe
   EXPECT_NEAR(f.x(), x + 31 / f.rate, 1e-8);
 }
 
-TEST(LoadControl, APathGivesUpItsPaceByItself) {
+TEST(DegradationControl, APathGivesUpItsPaceByItself) {
   StandsFixture f;
   f.decide(StandsFixture::kPath, StandsFixture::kRest);
   const double x = f.x();
@@ -310,7 +310,7 @@ TEST(LoadControl, APathGivesUpItsPaceByItself) {
   EXPECT_NEAR(f.y(), swellAt(f.now()), 1e-9) << "its neighbour goes on";
 }
 
-TEST(LoadControl, WhatAPathHasMissedIsAWayThroughTheFrameInWhichItRuns) {
+TEST(DegradationControl, WhatAPathHasMissedIsAWayThroughTheFrameInWhichItRuns) {
   StandsFixture f;
   f.decide(StandsFixture::kScene, StandsFixture::kQuarter);
   bool restarted = false;
@@ -331,7 +331,7 @@ TEST(LoadControl, WhatAPathHasMissedIsAWayThroughTheFrameInWhichItRuns) {
   EXPECT_TRUE(restarted);
 }
 
-TEST(LoadControl, ThoseThatRunNowAndThenTakeTurnsWhereverTheyStandInTheirFile) {
+TEST(DegradationControl, ThoseThatRunNowAndThenTakeTurnsWhereverTheyStandInTheirFile) {
   constexpr std::uint32_t kPaths = 200;
   for (const std::uint32_t apart : {1U, 2U, 3U, 4U}) {
     ShowFixture f;
@@ -352,7 +352,7 @@ TEST(LoadControl, ThoseThatRunNowAndThenTakeTurnsWhereverTheyStandInTheirFile) {
     ASSERT_TRUE(f.scene.open("show"));
     f.frames(4);
     TimeSignature now = signatureAt(f.next++, f.rate);
-    ASSERT_TRUE(now.load.add({1, 0, 2}));
+    ASSERT_TRUE(now.decisions.add({1, 0, 2}));
     f.scene.advance(now, f.input, f.changes, nullptr);
     for (int i = 0; i < 8; ++i) {
       f.frame();
@@ -361,7 +361,7 @@ TEST(LoadControl, ThoseThatRunNowAndThenTakeTurnsWhereverTheyStandInTheirFile) {
   }
 }
 
-TEST(LoadControl, WhatIsInAHandGoesAlongThoughItsSceneRests) {
+TEST(DegradationControl, WhatIsInAHandGoesAlongThoughItsSceneRests) {
   StandsFixture f;
   f.tracker("wand", Vec3(5, 0, 0));
   f.scene.command("stands/path", CommandId::Attach, {"all", "wand"}, 0);
@@ -372,7 +372,7 @@ TEST(LoadControl, WhatIsInAHandGoesAlongThoughItsSceneRests) {
   EXPECT_NEAR(f.x(), 6, 1e-9);
 }
 
-TEST(LoadControl, ThatAPathHasRestedSinceItsLastTurnIsPartOfTheState) {
+TEST(DegradationControl, ThatAPathHasRestedSinceItsLastTurnIsPartOfTheState) {
   using Decisions = std::map<std::uint64_t, std::uint32_t>;
   const auto hash = [](const Decisions& decisions) {
     StandsFixture f;
@@ -450,7 +450,7 @@ TEST(DegradationInLogs, TheRecorderWritesWhatTheSignaturesSay) {
   InputRecorder recorder(file, 60);
   for (std::uint64_t n = 0; n < 10; ++n) {
     TimeSignature now = signatureAt(n, 60);
-    if (n == 4) now.load.add({1, 2, 3}), now.load.add({0, 0, 5});
+    if (n == 4) now.decisions.add({1, 2, 3}), now.decisions.add({0, 0, 5});
     recorder.frame(now);
   }
   EXPECT_FALSE(recorder.commit());
@@ -458,7 +458,7 @@ TEST(DegradationInLogs, TheRecorderWritesWhatTheSignaturesSay) {
   const auto log = loadInputLog(file, findings);
   std::filesystem::remove(file);
   ASSERT_TRUE(log);
-  EXPECT_EQ(log->decisions.degradation, (LoadDecisions{{4, {1, 2, 3}}, {4, {0, 0, 5}}}));
+  EXPECT_EQ(log->decisions.degradation, (DegradationDecisions{{4, {1, 2, 3}}, {4, {0, 0, 5}}}));
 }
 
 TEST(DegradationInLogs, MistakesAreToldWithTheirPlace) {

@@ -105,7 +105,7 @@ Seed orderOf(std::uint64_t serial) {
   visitor.key("wand", 0, Vec3(0.3, 0.5, 1.3)).key("wand", 0.51, Vec3(0.4, 0.5, 1.3), Vec3::Zero(), false, 1);
   FrameOrder order;
   order.signature = signatureAt(30 + serial, 60);
-  order.signature.load.add({1, 4, 2});
+  order.signature.decisions.add({1, 4, 2});
   InputSample input;
   visitor.sampleFrame(order.signature.time - order.signature.step, order.signature.time, input);
   cluster::WrittenOrder written_order;

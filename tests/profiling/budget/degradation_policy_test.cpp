@@ -29,7 +29,7 @@ struct Play {
   std::uint32_t level = 0, wanted = 0, wantedBefore = 0;
 
   /// `cost` of a frame, if nothing is given up; what is given up saves what it is expected to.
-  void frames(std::uint64_t count, const std::function<LoadCost(std::uint64_t frame)>& cost) {
+  void frames(std::uint64_t count, const std::function<BudgetedCost(std::uint64_t frame)>& cost) {
     for (std::uint64_t n = 0; n < count; ++n, ++frame) {
       if (wantedBefore == wanted && wanted != level) {
         level = wanted;
@@ -37,7 +37,7 @@ struct Play {
         changes.push_back({frame, level});
       }
       const NodeDegradation r = degradationAt(ladder, level);
-      LoadCost c = cost(frame);
+      BudgetedCost c = cost(frame);
       if (r.rests || frame % (std::uint64_t{1} << r.pace) != 0) c.app = 0;
       if (r.hidden) c.drawn = 0;
       c.drawn /= r.lod;
@@ -46,7 +46,7 @@ struct Play {
     }
   }
   void app(std::uint64_t count, double ms) {
-    frames(count, [ms](std::uint64_t) { return LoadCost{ms, 0}; });
+    frames(count, [ms](std::uint64_t) { return BudgetedCost{ms, 0}; });
   }
   std::size_t changesSince(std::uint64_t from) const {
     std::size_t count = 0;
@@ -76,7 +76,7 @@ TEST(DegradationPolicy, GivesNothingUpWithinTheBudget) {
 
 TEST(DegradationPolicy, ASingleSpikeChangesNothing) {
   Play p({Half, Rest});
-  p.frames(6000, [](std::uint64_t f) { return LoadCost{f % 500 == 400 ? 60.0 : 0.5, 0}; });
+  p.frames(6000, [](std::uint64_t f) { return BudgetedCost{f % 500 == 400 ? 60.0 : 0.5, 0}; });
   EXPECT_TRUE(p.changes.empty());
 }
 
@@ -99,7 +99,7 @@ TEST(DegradationPolicy, ASlightOverrunIsAnsweredByTheFirstLevelThatFits) {
 
 TEST(DegradationPolicy, ARampIsFollowedLevelByLevel) {
   Play p({Half, Rest});
-  const auto ramp = [](std::uint64_t f) { return LoadCost{0.5 + 0.001 * static_cast<double>(f), 0}; };
+  const auto ramp = [](std::uint64_t f) { return BudgetedCost{0.5 + 0.001 * static_cast<double>(f), 0}; };
   p.frames(1000, ramp);
   EXPECT_EQ(p.level, 1U);
   p.frames(1500, ramp);  // from 1.5 to 3 ms
@@ -135,7 +135,7 @@ TEST(DegradationPolicy, NoiseAroundTheBudgetDoesNotMakeItOscillate) {
   Play p({Half, Rest});
   std::mt19937 random(7);
   std::normal_distribution<double> noise(0, 0.15);
-  p.frames(60 * 120, [&](std::uint64_t) { return LoadCost{std::max(0.0, 1.15 + noise(random)), 0}; });
+  p.frames(60 * 120, [&](std::uint64_t) { return BudgetedCost{std::max(0.0, 1.15 + noise(random)), 0}; });
   // Two minutes: once down, and a few tries in vain.
   EXPECT_GE(p.changes.size(), 1U);
   EXPECT_LE(p.changes.size(), 14U);
@@ -152,8 +152,8 @@ TEST(DegradationPolicy, DetailIsKeptWhereTheCostIsInApp) {
 
 TEST(DegradationPolicy, WhatIsDrawnIsAnsweredByDetailAlone) {
   Play p({Lod, Hide});
-  p.frames(120, [](std::uint64_t) { return LoadCost{0.1, 0.5}; });
-  p.frames(300, [](std::uint64_t) { return LoadCost{0.1, 1.4}; });
+  p.frames(120, [](std::uint64_t) { return BudgetedCost{0.1, 0.5}; });
+  p.frames(300, [](std::uint64_t) { return BudgetedCost{0.1, 1.4}; });
   EXPECT_GE(p.level, 1U);
   EXPECT_LE(p.level, 3U);
 }

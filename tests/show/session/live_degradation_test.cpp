@@ -1,4 +1,4 @@
-/// What a live run tells of its load.
+/// What a live run reports about its stress and its budgets.
 
 #include "tests/programs/program.h"
 
@@ -21,7 +21,7 @@ ProgramResult playLive(const std::string& show, const std::vector<std::string>& 
   return runProgram(run);
 }
 
-TEST(ProgramLiveLoad, StressIsToldAlsoOfAShowWithoutBudgets) {
+TEST(ProgramLiveDegradation, StressIsToldAlsoOfAShowWithoutBudgets) {
   const TestFolder folder;
   const std::string show =
       folder.write("show.evs", "lod( name=tree, ranges=\"5, 20\", position=\"0, 9, 0\" )\n"
@@ -45,7 +45,7 @@ TEST(ProgramLiveLoad, StressIsToldAlsoOfAShowWithoutBudgets) {
   EXPECT_GE(summary["stress"].at("changes"), 1) << j.out;
 }
 
-TEST(ProgramLiveLoad, ASkyKeepsItsBudgetOrNot) {
+TEST(ProgramLiveDegradation, ASkyKeepsItsBudgetOrNot) {
   const TestFolder folder;
   const std::string show =
       folder.write("show.evs", "sky( name=dusk, zenith=\"0.1, 0.1, 0.3\", budget=0.0001 )\n");

@@ -32,18 +32,18 @@ object( file=football.3ds, parent=tree, scale=2 )
 )";
 
 /// Decides what a test says.
-class Scripted final : public LoadDecider {
+class Scripted final : public DegradationDecider {
 public:
-  explicit Scripted(LoadDecisions decisions) : decisions_(std::move(decisions)) {}
-  FrameLoad decide(std::uint64_t frame) override {
-    FrameLoad load;
+  explicit Scripted(DegradationDecisions decisions) : decisions_(std::move(decisions)) {}
+  FrameDecisions decide(std::uint64_t frame) override {
+    FrameDecisions decisions;
     const auto [first, last] = decisions_.equal_range(frame);
-    for (auto at = first; at != last; ++at) load.add(at->second);
-    return load;
+    for (auto at = first; at != last; ++at) decisions.add(at->second);
+    return decisions;
   }
 
 private:
-  LoadDecisions decisions_;
+  DegradationDecisions decisions_;
 };
 
 /// Plays 150 frames live, with a tick missed now and then; returns the hashes as `stadion hash` prints them.
@@ -87,7 +87,7 @@ std::string playLive(const std::string& show, const std::string& log, Mode mode,
   return hashes;
 }
 
-TEST(ProgramLoadReplay, ARunThatGaveUpThingsReplaysToTheSameHashesInEveryMode) {
+TEST(ProgramDegradationReplay, ARunThatGaveUpThingsReplaysToTheSameHashesInEveryMode) {
   for (const Mode mode : {Mode::Sequential, Mode::Pipelined}) {
     const TestFolder folder;
     const std::string show = folder.write("show.evs", kDegradationShow), log = folder.path() / "live.input";
@@ -105,7 +105,7 @@ TEST(ProgramLoadReplay, ARunThatGaveUpThingsReplaysToTheSameHashesInEveryMode) {
   }
 }
 
-TEST(ProgramLoadReplay, TheSummaryTellsWhatWasObeyed) {
+TEST(ProgramDegradationReplay, TheSummaryTellsWhatWasObeyed) {
   const TestFolder folder;
   const std::string show = folder.write("show.evs", kDegradationShow);
   const std::string log = folder.write("a.input", "stadion-input 2\nrate 60\nframe 30 0.5\nrelief 5 1 3 3\n"
@@ -131,7 +131,7 @@ TEST(ProgramLoadReplay, TheSummaryTellsWhatWasObeyed) {
       << text;
 }
 
-TEST(ProgramLoadReplay, DecisionsAboutNothingAreTold) {
+TEST(ProgramDegradationReplay, DecisionsAboutNothingAreTold) {
   const TestFolder folder;
   const std::string show = folder.write("show.evs", kDegradationShow);
   const std::string log = folder.write("a.input", "stadion-input 2\nrate 60\nframe 30 0.5\nrelief 5 1 3 3\n"
@@ -146,7 +146,7 @@ TEST(ProgramLoadReplay, DecisionsAboutNothingAreTold) {
   EXPECT_EQ(r.out.find("obeyed the log: ?"), std::string::npos) << r.out;
 }
 
-TEST(ProgramLoadReplay, WithoutTheDecisionsItIsAnotherRun) {
+TEST(ProgramDegradationReplay, WithoutTheDecisionsItIsAnotherRun) {
   const TestFolder folder;
   const std::string show = folder.write("show.evs", kDegradationShow), log = folder.path() / "live.input";
   const std::string live = playLive(show, log, Mode::Sequential, true);

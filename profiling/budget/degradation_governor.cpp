@@ -1,4 +1,4 @@
-#include "profiling/budget/load_governor.h"
+#include "profiling/budget/degradation_governor.h"
 
 #include <algorithm>
 #include <cmath>
@@ -47,7 +47,7 @@ std::string nameOfLevel(const std::vector<DegradationStep>& ladder, std::uint32_
   return "nothing";
 }
 
-LoadGovernor::LoadGovernor(GovernorOptions options, const NodeNames& names)
+DegradationGovernor::DegradationGovernor(GovernorOptions options, const NodeNames& names)
     : options_(std::move(options)), names_(names), stress_(options_.stress) {
   // If stages overlap, shortening one does not shorten the other.
   if (options_.pipelined)
@@ -58,7 +58,7 @@ LoadGovernor::LoadGovernor(GovernorOptions options, const NodeNames& names)
 
 // Input from the probe.
 
-void LoadGovernor::take(std::size_t, const SpanRecord& r) {
+void DegradationGovernor::take(std::size_t, const SpanRecord& r) {
   if (r.frame == kNoFrame) return;
   const std::lock_guard lock(mutex_);
   switch (r.what) {
@@ -76,23 +76,23 @@ void LoadGovernor::take(std::size_t, const SpanRecord& r) {
   }
 }
 
-void LoadGovernor::take(const ShortVisits& visits) {
+void DegradationGovernor::take(const ShortVisits& visits) {
   const std::lock_guard lock(mutex_);
   costs_.take(visits);
 }
 
-void LoadGovernor::take(const SharedSpan& shared) {
+void DegradationGovernor::take(const SharedSpan& shared) {
   const std::lock_guard lock(mutex_);
   costs_.take(shared);
 }
 
-void LoadGovernor::take(const DrawnAlone& drawn, const std::vector<NodeShare>& nodes) {
+void DegradationGovernor::take(const DrawnAlone& drawn, const std::vector<NodeShare>& nodes) {
   const std::lock_guard lock(mutex_);
   costs_.take(drawn, nodes);
 }
 
 // Records of other threads that work for App, or for the swap, may come a little later than these.
-void LoadGovernor::caughtUp() {
+void DegradationGovernor::caughtUp() {
   std::vector<std::string> lines;
   {
     const std::lock_guard lock(mutex_);
@@ -109,7 +109,7 @@ void LoadGovernor::caughtUp() {
 
 // Nodes.
 
-void LoadGovernor::judgeNodes(std::uint64_t frame) {
+void DegradationGovernor::judgeNodes(std::uint64_t frame) {
   now_ = static_cast<double>(frame) / options_.rate;
   const std::vector<NodeCost> costs = costs_.of(frame);
   for (std::size_t i = 0; i < governed_.size() && i < costs.size(); ++i) {
@@ -127,7 +127,7 @@ void LoadGovernor::judgeNodes(std::uint64_t frame) {
   if (frame >= kFramesUnderWay) costs_.forget(frame - kFramesUnderWay);
 }
 
-void LoadGovernor::noteOverrun(Governed& g, std::uint64_t frame, const NodeCost& cost) {
+void DegradationGovernor::noteOverrun(Governed& g, std::uint64_t frame, const NodeCost& cost) {
   ++g.report.overruns, ++g.untold;
   const bool muchWorse = cost.sure.total() > kMuchWorse * g.toldMs;
   if (now_ - g.toldAt < kToldApart && !muchWorse) return;
@@ -139,18 +139,18 @@ void LoadGovernor::noteOverrun(Governed& g, std::uint64_t frame, const NodeCost&
   g.toldAt = now_, g.toldMs = cost.sure.total(), g.untold = 0;
 }
 
-std::string LoadGovernor::stageText(const NodeCost& cost) const {
+std::string DegradationGovernor::stageText(const NodeCost& cost) const {
   std::string stage(nameOf(cost.dearest));
   stage[0] = static_cast<char>(stage[0] - 'a' + 'A');
   return cost.wall < options_.walls.size() ? stage + " of wall " + options_.walls[cost.wall] : stage;
 }
 
-std::string LoadGovernor::titleOf(NodeRef node) const {
+std::string DegradationGovernor::titleOf(NodeRef node) const {
   const auto name = names_.find(node);
   return name ? fmt::format("\"{}\" {}:{}", name->path, name->file, name->line) : "a removed node";
 }
 
-std::optional<Overrun> LoadGovernor::overrunOf(std::uint64_t frame) const {
+std::optional<Overrun> DegradationGovernor::overrunOf(std::uint64_t frame) const {
   const std::lock_guard lock(mutex_);
   const std::vector<NodeCost> costs = costs_.of(frame);
   std::optional<Overrun> worst;
@@ -164,7 +164,7 @@ std::optional<Overrun> LoadGovernor::overrunOf(std::uint64_t frame) const {
 
 // The whole frame.
 
-void LoadGovernor::judgeFrame(std::uint64_t frame) {
+void DegradationGovernor::judgeFrame(std::uint64_t frame) {
   const auto at = times_.find(frame);
   if (at == times_.end()) return;
   const StageTimes t = at->second;
@@ -176,7 +176,7 @@ void LoadGovernor::judgeFrame(std::uint64_t frame) {
   const double drawn =
       options_.pipelined ? std::max(mostOf(t.cull), mostOf(t.draw)) : sumOf(t.cull) + sumOf(t.draw);
   if (scalable_ && frame >= stressFrom_) stress_.take((options_.pipelined ? drawn : t.app + drawn) / period);
-  for (FrameDegradation& degradation : frame_) {
+  for (JointLadder& degradation : frame_) {
     if (!degradation.policy) continue;
     const bool stressFirst = degradation.drawn && scalable_ && !stress_.exhausted();
     if (stressFirst && degradation.policy->wanted() == 0) continue;
@@ -185,7 +185,7 @@ void LoadGovernor::judgeFrame(std::uint64_t frame) {
   spreadFrameLevels();
 }
 
-std::uint32_t LoadGovernor::FrameDegradation::usefulOf(const std::vector<DegradationStep>& gives) const {
+std::uint32_t DegradationGovernor::JointLadder::usefulOf(const std::vector<DegradationStep>& gives) const {
   std::uint32_t levels = 0, useful = 0;
   for (const DegradationStep c : gives) {
     levels += levelsOf(c);
@@ -196,9 +196,9 @@ std::uint32_t LoadGovernor::FrameDegradation::usefulOf(const std::vector<Degrada
 }
 
 /// Spreads the frame's levels over the ladders of the nodes, the lowest priority first.
-void LoadGovernor::spreadFrameLevels() {
+void DegradationGovernor::spreadFrameLevels() {
   for (Governed& g : governed_) g.forFrame = 0;
-  for (const FrameDegradation& degradation : frame_) {
+  for (const JointLadder& degradation : frame_) {
     std::uint32_t left = degradation.policy ? degradation.policy->wanted() : 0;
     for (const std::size_t i : byPriority_) {
       const std::uint32_t taken = std::min(left, degradation.usefulOf(governed_[i].of.terms.gives));
@@ -210,7 +210,7 @@ void LoadGovernor::spreadFrameLevels() {
 
 // App.
 
-bool LoadGovernor::see(const Scene& scene) {
+bool DegradationGovernor::see(const Scene& scene) {
   if (seen_ == scene.tree().version()) return false;
   seen_ = scene.tree().version();
   auto [nodes, above] = governedNodes(scene);
@@ -238,7 +238,7 @@ bool LoadGovernor::see(const Scene& scene) {
   for (std::size_t i = 0; i < governed_.size(); ++i)
     if (governed_[i].report.levels > 0) byPriority_.push_back(i);
   std::ranges::stable_sort(byPriority_, {}, [&](std::size_t i) { return governed_[i].of.terms.priority; });
-  for (FrameDegradation& degradation : frame_) layFrameLadder(degradation);
+  for (JointLadder& degradation : frame_) layFrameLadder(degradation);
   spreadFrameLevels();
   tellUncounted();
   std::vector<NodeRef> holders;
@@ -252,7 +252,7 @@ bool LoadGovernor::see(const Scene& scene) {
 }
 
 /// Reports once that budgets seem to be kept although some costs are unknown.
-void LoadGovernor::tellUncounted() {
+void DegradationGovernor::tellUncounted() {
   const auto g = std::ranges::find_if(
       governed_, [](const Governed& of) { return of.report.budget > 0 && !of.report.drawCounted; });
   if (g == governed_.end() || std::exchange(toldUncounted_, true)) return;
@@ -263,7 +263,7 @@ void LoadGovernor::tellUncounted() {
 }
 
 /// Builds the ladder from the present nodes. Degradations stay in place if their nodes still exist.
-void LoadGovernor::layFrameLadder(FrameDegradation& degradation) {
+void DegradationGovernor::layFrameLadder(JointLadder& degradation) {
   FrameLadder ladder;
   std::map<std::pair<NodeRef, std::uint32_t>, std::uint32_t> levelOf;
   for (const std::size_t i : byPriority_)
@@ -289,17 +289,17 @@ void LoadGovernor::layFrameLadder(FrameDegradation& degradation) {
         std::move(savings));
 }
 
-FrameLoad LoadGovernor::decide(std::uint64_t frame) {
-  FrameLoad load;
+FrameDecisions DegradationGovernor::decide(std::uint64_t frame) {
+  FrameDecisions decisions;
   const std::lock_guard lock(mutex_);
-  if (!options_.acts) return load;
-  if (stress_.level() != stressApplied_ && load.add({0, 0, stress_.level()})) applyStress(frame);
+  if (!options_.acts) return decisions;
+  if (stress_.level() != stressApplied_ && decisions.add({0, 0, stress_.level()})) applyStress(frame);
   bool all = true;
   for (std::size_t i = 0; i < governed_.size(); ++i) {
     Governed& g = governed_[i];
     const std::uint32_t wanted = g.wanted(), before = g.applied;
     if (wanted != before) {
-      if (!load.add({g.of.node.load, g.of.node.position, wanted})) {
+      if (!decisions.add({g.of.node.load, g.of.node.position, wanted})) {
         all = false;
         continue;
       }
@@ -313,13 +313,13 @@ FrameLoad LoadGovernor::decide(std::uint64_t frame) {
     }
     g.policy.applied(frame);
   }
-  for (FrameDegradation& degradation : frame_)
+  for (JointLadder& degradation : frame_)
     if (degradation.policy && all) degradation.policy->applied(frame);
-  return load;
+  return decisions;
 }
 
 /// Reports when stress begins and when it can do no more, each as rarely as a node's overruns.
-void LoadGovernor::applyStress(std::uint64_t frame) {
+void DegradationGovernor::applyStress(std::uint64_t frame) {
   const std::uint32_t before = std::exchange(stressApplied_, stress_.level());
   stressFrom_ = frame, ++stressChanges_;
   highestStress_ = std::max(highestStress_, stressApplied_);
@@ -334,7 +334,7 @@ void LoadGovernor::applyStress(std::uint64_t frame) {
                   stressOf(stressApplied_), most ? ", the most it may" : ""));
 }
 
-void LoadGovernor::tellChange(const Governed& g, std::uint32_t before, std::uint64_t frame) {
+void DegradationGovernor::tellChange(const Governed& g, std::uint32_t before, std::uint64_t frame) {
   const std::vector<DegradationStep>& ladder = g.of.terms.gives;
   const std::string title = titleOf(g.of.node);
   if (g.applied > before)
@@ -347,7 +347,7 @@ void LoadGovernor::tellChange(const Governed& g, std::uint32_t before, std::uint
 
 // Reports.
 
-void LoadGovernor::addTo(Reports& all, const BudgetReport& r) {
+void DegradationGovernor::addTo(Reports& all, const BudgetReport& r) {
   const auto [at, first] = all.try_emplace({r.file, r.line, r.name}, r);
   if (first) return;
   BudgetReport sum = r;
@@ -362,7 +362,7 @@ void LoadGovernor::addTo(Reports& all, const BudgetReport& r) {
   at->second = std::move(sum);
 }
 
-std::vector<BudgetReport> LoadGovernor::reports() const {
+std::vector<BudgetReport> DegradationGovernor::reports() const {
   const std::lock_guard lock(mutex_);
   Reports all = gone_;
   for (const Governed& g : governed_) addTo(all, g.report);
@@ -371,7 +371,7 @@ std::vector<BudgetReport> LoadGovernor::reports() const {
   return reports;
 }
 
-std::optional<StressReport> LoadGovernor::stress() const {
+std::optional<StressReport> DegradationGovernor::stress() const {
   if (!options_.acts) return {};
   const std::lock_guard lock(mutex_);
   return StressReport{stressOf(highestStress_), stressOf(stressApplied_), stressChanges_};

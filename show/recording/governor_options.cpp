@@ -1,4 +1,4 @@
-#include "show/recording/live_load.h"
+#include "show/recording/governor_options.h"
 
 namespace stadion {
 
@@ -19,7 +19,7 @@ GovernorOptions governorOf(const PlaySettings& play, const Player& player, std::
   g.pipelined = loop.mode == Mode::Pipelined;
   g.walls = std::move(walls);
   g.stress = play.stress;
-  g.acts = live && play.loadControl;
+  g.acts = live && play.degradationControl;
   if (live) g.tell = std::move(say);
   return g;
 }

@@ -1,7 +1,7 @@
 /// Which nodes are reported, and which give up what, when spans show that nodes and frames take too long. The
 /// spans are made up: no clock is asked.
 
-#include "profiling/budget/load_governor.h"
+#include "profiling/budget/degradation_governor.h"
 
 #include "engine/nodes/light_node.h"
 #include "engine/nodes/lod_node.h"
@@ -19,7 +19,7 @@ using enum DegradationStep;
 struct Governed : ShowFixture {
   NodeNames names;
   std::vector<std::string> told;
-  std::unique_ptr<LoadGovernor> governor;
+  std::unique_ptr<DegradationGovernor> governor;
   std::uint64_t at = 0;
   bool sampled = false;                     ///< the coming frame's drawing is looked at
   std::optional<NodeTerms> guest;           ///< of the node in the annex
@@ -49,7 +49,7 @@ struct Governed : ShowFixture {
     EXPECT_TRUE(scene.open("show"));
     options.walls = {"front", "left"};
     options.tell = [this](const std::string& line) { told.push_back(line); };
-    governor = std::make_unique<LoadGovernor>(options, names);
+    governor = std::make_unique<DegradationGovernor>(options, names);
     names.see(scene);
     governor->see(scene);
   }
@@ -62,7 +62,7 @@ struct Governed : ShowFixture {
   }
   /// One frame: what nodes take in App (if they are not at rest), and what the walls' Draw takes.
   void frame(std::vector<double> nodes, std::vector<double> draws = {1, 1}) {
-    for (const LoadDecision& d : governor->decide(at)) levels[{d.load, d.position}] = d.level;
+    for (const DegradationDecision& d : governor->decide(at)) levels[{d.load, d.position}] = d.level;
     double app = 0.1;
     for (std::size_t i = 0; i < nodes.size(); ++i) {
       const NodeRef ref{1, static_cast<std::uint32_t>(i)};
@@ -98,7 +98,7 @@ struct Governed : ShowFixture {
   std::uint32_t stress() { return levels[NodeRef{}]; }
 };
 
-TEST(LoadGovernor, AStallIsToldByNameWithinTwoFramesAndAnswered) {
+TEST(DegradationGovernor, AStallIsToldByNameWithinTwoFramesAndAnswered) {
   Governed g({{0.8, {Half, Rest}, 1}});
   g.frames(100, {0.2});
   g.frames(2, {50});
@@ -109,7 +109,7 @@ TEST(LoadGovernor, AStallIsToldByNameWithinTwoFramesAndAnswered) {
   EXPECT_EQ(g.level(0), 3U);
 }
 
-TEST(LoadGovernor, OverrunsAreToldOnceInTenSecondsAndCounted) {
+TEST(DegradationGovernor, OverrunsAreToldOnceInTenSecondsAndCounted) {
   Governed g({{1, {}, 1}});
   g.frames(600, {1.4});
   EXPECT_EQ(g.told.size(), 1U);
@@ -119,7 +119,7 @@ TEST(LoadGovernor, OverrunsAreToldOnceInTenSecondsAndCounted) {
   EXPECT_GE(g.governor->reports().at(0).overruns, 650U);
 }
 
-TEST(LoadGovernor, AStallIsToldThoughASmallOverrunWasToldJustBefore) {
+TEST(DegradationGovernor, AStallIsToldThoughASmallOverrunWasToldJustBefore) {
   Governed g({{0.8, {}, 1}});
   g.frames(100, {0.9});
   ASSERT_EQ(g.told.size(), 1U);
@@ -147,7 +147,7 @@ struct Drawn : Governed {
   }
 };
 
-TEST(LoadGovernor, WhatDrawingNothingTakesIsTakenOffOnce) {
+TEST(DegradationGovernor, WhatDrawingNothingTakesIsTakenOffOnce) {
   Governed g({{1, {}, 1}});
   for (int i = 0; i < 100; ++i) {
     for (int piece = 0; g.at % 16 == 9 && piece < 8; ++piece)
@@ -159,7 +159,7 @@ TEST(LoadGovernor, WhatDrawingNothingTakesIsTakenOffOnce) {
   EXPECT_GT(g.governor->reports().at(0).overruns, 60U);
 }
 
-TEST(LoadGovernor, WhatComesToItsTurnSeldomCountsUntilItsNextButOne) {
+TEST(DegradationGovernor, WhatComesToItsTurnSeldomCountsUntilItsNextButOne) {
   Governed g({{1, {}, 1}});
   constexpr std::uint64_t kRound = 1000;
   for (std::uint64_t i = 0; i < 3 * kRound; ++i) {
@@ -172,7 +172,7 @@ TEST(LoadGovernor, WhatComesToItsTurnSeldomCountsUntilItsNextButOne) {
   EXPECT_EQ(g.governor->overrunOf(g.at), std::nullopt) << "it has not come again: it is out of sight";
 }
 
-TEST(LoadGovernor, ShortVisitsCountForAllThatTheHolderStandsBelow) {
+TEST(DegradationGovernor, ShortVisitsCountForAllThatTheHolderStandsBelow) {
   Governed g({{1, {Rest}, 1}});
   ASSERT_TRUE(g.governor->accounts());
   EXPECT_EQ(g.governor->accounts()->holders().at(g.governor->accounts()->of({1, 0})), (NodeRef{1, 0}));
@@ -185,7 +185,7 @@ TEST(LoadGovernor, ShortVisitsCountForAllThatTheHolderStandsBelow) {
   EXPECT_NEAR(g.governor->reports().at(0).worst, 5, 1e-9);
 }
 
-TEST(LoadGovernor, ThatDrawingIsDoneElsewhereIsToldOnceAndOfEachBudget) {
+TEST(DegradationGovernor, ThatDrawingIsDoneElsewhereIsToldOnceAndOfEachBudget) {
   GovernorOptions options;
   options.drawnElsewhere = true;
   Governed g({{1, {}, 1}, {2, {}, 1}}, false, options);
@@ -201,7 +201,7 @@ TEST(LoadGovernor, ThatDrawingIsDoneElsewhereIsToldOnceAndOfEachBudget) {
   EXPECT_TRUE(here.governor->reports().at(0).drawCounted);
 }
 
-TEST(LoadGovernor, WhatIsHiddenCostsNothing) {
+TEST(DegradationGovernor, WhatIsHiddenCostsNothing) {
   Drawn g(1, {Hide});
   g.draw(120, 3);
   EXPECT_EQ(g.level(0), 1U);
@@ -210,7 +210,7 @@ TEST(LoadGovernor, WhatIsHiddenCostsNothing) {
   EXPECT_EQ(g.governor->reports().at(0).overruns, before);
 }
 
-TEST(LoadGovernor, WhatWasHiddenIsShownAgainWithinSecondsOnceItIsCheap) {
+TEST(DegradationGovernor, WhatWasHiddenIsShownAgainWithinSecondsOnceItIsCheap) {
   Drawn g(1, {Hide});
   g.draw(120, 3);
   ASSERT_EQ(g.level(0), 1U);
@@ -218,7 +218,7 @@ TEST(LoadGovernor, WhatWasHiddenIsShownAgainWithinSecondsOnceItIsCheap) {
   EXPECT_EQ(g.level(0), 0U);
 }
 
-TEST(LoadGovernor, WhatIsDearWheneverItIsShownIsTriedLessAndLessOften) {
+TEST(DegradationGovernor, WhatIsDearWheneverItIsShownIsTriedLessAndLessOften) {
   Drawn g(1, {Hide});
   g.draw(6000, 3);
   const std::uint64_t early = g.governor->reports().at(0).changes;
@@ -227,7 +227,7 @@ TEST(LoadGovernor, WhatIsDearWheneverItIsShownIsTriedLessAndLessOften) {
   EXPECT_LT(early, 24U);
 }
 
-TEST(LoadGovernor, AGovernorThatDoesNotActOnlyReports) {
+TEST(DegradationGovernor, AGovernorThatDoesNotActOnlyReports) {
   GovernorOptions options;
   options.acts = false;
   Governed g({{0.8, {Half, Rest}, 1}}, true, options);
@@ -238,7 +238,7 @@ TEST(LoadGovernor, AGovernorThatDoesNotActOnlyReports) {
   EXPECT_FALSE(g.governor->stress());
 }
 
-TEST(LoadGovernor, TheSlowestWallPutsTheWholeShowUnderStress) {
+TEST(DegradationGovernor, TheSlowestWallPutsTheWholeShowUnderStress) {
   Governed g({}, true);
   g.frames(60, {}, {5, 5});
   EXPECT_EQ(g.stress(), 0U);
@@ -248,7 +248,7 @@ TEST(LoadGovernor, TheSlowestWallPutsTheWholeShowUnderStress) {
   EXPECT_EQ(g.stress(), 0U);
 }
 
-TEST(LoadGovernor, StressIsToldWhenItBeginsAndWhenItCanDoNoMoreOnceInTenSeconds) {
+TEST(DegradationGovernor, StressIsToldWhenItBeginsAndWhenItCanDoNoMoreOnceInTenSeconds) {
   Governed g({}, true);
   g.frames(60, {}, {5, 20});
   ASSERT_EQ(g.told.size(), 2U);
@@ -267,7 +267,7 @@ TEST(LoadGovernor, StressIsToldWhenItBeginsAndWhenItCanDoNoMoreOnceInTenSeconds)
   EXPECT_EQ(g.told.size(), 4U);
 }
 
-TEST(LoadGovernor, WhatComesAndGoesAllDayIsReportedOnce) {
+TEST(DegradationGovernor, WhatComesAndGoesAllDayIsReportedOnce) {
   Governed g({{1, {}, 1}});
   g.guest = NodeTerms{1, {Rest}, 1};
   std::uint32_t file = 1;  // loads are numbered as they come
@@ -293,7 +293,7 @@ TEST(LoadGovernor, WhatComesAndGoesAllDayIsReportedOnce) {
   EXPECT_EQ(guest.now, 0U) << "it is not there";
 }
 
-TEST(LoadGovernor, TheSkyThatIsSeenTakesWhatTheBackgroundDoes) {
+TEST(DegradationGovernor, TheSkyThatIsSeenTakesWhatTheBackgroundDoes) {
   Governed g({});
   g.dusk = NodeTerms{0.5, {}, 1};
   g.annex(CommandId::Load);
@@ -326,13 +326,13 @@ TEST(NodeCosts, ASkyIsSeenWhileItsNodeIsHiddenUntilAnotherOneIs) {
   EXPECT_EQ(costs.of(20)[1].cost.drawn, 0);
 }
 
-TEST(LoadGovernor, WithoutLevelsThereIsNoStress) {
+TEST(DegradationGovernor, WithoutLevelsThereIsNoStress) {
   Governed g({});
   g.frames(200, {}, {30, 30});
   EXPECT_EQ(g.stress(), 0U);
 }
 
-TEST(LoadGovernor, WhenTheFrameIsOverTheLowestPriorityGivesUpFirst) {
+TEST(DegradationGovernor, WhenTheFrameIsOverTheLowestPriorityGivesUpFirst) {
   Governed g({{0, {Half, Rest}, 5}, {0, {Half, Rest}, 2}});
   g.frames(100, {4, 4});
   EXPECT_EQ(g.level(0), 0U);
@@ -341,7 +341,7 @@ TEST(LoadGovernor, WhenTheFrameIsOverTheLowestPriorityGivesUpFirst) {
   EXPECT_EQ(g.level(0), 0U);
 }
 
-TEST(LoadGovernor, WhatMakesAppShorterIsNotGivenUpForDrawNorTheOtherWayRound) {
+TEST(DegradationGovernor, WhatMakesAppShorterIsNotGivenUpForDrawNorTheOtherWayRound) {
   const std::vector<NodeTerms> terms{{0, {Half, Rest}, 1}, {0, {Lod, Hide}, 5}};
   Governed draws(terms);
   draws.frames(60, {1}, {40, 40});
@@ -353,14 +353,14 @@ TEST(LoadGovernor, WhatMakesAppShorterIsNotGivenUpForDrawNorTheOtherWayRound) {
   EXPECT_EQ(simulates.level(1), 0U);
 }
 
-TEST(LoadGovernor, StressComesBeforeDegradationForTheFramesSake) {
+TEST(DegradationGovernor, StressComesBeforeDegradationForTheFramesSake) {
   Governed g({{0, {Half, Rest}, 1}}, true);
   g.frames(3, {1}, {25, 25});
   EXPECT_GT(g.stress(), 0U);
   EXPECT_EQ(g.level(0), 0U);
 }
 
-TEST(LoadGovernor, WhatIsGivenUpForTheFrameStaysSoWhateverComesOrGoes) {
+TEST(DegradationGovernor, WhatIsGivenUpForTheFrameStaysSoWhateverComesOrGoes) {
   Governed g({{0, {Half, Rest}, 5}, {0, {Half, Rest}, 2}});
   g.frames(100, {4, 4});
   g.frames(30, {12, 12});
@@ -375,7 +375,7 @@ TEST(LoadGovernor, WhatIsGivenUpForTheFrameStaysSoWhateverComesOrGoes) {
   EXPECT_EQ(g.level(0), 0U);
 }
 
-TEST(LoadGovernor, ANewNodeOfLowerPriorityGivesUpBeforeThoseThatHaveAlready) {
+TEST(DegradationGovernor, ANewNodeOfLowerPriorityGivesUpBeforeThoseThatHaveAlready) {
   Governed g({{0, {Half, Rest}, 5}, {0, {Half, Rest}, 2}});
   g.guest = NodeTerms{0, {Rest}, 1};
   g.frames(100, {4, 4});
@@ -388,7 +388,7 @@ TEST(LoadGovernor, ANewNodeOfLowerPriorityGivesUpBeforeThoseThatHaveAlready) {
   EXPECT_EQ(g.level(0), 0U);
 }
 
-TEST(LoadGovernor, WhatIsHiddenForItsBudgetStaysHiddenWhenSomethingElseComes) {
+TEST(DegradationGovernor, WhatIsHiddenForItsBudgetStaysHiddenWhenSomethingElseComes) {
   Drawn g(1, {Hide});
   g.draw(120, 3);
   ASSERT_EQ(g.level(0), 1U);
@@ -399,7 +399,7 @@ TEST(LoadGovernor, WhatIsHiddenForItsBudgetStaysHiddenWhenSomethingElseComes) {
   EXPECT_EQ(g.governor->reports().at(0).overruns, before);
 }
 
-TEST(LoadGovernor, OneDearSampleOfDrawingIsNoOverrunAndTakesNothing) {
+TEST(DegradationGovernor, OneDearSampleOfDrawingIsNoOverrunAndTakesNothing) {
   Drawn g(1, {Hide});
   g.draw(200, 0.2);
   g.draw(16, 4);
@@ -409,7 +409,7 @@ TEST(LoadGovernor, OneDearSampleOfDrawingIsNoOverrunAndTakesNothing) {
   EXPECT_EQ(g.governor->reports().at(0).changes, 0U);
 }
 
-TEST(LoadGovernor, WhatWasNeverLookedAtIsNotSaidToCostNothing) {
+TEST(DegradationGovernor, WhatWasNeverLookedAtIsNotSaidToCostNothing) {
   Drawn g(1, {Hide});
   g.frames(10, {});
   EXPECT_TRUE(g.governor->reports().at(0).drawMeasured) << "it was not seen";
@@ -423,7 +423,7 @@ TEST(LoadGovernor, WhatWasNeverLookedAtIsNotSaidToCostNothing) {
   EXPECT_NEAR(g.governor->reports().at(0).mean, 0.5, 0.2);
 }
 
-TEST(LoadGovernor, TwoDearSamplesOfDrawingAreEnough) {
+TEST(DegradationGovernor, TwoDearSamplesOfDrawingAreEnough) {
   Drawn g(1, {Hide});
   g.draw(200, 0.2);
   g.draw(36, 4);
@@ -431,7 +431,7 @@ TEST(LoadGovernor, TwoDearSamplesOfDrawingAreEnough) {
   EXPECT_GT(g.governor->reports().at(0).overruns, 0U);
 }
 
-TEST(LoadGovernor, WhatLookingAtDrawingTakesPutsNothingUnderStress) {
+TEST(DegradationGovernor, WhatLookingAtDrawingTakesPutsNothingUnderStress) {
   Governed g({}, true);
   const double period = 1000.0 / 60;
   for (int i = 0; i < 3000; ++i) {
@@ -442,7 +442,7 @@ TEST(LoadGovernor, WhatLookingAtDrawingTakesPutsNothingUnderStress) {
   EXPECT_EQ(g.governor->stress()->highest, 1);
 }
 
-TEST(LoadGovernor, NoMoreThanFourDecisionsTakeEffectInAFrame) {
+TEST(DegradationGovernor, NoMoreThanFourDecisionsTakeEffectInAFrame) {
   Governed g(std::vector<NodeTerms>(6, {0.5, {Rest}, 1}));
   g.frames(60, std::vector<double>(6, 0.1));
   const std::vector<double> stall(6, 20);

@@ -1,7 +1,7 @@
 #pragma once
 /// How a live run keeps its budgets, from the settings and the show.
 
-#include "profiling/budget/load_governor.h"
+#include "profiling/budget/degradation_governor.h"
 #include "show/player/play_settings.h"
 
 namespace stadion {

@@ -60,9 +60,9 @@ struct StressReport {
   std::uint64_t changes = 0;
 };
 
-class LoadGovernor final : public SpanReader, public LoadDecider {
+class DegradationGovernor final : public SpanReader, public DegradationDecider {
 public:
-  LoadGovernor(GovernorOptions options, const NodeNames& names);
+  DegradationGovernor(GovernorOptions options, const NodeNames& names);
 
   // For the log's thread.
   using SpanReader::take;
@@ -79,7 +79,7 @@ public:
   bool see(const Scene& scene);
   /// Returns the watched nodes and the accounts of their costs; null: none.
   std::shared_ptr<const NodeAccounts> accounts() const { return accounts_; }
-  FrameLoad decide(std::uint64_t frame) override;
+  FrameDecisions decide(std::uint64_t frame) override;
 
   /// By file and line.
   std::vector<BudgetReport> reports() const;
@@ -113,7 +113,7 @@ private:
   void judgeFrame(std::uint64_t frame);
   using FrameLadder = std::vector<std::pair<NodeRef, std::uint32_t>>;
   /// The levels of all ladders together, one after the other, for the frame.
-  struct FrameDegradation {
+  struct JointLadder {
     bool app = false, drawn = false;          ///< stages that take too long: App, or Cull and Draw
     std::optional<DegradationPolicy> policy;  ///< nothing: no node can degrade
     FrameLadder ladder;  ///< for each of its levels, from 1 on: the node and the level of
@@ -122,7 +122,7 @@ private:
     std::uint32_t usefulOf(const std::vector<DegradationStep>& gives) const;
   };
   void spreadFrameLevels();
-  void layFrameLadder(FrameDegradation& degradation);
+  void layFrameLadder(JointLadder& degradation);
   void tellUncounted();
   void noteOverrun(Governed& g, std::uint64_t frame, const NodeCost& cost);
   void applyStress(std::uint64_t frame);
@@ -136,7 +136,7 @@ private:
   NodeCosts costs_;
   std::vector<Governed> governed_;
   std::vector<std::size_t> byPriority_;  ///< nodes that can degrade, the lowest priority first
-  std::vector<FrameDegradation> frame_;  ///< pipelined: for App, for Cull and Draw; else one for all
+  std::vector<JointLadder> frame_;       ///< pipelined: for App, for Cull and Draw; else one for all
   std::uint64_t sampledUntil_ = 0;       ///< frames before it include the cost of sampling
   StressFilter stress_;
   std::uint32_t stressApplied_ = 0, highestStress_ = 0;
