@@ -21,7 +21,7 @@ struct DoctorOptions {
 
 int examineMachine(const DoctorOptions& o) {
   Diagnostics findings;
-  const auto wanted = WantedOfMachine::read(o.wanted, findings);
+  const auto wanted = MachineNeeds::read(o.wanted, findings);
   tell(findings);
   if (!wanted) return kBadInput;
   const std::vector<DoctorFinding> found = examine(probesOfThisMachine(), wanted->needs());

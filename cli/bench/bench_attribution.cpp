@@ -40,7 +40,7 @@ struct Line {
 
 std::vector<Line> linesOf(const ShowFigures& f, const Show& show) {
   double measured = 0, found = 0;
-  for (const Explained* e : {&f.app, &f.cull, &f.draw})
+  for (const StageBreakdown* e : {&f.app, &f.cull, &f.draw})
     measured += e->measured, found += std::min(e->measured, e->nodes + e->named);
   const double alone = f.alone.nodes + f.alone.named;
   const double both = f.app.measured + f.cull.measured;

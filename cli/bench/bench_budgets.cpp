@@ -42,7 +42,7 @@ struct BenchBudgetsOptions {
 using Clock = std::chrono::steady_clock;
 
 /// What was seen while the show played.
-struct Played {
+struct BudgetRun {
   std::vector<double> periods;         ///< by frame, since the one before [ms]
   std::optional<std::uint64_t> named;  ///< App's frame when the node was told of first
   std::string toldAs;
@@ -57,7 +57,7 @@ public:
     std::ofstream(folder_.path("show.evs")) << kShow;
   }
 
-  std::optional<Played> play(Diagnostics& findings) {
+  std::optional<BudgetRun> play(Diagnostics& findings) {
     ShowOptions show = showOptions();
     show.input = "none";
     const PlaySettings live;
@@ -150,7 +150,7 @@ private:
     return s.historyHash.value_or(0);
   }
 
-  std::optional<Played> finish(RunWatch& watch, Diagnostics& findings) {
+  std::optional<BudgetRun> finish(RunWatch& watch, Diagnostics& findings) {
     if (const auto wrong = watch.finish()) findings.add(*wrong);
     played_.history = historyOf(watch);
     if (const auto log = loadInputLog(folder_.path("live.input"), findings))
@@ -161,7 +161,7 @@ private:
   BenchBudgetsOptions o_;
   TemporaryFolder folder_;
   PlantedStall* stall_ = nullptr;
-  Played played_;
+  BudgetRun played_;
 };
 
 class Report {
@@ -176,12 +176,12 @@ private:
   bool met_ = true;
 };
 
-bool isOnTime(const Played& p, std::uint64_t frame) {
+bool isOnTime(const BudgetRun& p, std::uint64_t frame) {
   return frame < p.periods.size() && p.periods[frame] < 1.5 * 1e3 / kRate;
 }
 
 /// The first frame of five on time, one after the other.
-std::uint64_t backInRate(const Played& p, std::uint64_t from) {
+std::uint64_t backInRate(const BudgetRun& p, std::uint64_t from) {
   constexpr std::uint64_t kRow = 5;
   for (std::uint64_t frame = from; frame + kRow < p.periods.size(); ++frame) {
     std::uint64_t row = 0;
@@ -191,7 +191,7 @@ std::uint64_t backInRate(const Played& p, std::uint64_t from) {
   return p.periods.size();
 }
 
-void judge(const BenchBudgetsOptions& o, const Played& p, Report& report) {
+void judge(const BenchBudgetsOptions& o, const BudgetRun& p, Report& report) {
   const std::uint64_t from = o.from(), to = o.to();
   report.limit(p.named && *p.named <= from + 2,
                p.named ? fmt::format("named {} frames after the stall began (at most 2)", *p.named - from)

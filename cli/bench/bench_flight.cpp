@@ -96,7 +96,7 @@ int benchFlight(const BenchFlightOptions& o) {
   }
   const bench::FlightReport report{bench::measureLadder(references.value(), o.held, &show.value()),
                                    bench::measureIntegrators(references.value()),
-                                   bench::measureCosts(o.rounds), bench::measurePublished(),
+                                   bench::measureCosts(o.rounds), bench::measurePublishedThrows(),
                                    bench::measureHardCases()};
   const std::string text = bench::textOf(report), json = bench::jsonOf(report);
   std::fputs(text.c_str(), o.json ? stderr : stdout);

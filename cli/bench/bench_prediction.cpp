@@ -49,9 +49,9 @@ struct Errors {
 };
 
 /// What a tracker measures of it: with noise that is the same in every run.
-class Measuring {
+class NoisyTracker {
 public:
-  explicit Measuring(double noise) : metres_(1e-3 * noise), radians_(0.1 * noise * kDegree) {}
+  explicit NoisyTracker(double noise) : metres_(1e-3 * noise), radians_(0.1 * noise * kDegree) {}
   Pose of(const Pose& X) {
     const auto draw = [&](double size) {
       return Vec3(size * normal_(bits_), size * normal_(bits_), size * normal_(bits_));
@@ -69,7 +69,7 @@ private:
 /// Frame by frame: how far the head that is drawn now is from where it will be when that is seen.
 Errors errorsOf(const HeadPath& path, const BenchPredictionOptions& o, double aheadMs, bool predicted) {
   TrackerFeed feed(standardRig());
-  Measuring measuring(o.noise);
+  NoisyTracker measuring(o.noise);
   Errors errors;
   const Nanoseconds ahead = fromSeconds(1e-3 * aheadMs), begin = 1'000'000'000;
   std::uint64_t measured = 0;

@@ -149,12 +149,12 @@ double ratioOf(const std::vector<double>& with, const std::vector<double>& witho
   return medianOfRounds(std::move(ratios));
 }
 
-struct Measured {
+struct RoundCost {
   double ratio = 1, ms = 0;
 };
 
-std::optional<Measured> measureRound(const ShowOptions& options, ShowRenderer& renderer, std::size_t recorded,
-                                     Diagnostics& findings) {
+std::optional<RoundCost> measureRound(const ShowOptions& options, ShowRenderer& renderer,
+                                      std::size_t recorded, Diagnostics& findings) {
   ProcessorTurns turns;
   std::array<std::unique_ptr<TurningShow>, 2> shows;
   for (std::size_t turn = 0; turn < 2; ++turn) {
@@ -167,8 +167,8 @@ std::optional<Measured> measureRound(const ShowOptions& options, ShowRenderer& r
   for (const auto& show : shows)
     if (show->failure()) return findings.error({}, show->failure()->message), std::nullopt;
   if (shows[recorded]->lost() > 0) findings.warning({}, "spans were lost");
-  return Measured{ratioOf(turns.took(recorded), turns.took(1 - recorded)),
-                  medianOfRounds(turns.took(1 - recorded))};
+  return RoundCost{ratioOf(turns.took(recorded), turns.took(1 - recorded)),
+                   medianOfRounds(turns.took(1 - recorded))};
 }
 
 /// How much more a frame executes when it is recorded; nothing, with the findings, if that cannot be counted.

@@ -47,7 +47,7 @@ public:
   std::size_t nextBatch(std::uint32_t wall, std::uint32_t eye, std::size_t batches) override {
     return inner_.nextBatch(wall, eye, batches);
   }
-  void drewAlone(const DrawnAlone& drawn, std::span<const NodeShare> nodes) override {
+  void drewAlone(const IsolatedDrawTime& drawn, std::span<const NodeShare> nodes) override {
     inner_.drewAlone(drawn, nodes);
   }
   /// The frame that App is at.

@@ -44,7 +44,7 @@ double heldMb(Player& player) {
 }
 
 /// When frames were complete on all walls.
-struct Completed {
+struct CompletedFrames {
   std::uint64_t frames = 0;
   Clock::time_point begin{}, end{};
   double processorBegin = 0, processorEnd = 0;
@@ -150,7 +150,7 @@ Result<nlohmann::json> measureWalls(const WallsSetting& s, const std::string& fo
   const auto player = Player::create(show, findings, tell);
   if (!player) return wrong("the show cannot be played");
   LastPictures pictures(s, player->walls().names());
-  Completed completed;
+  CompletedFrames completed;
   ShowParts parts = player->parts(StereoLayout::Pair);
   parts.sink = &pictures;
   if (s.kind == "STRICT") parts.quality.mostAtOnce = 1, parts.quality.leavesOutUnseen = false;

@@ -53,7 +53,7 @@ void print(const RunOptions& o, const SessionReport& report) {
   if (o.json) {
     std::printf("%s\n", toJson(summary).c_str());
   } else {
-    std::fprintf(summaryFile(o), "%s%s", toText(summary).c_str(), happeningsText(summary).c_str());
+    std::fprintf(summaryFile(o), "%s%s", toText(summary).c_str(), eventsText(summary).c_str());
     if (o.settings.record.out.empty() && !o.settings.play.display)
       std::fprintf(summaryFile(o), "\nTo see it:  ./stadion view %s, or ./stadion run %s --out pictures\n",
                    script.c_str(), script.c_str());

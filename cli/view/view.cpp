@@ -20,7 +20,7 @@ void print(const ViewReport& report) {
   const RunSummary& s = report.summary;
   std::printf("the rig stands at %.3f %.3f %.3f\n", report.rig.x(), report.rig.y(), report.rig.z());
   std::printf("played %.3f s in %" PRIu64 " frames, %" PRIu64 " ticks dropped; state hash %016" PRIx64 "\n%s",
-              s.seconds, report.frames, report.dropped, s.stateHash.value_or(0), happeningsText(s).c_str());
+              s.seconds, report.frames, report.dropped, s.stateHash.value_or(0), eventsText(s).c_str());
   std::fputs(report.lateFrames.c_str(), stderr);
 }
 

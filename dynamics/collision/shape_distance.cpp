@@ -73,20 +73,20 @@ void addTriangle(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& normal
 }
 
 /// Points of the surface, its area [m2] and the volume that it encloses [m3].
-struct Surveyed {
+struct SurveyResult {
   Samples points;
   double area = 0, volume = 0;
 };
 
 struct Survey {
-  Surveyed operator()(const BallShape& s) const {
-    Surveyed out{{}, 4 * kPi * s.radius * s.radius, 4 * kPi / 3 * s.radius * s.radius * s.radius};
+  SurveyResult operator()(const BallShape& s) const {
+    SurveyResult out{{}, 4 * kPi * s.radius * s.radius, 4 * kPi / 3 * s.radius * s.radius * s.radius};
     for (const double up : {-1.0, 1.0}) addDome({s.centre, Quat::Identity()}, 0, s.radius, up, out.points);
     return out;
   }
-  Surveyed operator()(const BoxShape& s) const {
+  SurveyResult operator()(const BoxShape& s) const {
     const Vec3& h = s.half;
-    Surveyed out{{}, 8 * (h.x() * h.y() + h.y() * h.z() + h.z() * h.x()), 8 * h.prod()};
+    SurveyResult out{{}, 8 * (h.x() * h.y() + h.y() * h.z() + h.z() * h.x()), 8 * h.prod()};
     for (int k = 0; k < 3; ++k)
       for (const double side : {-1.0, 1.0}) {
         const auto axis = [&](int i) { return Vec3(s.pose.q * Vec3::Unit(i % 3)); };
@@ -95,22 +95,22 @@ struct Survey {
       }
     return out;
   }
-  Surveyed operator()(const CapsuleShape& s) const {
+  SurveyResult operator()(const CapsuleShape& s) const {
     const double r = s.radius;
-    Surveyed out{{}, 4 * kPi * r * (r + s.half), kPi * r * r * (4 * r / 3 + 2 * s.half)};
+    SurveyResult out{{}, 4 * kPi * r * (r + s.half), kPi * r * r * (4 * r / 3 + 2 * s.half)};
     addTube(s.pose, r, s.half, out.points);
     for (const double up : {-1.0, 1.0}) addDome(s.pose, up * s.half, r, up, out.points);
     return out;
   }
-  Surveyed operator()(const CylinderShape& s) const {
+  SurveyResult operator()(const CylinderShape& s) const {
     const double r = s.radius;
-    Surveyed out{{}, 2 * kPi * r * (r + 2 * s.half), 2 * kPi * r * r * s.half};
+    SurveyResult out{{}, 2 * kPi * r * (r + 2 * s.half), 2 * kPi * r * r * s.half};
     addTube(s.pose, r, s.half, out.points);
     for (const double up : {-1.0, 1.0}) addDisc(s.pose, r, up * s.half, out.points);
     return out;
   }
-  Surveyed operator()(const ConvexShape& s) const {
-    Surveyed out;
+  SurveyResult operator()(const ConvexShape& s) const {
+    SurveyResult out;
     for (const ConvexShape::Face& f : s.faces) {
       const auto corner = [&](std::uint32_t k) -> const Vec3& { return s.points[s.loops[f.first + k]]; };
       for (std::uint32_t k = 2; k < f.count; ++k) {
@@ -122,13 +122,13 @@ struct Survey {
     }
     return out;
   }
-  Surveyed operator()(const PlaneShape& s) const {
-    Surveyed out{{}, 4 * s.half.prod(), 0};
+  SurveyResult operator()(const PlaneShape& s) const {
+    SurveyResult out{{}, 4 * s.half.prod(), 0};
     addRectangle(s.pose.p, s.half.x() * (s.pose.q * Vec3::UnitX()), s.half.y() * (s.pose.q * Vec3::UnitY()),
                  s.normal(), out.points);
     return out;
   }
-  Surveyed operator()(const MeshShape&) const { return {}; }
+  SurveyResult operator()(const MeshShape&) const { return {}; }
 };
 
 /// How far a point is from the shape's surface, inside or out.
@@ -209,7 +209,7 @@ double volumeOf(const TriangleTree& tree) {
 }  // namespace
 
 double distanceBetween(const Shape& shape, const TriangleTree& tree, double limit) {
-  const Surveyed surface = std::visit(Survey{}, shape);
+  const SurveyResult surface = std::visit(Survey{}, shape);
   double off = 0;
   if (tree.closed() && surface.volume > 0 && surface.area > 0)
     off = std::fabs(surface.volume - volumeOf(tree)) / surface.area;

@@ -30,13 +30,13 @@ Local towards(const Vec3& c, const Vec3& q, double r, const Vec3& fallback) {
   return {n - r, q, n > kNoWay ? Vec3(d / n) : fallback, false, -1};
 }
 
-Local localGap(const Vec3& c, double r, const BallShape& s, Within) {
+Local localGap(const Vec3& c, double r, const BallShape& s, DistanceLimits) {
   Local l = towards(c, s.centre, r + s.radius, Vec3::UnitZ());
   l.point = s.centre + s.radius * l.normal;
   return l;
 }
 
-Local localGap(const Vec3& c, double r, const BoxShape& s, Within) {
+Local localGap(const Vec3& c, double r, const BoxShape& s, DistanceLimits) {
   const Vec3 p = s.pose.q.conjugate() * (c - s.pose.p), inside = s.half - p.cwiseAbs();
   int axis = 0;
   if (inside.minCoeff(&axis) > -kNoWay) {  // the centre is inside: out through the nearest face
@@ -54,7 +54,7 @@ Local localGap(const Vec3& c, double r, const BoxShape& s, Within) {
 }
 
 template <class Solid>
-Local localGap(const Vec3& c, double r, const Solid& s, Within) {
+Local localGap(const Vec3& c, double r, const Solid& s, DistanceLimits) {
   const NearestSurface n = nearestSurface(s, c);
   return {n.distance - r, n.point, n.normal, n.face, -1};
 }
@@ -64,7 +64,7 @@ double sheetDepth(const PlaneShape& s) {
   return std::min(1.0, 0.5 * s.half.minCoeff());
 }
 
-Local localGap(const Vec3& c, double r, const PlaneShape& s, Within) {
+Local localGap(const Vec3& c, double r, const PlaneShape& s, DistanceLimits) {
   const Vec3 p = s.pose.q.conjugate() * (c - s.pose.p);
   if (!s.bounded()) return {p.z() - r, s.pose * Vec3(p.x(), p.y(), 0), s.normal(), true, -1};
   const Vec3 q(std::clamp(p.x(), -s.half.x(), s.half.x()), std::clamp(p.y(), -s.half.y(), s.half.y()), 0);
@@ -93,10 +93,10 @@ Local triangleGap(const Vec3& c, double r, const Triangle& t, std::int32_t index
   return l;
 }
 
-Local localGap(const Vec3& c, double r, const MeshShape& s, Within within) {
+Local localGap(const Vec3& c, double r, const MeshShape& s, DistanceLimits limits) {
   ClosestPoint at;
   const std::int32_t i =
-      s.tree.nearest(c, within.limit + r, at, within.enough > 0 ? within.enough + r : 0, within.triangle);
+      s.tree.nearest(c, limits.limit + r, at, limits.enough > 0 ? limits.enough + r : 0, limits.triangle);
   if (i < 0) return {1e300, c, Vec3::UnitZ(), false, -1};
   const Triangle& t = s.tree.triangles()[static_cast<std::size_t>(i)];
   Local l = triangleGap(c, r, t, i, s.tree.closed());
@@ -404,9 +404,9 @@ double touchTolerance(const Vec3& p) {
   return std::max(1e-12, 4e-15 * p.cwiseAbs().maxCoeff());
 }
 
-Gap ballGap(const Vec3& centre, double radius, const Shape& shape, const Pose& X, Within within) {
+Gap ballGap(const Vec3& centre, double radius, const Shape& shape, const Pose& X, DistanceLimits limits) {
   const Vec3 c = X.q.conjugate() * (centre - X.p);
-  return std::visit([&](const auto& s) { return inWorld(localGap(c, radius, s, within), X); }, shape);
+  return std::visit([&](const auto& s) { return inWorld(localGap(c, radius, s, limits), X); }, shape);
 }
 
 std::optional<Touch> firstTouch(const Side& a, const Side& b, double from, double to, std::uint64_t& count) {
@@ -430,21 +430,22 @@ std::optional<Touch> firstTouch(const Side& a, const Side& b, double from, doubl
   return meshesTouch(a, b, from, to, count);
 }
 
-Gap gapBetween(const Side& a, const Side& b, double tau, Within within) {
+Gap gapBetween(const Side& a, const Side& b, double tau, DistanceLimits limits) {
   if (isBall(a)) {
     if (isBall(b) && isFreeBall(a) && isFreeBall(b)) return ballsGap(a, b, tau);
     return ballGap(centreAt(a, tau).p, std::get<BallShape>(*a.shape).radius, *b.shape, b.at(tau).pose,
-                   within);
+                   limits);
   }
-  return gapBetween(a, a.at(tau), b, b.at(tau), within);
+  return gapBetween(a, a.at(tau), b, b.at(tau), limits);
 }
 
-Gap gapBetween(const Side& a, const Kinematics& ka, const Side& b, const Kinematics& kb, Within within) {
+Gap gapBetween(const Side& a, const Kinematics& ka, const Side& b, const Kinematics& kb,
+               DistanceLimits limits) {
   if (isBall(a))
-    return ballGap(ballCentre(a, ka), std::get<BallShape>(*a.shape).radius, *b.shape, kb.pose, within);
+    return ballGap(ballCentre(a, ka), std::get<BallShape>(*a.shape).radius, *b.shape, kb.pose, limits);
   const bool swap = isBall(b) || (isPlane(a) && !isPlane(b)) || (!isConvex(*a.shape) && isConvex(*b.shape));
   if (swap && !isPlane(b)) {
-    Gap g = gapBetween(b, kb, a, ka, within);
+    Gap g = gapBetween(b, kb, a, ka, limits);
     flip(g);
     return g;
   }
@@ -453,7 +454,7 @@ Gap gapBetween(const Side& a, const Kinematics& ka, const Side& b, const Kinemat
     const auto* mesh = std::get_if<MeshShape>(b.shape);
     if (mesh) {
       const auto& own = std::get<MeshShape>(*a.shape);
-      return within.limit < 1e300 ? meshesGapWithin(own.tree, ka.pose, mesh->tree, kb.pose, within.limit)
+      return limits.limit < 1e300 ? meshesGapWithin(own.tree, ka.pose, mesh->tree, kb.pose, limits.limit)
                                   : meshesGap(own, ka.pose, *mesh, kb.pose);
     }
     Gap best;  // a mesh over a plane, bounded or not
@@ -467,7 +468,7 @@ Gap gapBetween(const Side& a, const Kinematics& ka, const Side& b, const Kinemat
   if (isConvex(*b.shape)) return convexGapBetween(*a.shape, ka.pose, *b.shape, kb.pose);
   if (const auto* plane = std::get_if<PlaneShape>(b.shape))
     return planeGapBetween(*a.shape, ka.pose, *plane, kb.pose);
-  return meshGapBetween(*a.shape, ka.pose, std::get<MeshShape>(*b.shape), kb.pose, within.limit);
+  return meshGapBetween(*a.shape, ka.pose, std::get<MeshShape>(*b.shape), kb.pose, limits.limit);
 }
 
 Aabb sweptBox(const Side& side, double from, double to) {

@@ -51,14 +51,15 @@ struct Touch {
 };
 
 /// Which distances must be exact.
-struct Within {
+struct DistanceLimits {
   double limit = 1e300;        ///< farther than this none [m]
   double enough = 0;           ///< nearer than this any point will do instead of the nearest [m]
   std::int32_t triangle = -1;  ///< triangle of a mesh at which such a point may be
 };
 
 /// How far a ball is from a shape at X_WN.
-Gap ballGap(const Vec3& centre, double radius, const Shape& shape, const Pose& X_WN, Within within = {});
+Gap ballGap(const Vec3& centre, double radius, const Shape& shape, const Pose& X_WN,
+            DistanceLimits limits = {});
 
 /// The first contact in [from, to] of sides that approach; nothing if they stay apart. `iterations` is
 /// counted up.
@@ -66,9 +67,10 @@ std::optional<Touch> firstTouch(const Side& a, const Side& b, double from, doubl
                                 std::uint64_t& iterations);
 
 /// Distance now, for release events and reports. Normal from b to a.
-Gap gapBetween(const Side& a, const Side& b, double tau, Within within = {});
+Gap gapBetween(const Side& a, const Side& b, double tau, DistanceLimits limits = {});
 /// Returns the gap between sides whose poses at tau are known.
-Gap gapBetween(const Side& a, const Kinematics& ka, const Side& b, const Kinematics& kb, Within within = {});
+Gap gapBetween(const Side& a, const Kinematics& ka, const Side& b, const Kinematics& kb,
+               DistanceLimits limits = {});
 
 /// The box around a side from `from` to `to`.
 Aabb sweptBox(const Side& side, double from, double to);

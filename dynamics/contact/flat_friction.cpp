@@ -28,14 +28,14 @@ double logOfOneMore(double x) {
 
 /// What the integrals need of one side, seen from a point: the integral of the distance along it, and of its
 /// inverse.
-struct Seen {
+struct EdgeIntegrals {
   double away, near, far;  ///< from the line; from its ends
   double distance, inverse;
 };
 
-Seen seenFrom(const Vec2& p, const Vec2& from, const Vec2& along, const Vec2& out, double length) {
+EdgeIntegrals seenFrom(const Vec2& p, const Vec2& from, const Vec2& along, const Vec2& out, double length) {
   const Vec2 d = from - p;
-  Seen s;
+  EdgeIntegrals s;
   s.away = out.dot(d);
   const double a = along.dot(d), b = a + length;
   s.near = std::sqrt(a * a + s.away * s.away), s.far = std::sqrt(b * b + s.away * s.away);
@@ -126,7 +126,7 @@ bool ContactArea::close() {
   for (const Edge& e : edges_) {
     const double length = (e.to - e.from).norm();
     const Vec2 along = (e.to - e.from) / length, out(along.y(), -along.x());
-    const Seen s = seenFrom(middle_, e.from, along, out, length);
+    const EdgeIntegrals s = seenFrom(middle_, e.from, along, out, length);
     distance += s.away * s.distance / 3;
     sides_.push_back({e.from - middle_, along, out, length});
   }
@@ -167,7 +167,7 @@ ContactArea::Resistance ContactArea::against(const Vec3& slip) const {
   Vec2 away = Vec2::Zero();
   Eigen::Matrix2d turn = Eigen::Matrix2d::Zero();
   for (const Side& s : sides_) {
-    const Seen seen = seenFrom(about, s.from, s.along, s.out, s.length);
+    const EdgeIntegrals seen = seenFrom(about, s.from, s.along, s.out, s.length);
     mean += seen.away * seen.distance / 3;
     away += seen.distance * s.out;
     turn += ((seen.far - seen.near) * s.along + seen.away * seen.inverse * s.out) * s.out.transpose();

@@ -12,11 +12,11 @@ double divisor(LinearField::Unit unit, double mass) {
   return unit == LinearField::Unit::Force ? mass : 1;
 }
 
-Vec3 pushOf(const LinearField& f, const Pose& X_WF, const Exposed& b) {
+Vec3 pushOf(const LinearField& f, const Pose& X_WF, const BodyInField& b) {
   return X_WF.q * f.push / divisor(f.unit, b.mass);
 }
 
-Vec3 pushOf(const SphericalField& f, const Pose& X_WF, const Exposed& b) {
+Vec3 pushOf(const SphericalField& f, const Pose& X_WF, const BodyInField& b) {
   const Vec3 d = b.p - X_WF.p;
   const double r = d.norm();
   if (!(r < f.radius) || r < 1e-12) return Vec3::Zero();
@@ -27,14 +27,14 @@ Vec3 pushOf(const SphericalField& f, const Pose& X_WF, const Exposed& b) {
   return d * (f.strength * share / (r * divisor(f.unit, b.mass)));
 }
 
-Vec3 pushOf(const PointField& f, const Pose& X_WF, const Exposed& b) {
+Vec3 pushOf(const PointField& f, const Pose& X_WF, const BodyInField& b) {
   const Vec3 d = b.p - X_WF.p;
   const double square = d.squaredNorm() + f.softening * f.softening;
   if (!(square > 0)) return Vec3::Zero();
   return d * (f.strength / (square * std::sqrt(square) * divisor(f.unit, b.mass)));
 }
 
-Vec3 pushOf(const VortexField& f, const Pose& X_WF, const Exposed& b) {
+Vec3 pushOf(const VortexField& f, const Pose& X_WF, const BodyInField& b) {
   const Vec3 axis = X_WF.q * Vec3::UnitZ();
   Vec3 d = b.p - X_WF.p;
   d -= axis * axis.dot(d);
@@ -54,7 +54,7 @@ bool inside(const MediumField& f, const Vec3& local) {
   return false;
 }
 
-Vec3 pushOf(const MediumField& f, const Pose& X_WF, const Exposed& b) {
+Vec3 pushOf(const MediumField& f, const Pose& X_WF, const BodyInField& b) {
   if (!inside(f, X_WF.inverse() * b.p - f.centre)) return Vec3::Zero();
   return dragOf(f, X_WF.q, b.mass, b.dragArea).at(b.v);
 }
@@ -133,7 +133,7 @@ FieldLaw scaled(const FieldLaw& law, double factor) {
   return to;
 }
 
-Vec3 accelerationOf(const ForceField& field, const Exposed& body, double s) {
+Vec3 accelerationOf(const ForceField& field, const BodyInField& body, double s) {
   const Pose X_WF = field.moving() ? det::interpolate(field.start, field.end, s) : field.end;
   const auto push = [&](const FieldLaw& f) {
     return std::visit([&](const auto& law) { return pushOf(law, X_WF, body); }, f);

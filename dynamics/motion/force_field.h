@@ -83,7 +83,7 @@ struct ForceField {
 };
 
 /// The properties of a body on which a field acts.
-struct Exposed {
+struct BodyInField {
   double mass = 1;      ///< [kg]
   double dragArea = 0;  ///< drag coefficient times cross section [m2]
   Vec3 p = Vec3::Zero(), v = Vec3::Zero();
@@ -115,6 +115,6 @@ struct Air {
 std::optional<Air> airAt(const ForceField& field, const Vec3& p, double s);
 
 /// Returns the acceleration of the body by the field [m/s2]; s in [0, 1] from frame start to end.
-Vec3 accelerationOf(const ForceField& field, const Exposed& body, double s);
+Vec3 accelerationOf(const ForceField& field, const BodyInField& body, double s);
 
 }  // namespace stadion

@@ -11,12 +11,12 @@ constexpr double kOneFace = 0.9999;  ///< cosine of normals that are one face's
 constexpr double kTurns = 1e-8;      ///< slower surface points do not turn a body within a step [m/s]
 
 /// How a body lies during a step, from its velocities at both ends.
-struct Turned {
+struct TurnedPose {
   Vec3 p;
   Mat3 R;  ///< turn since the start
 };
 
-Turned turned(const SolverBody& start, const SolverBody& end, double share, double h) {
+TurnedPose turned(const SolverBody& start, const SolverBody& end, double share, double h) {
   const double s = share * h;
   const Vec3 w = s * (start.omega + 0.5 * share * (end.omega - start.omega));
   return {start.p + s * (start.v + 0.5 * share * (end.v - start.v)),
@@ -32,7 +32,8 @@ Vec3 carried(const Vec3& arm, const Rounding& r, const Mat3& R, const Vec3& down
 
 /// Arms and basis of a contact when its sides lie like this.
 void place(const SolverBody& a0, const SolverBody& b0, const Gap& gap, Carrier carrier,
-           const Rounding& rounding, const Turned& a, const Turned& b, Mat3& basis, Vec3& armA, Vec3& armB) {
+           const Rounding& rounding, const TurnedPose& a, const TurnedPose& b, Mat3& basis, Vec3& armA,
+           Vec3& armB) {
   basis = basisAround(gap.normal);
   armA = gap.point - a0.p, armB = gap.point - b0.p;
   if (carrier == Carrier::B) {
@@ -56,8 +57,8 @@ void placeFlat(const FlatPatch& f, const std::vector<SolverBody>& start, const s
   f.place(a, b, Mat3::Identity(), Mat3::Identity(), a.p, b.p, before.rows, before.armA, before.armB);
   const Vec3 u0 = before.velocity(start);
   c.spin = u0[0], c.slip = u0.tail<2>();
-  const Turned am = turned(a, guess[c.a], 0.5, h), bm = turned(b, guess[c.b], 0.5, h),
-               ae = turned(a, guess[c.a], 1, h), be = turned(b, guess[c.b], 1, h);
+  const TurnedPose am = turned(a, guess[c.a], 0.5, h), bm = turned(b, guess[c.b], 0.5, h),
+                   ae = turned(a, guess[c.a], 1, h), be = turned(b, guess[c.b], 1, h);
   f.place(a, b, am.R, bm.R, am.p, bm.p, c.push, c.pushA, c.pushB);
   f.place(a, b, ae.R, be.R, ae.p, be.p, c.rows, c.armA, c.armB);
   if (!first) c.slides = u0.norm() > 2 * (c.velocity(guess) - u0).norm();
@@ -128,9 +129,9 @@ void IslandStep::moveFreely(ContactIsland& s, const std::vector<SolverBody>& gue
   for (std::size_t i = 0; i < s.set.size(); ++i) {
     const RigidBody& b = *s.set[i];
     SolverBody& m = s.end[i];
-    const Turned at = turned(s.start[i], guess[i], 1, h);
+    const TurnedPose at = turned(s.start[i], guess[i], 1, h);
     if (!first && !fields_.uniformFor(b)) {
-      const Turned mid = turned(s.start[i], guess[i], 0.5, h);
+      const TurnedPose mid = turned(s.start[i], guess[i], 0.5, h);
       s.pull[i] = fields_.accelerationAt(b, mid.p, 0.5 * (s.start[i].v + guess[i].v), tau + 0.5 * h);
     }
     m.v += h * s.pull[i];

@@ -18,13 +18,13 @@ constexpr std::array kFormats{
                false},
 };
 
-struct Refused {
+struct RefusedFormat {
   const char* extension;
   const char* name;
 };
 
 // Formats with loaders that crash on hostile files, or that shows do not need.
-constexpr Refused kRefused[] = {
+constexpr RefusedFormat kRefused[] = {
     {"3d", "Unreal"},
     {"3mf", "3MF"},
     {"ac", "AC3D"},
@@ -116,7 +116,7 @@ const FormatInfo* formatOf(std::string_view fileName) {
 std::optional<std::string> refusedFormat(std::string_view fileName) {
   const std::string extension = extensionOf(fileName);
   const auto at = std::find_if(std::begin(kRefused), std::end(kRefused),
-                               [&](const Refused& r) { return extension == r.extension; });
+                               [&](const RefusedFormat& r) { return extension == r.extension; });
   if (at == std::end(kRefused)) return std::nullopt;
   return at->name;
 }

@@ -30,14 +30,14 @@ bool isRead(int format) {
   }
 }
 
-struct Opened {
+struct OpenedSound {
   Open file;
   SoundInfo info;
 };
 
-Result<Opened> openSound(int file, const std::string& path) {
+Result<OpenedSound> openSound(int file, const std::string& path) {
   const auto refuse = [&](const std::string& why) {
-    return Result<Opened>::failure(fmt::format("\"{}\" {}", path, why));
+    return Result<OpenedSound>::failure(fmt::format("\"{}\" {}", path, why));
   };
   struct stat s {};
   if (fstat(file, &s) != 0 || !S_ISREG(s.st_mode)) return refuse("is not a plain file");
@@ -50,7 +50,7 @@ Result<Opened> openSound(int file, const std::string& path) {
     return refuse("cannot be read");
   }
   SF_INFO info{};
-  Opened opened{Open(sf_open_fd(own, SFM_READ, &info, SF_TRUE)), {}};
+  OpenedSound opened{Open(sf_open_fd(own, SFM_READ, &info, SF_TRUE)), {}};
   if (!opened.file)
     return refuse(
         fmt::format("cannot be read as a sound (.wav, .aiff, .flac, .ogg): {}", sf_strerror(nullptr)));

@@ -126,7 +126,7 @@ enum class DrawSample : std::uint8_t {
 };
 
 /// Drawing that nothing else overlapped.
-struct DrawnAlone {
+struct IsolatedDrawTime {
   std::uint64_t frame = 0;
   std::uint32_t wall = 0;
   std::uint32_t eye = 0;  ///< 0 left or the only one, 1 right
@@ -169,7 +169,7 @@ public:
   /// Which of `batches` batches that are to have one is drawn alone next; those that follow it may be, too.
   virtual std::size_t nextBatch(std::uint32_t, std::uint32_t, std::size_t) { return 0; }
   /// Receives the cost of drawing alone, with the nodes that were drawn, if any were.
-  virtual void drewAlone(const DrawnAlone&, std::span<const NodeShare>) {}
+  virtual void drewAlone(const IsolatedDrawTime&, std::span<const NodeShare>) {}
 };
 
 /// A span as a scope. Without a probe it does nothing.

@@ -129,7 +129,7 @@ std::optional<std::size_t> hiddenIn(std::string_view word) {
 
 std::string nameOf(char32_t code) {
   std::string text = fmt::format("U+{:04X}", static_cast<std::uint32_t>(code));
-  if (const Named* named = rowOf(kNames, &Named::code, code)) return text + " " + named->name;
+  if (const CharacterName* named = rowOf(kNames, &CharacterName::code, code)) return text + " " + named->name;
   if (code >= 0xFE00 && code <= 0xFE0F)
     return text + fmt::format(" VARIATION SELECTOR-{}", static_cast<std::uint32_t>(code) - 0xFE00 + 1);
   if (code >= 0xE0100 && code <= 0xE01EF)
@@ -155,7 +155,7 @@ std::string skeleton(std::string_view word) {
   std::string look;
   for (std::size_t bytes = 0; !word.empty(); word.remove_prefix(bytes)) {
     const char32_t c = firstCharacter(word, bytes);
-    const Composed* pieces = c < 0xC0 ? nullptr : rowOf(kComposed, &Composed::whole, c);
+    const Composition* pieces = c < 0xC0 ? nullptr : rowOf(kComposed, &Composition::whole, c);
     if (!pieces) appendLook(look, c);
     for (std::size_t i = 0; pieces && i < pieces->parts.size() && pieces->parts[i] != 0; ++i)
       appendLook(look, pieces->parts[i]);

@@ -259,7 +259,7 @@ constexpr Alike kAlike_[] = {
   {0xFF1A, 0x3A},
 };
 
-constexpr Composed kComposed_[] = {
+constexpr Composition kComposed_[] = {
   {0xC0, {0x41, 0x300}}, {0xC1, {0x41, 0x301}}, {0xC2, {0x41, 0x302}}, {0xC3, {0x41, 0x303}},
   {0xC4, {0x41, 0x308}}, {0xC5, {0x41, 0x30A}}, {0xC7, {0x43, 0x327}}, {0xC8, {0x45, 0x300}},
   {0xC9, {0x45, 0x301}}, {0xCA, {0x45, 0x302}}, {0xCB, {0x45, 0x308}}, {0xCC, {0x49, 0x300}},
@@ -562,7 +562,7 @@ constexpr Composed kComposed_[] = {
   {0x1D1BF, {0x1D1B9, 0x1D165, 0x1D16F}}, {0x1D1C0, {0x1D1BA, 0x1D165, 0x1D16F}},
 };
 
-constexpr Named kNames_[] = {
+constexpr CharacterName kNames_[] = {
   {0x0, "NULL"}, {0x1, "START OF HEADING"}, {0x2, "START OF TEXT"}, {0x3, "END OF TEXT"}, {0x4, "END OF TRANSMISSION"}, {0x5, "ENQUIRY"}, {0x6, "ACKNOWLEDGE"}, {0x7, "ALERT"}, {0x8, "BACKSPACE"},
   {0x9, "CHARACTER TABULATION"}, {0xA, "LINE FEED"}, {0xB, "LINE TABULATION"}, {0xC, "FORM FEED"}, {0xD, "CARRIAGE RETURN"}, {0xE, "SHIFT OUT"}, {0xF, "SHIFT IN"}, {0x10, "DATA LINK ESCAPE"},
   {0x11, "DEVICE CONTROL ONE"}, {0x12, "DEVICE CONTROL TWO"}, {0x13, "DEVICE CONTROL THREE"}, {0x14, "DEVICE CONTROL FOUR"}, {0x15, "NEGATIVE ACKNOWLEDGE"}, {0x16, "SYNCHRONOUS IDLE"},
@@ -664,7 +664,7 @@ const std::span<const Range> kViramas = kViramas_;
 const std::span<const Range> kMarks = kMarks_;
 const std::span<const Range> kWide = kWide_;
 const std::span<const Alike> kAlike = kAlike_;
-const std::span<const Composed> kComposed = kComposed_;
-const std::span<const Named> kNames = kNames_;
+const std::span<const Composition> kComposed = kComposed_;
+const std::span<const CharacterName> kNames = kNames_;
 
 }  // namespace stadion::unicode

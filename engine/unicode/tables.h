@@ -16,11 +16,11 @@ struct Alike {
   char32_t letter, shown;
 };
 /// A letter with accents, and the same in pieces, in canonical order; 0 after the last one.
-struct Composed {
+struct Composition {
   char32_t whole;
   std::array<char32_t, 4> parts;
 };
-struct Named {
+struct CharacterName {
   char32_t code;
   const char* name;
 };
@@ -32,7 +32,7 @@ extern const std::span<const Range> kViramas;
 extern const std::span<const Range> kMarks;  ///< stand above, below or around the letter before
 extern const std::span<const Range> kWide;   ///< twice as wide as a Latin letter in a terminal
 extern const std::span<const Alike> kAlike;
-extern const std::span<const Composed> kComposed;
-extern const std::span<const Named> kNames;
+extern const std::span<const Composition> kComposed;
+extern const std::span<const CharacterName> kNames;
 
 }  // namespace stadion::unicode

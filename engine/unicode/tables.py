@@ -107,12 +107,12 @@ def main():
                           ("kWide", wide)):
         table(f"constexpr Range {name}_[] = ", [pair(r) for r in ranges(members)])
     table("constexpr Alike kAlike_[] = ", [pair(p) for p in alike])
-    table("constexpr Composed kComposed_[] = ",
+    table("constexpr Composition kComposed_[] = ",
           ["{0x%X, {%s}}" % (c, ", ".join(f"0x{p:X}" for p in parts)) for c, parts in composed])
-    table("constexpr Named kNames_[] = ", ['{0x%X, "%s"}' % (c, names[c]) for c in sorted(names) if not skip(c)], 200)
+    table("constexpr CharacterName kNames_[] = ", ['{0x%X, "%s"}' % (c, names[c]) for c in sorted(names) if not skip(c)], 200)
     print("// clang-format on")
     for kind, name in (("Range", "kBlanks"), ("Range", "kNothing"), ("Range", "kViramas"), ("Range", "kMarks"),
-                       ("Range", "kWide"), ("Alike", "kAlike"), ("Composed", "kComposed"), ("Named", "kNames")):
+                       ("Range", "kWide"), ("Alike", "kAlike"), ("Composition", "kComposed"), ("CharacterName", "kNames")):
         print(f"const std::span<const {kind}> {name} = {name}_;")
     print("\n}  // namespace stadion::unicode")
 

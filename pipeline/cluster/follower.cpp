@@ -112,7 +112,7 @@ bool Follower::await(std::unique_lock<std::mutex>& lock, const char* what, const
   return true;
 }
 
-std::optional<Joining> Follower::join() {
+std::optional<JoinTerms> Follower::join() {
   for (std::unique_lock lock(mutex_);;) {
     if (auto joining = joinSession(lock)) return joining;
     if (!again_ || over_ || double_ || options_.stop()) return {};
@@ -122,7 +122,7 @@ std::optional<Joining> Follower::join() {
 }
 
 /// Expects the lock.
-std::optional<Joining> Follower::joinSession(std::unique_lock<std::mutex>& lock) {
+std::optional<JoinTerms> Follower::joinSession(std::unique_lock<std::mutex>& lock) {
   const std::string& lead = options_.cluster.nodes[options_.cluster.lead].name;
   const auto known = [&] {
     return over_ || (session_.number != 0 && session_.giver == kNoNode && !session_.over);
@@ -140,7 +140,7 @@ std::optional<Joining> Follower::joinSession(std::unique_lock<std::mutex>& lock)
   if (incoming_.session() != joined_) incoming_ = {};
   const std::uint64_t ofKept = kept_ ? kept_->transfer.session : joined_;
   if (ofKept != joined_ && ofKept != session_.resumes) kept_.reset(), framesShown_ = 0;  // it is another show
-  Joining joining{session_.rate, {}, {}, 0, theirs.input != 0};
+  JoinTerms joining{session_.rate, {}, {}, 0, theirs.input != 0};
   if (!session_.begun && session_.resumes == 0) return joining;
   if (session_.begun) awaitDouble(lock);
   if (hasEnded()) return {};

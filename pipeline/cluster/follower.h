@@ -44,7 +44,7 @@ struct FollowerOptions {
 };
 
 /// How the show is to be opened.
-struct Joining {
+struct JoinTerms {
   double rate = 60;     ///< [1/s]
   TimeSignature after;  ///< with a state: of the frame simulated last
   /// The state from which the scene continues; null: the show begins.
@@ -62,7 +62,7 @@ public:
 
   /// Waits for the leader, and for the scene's state if the show is under way. Returns nothing if the wait
   /// was stopped, or if the shows differ. A difference has been logged by then.
-  std::optional<Joining> join();
+  std::optional<JoinTerms> join();
   /// The first difference between the scene and one saved on another host: its place and field, the value
   /// here, the value there. Nothing if they are equal. Called on the App thread, between two frames.
   struct Differs {
@@ -117,7 +117,7 @@ private:
   void announce(Phase phase);
   void announceProgress();
   void giveIfAsked();
-  std::optional<Joining> joinSession(std::unique_lock<std::mutex>& lock);
+  std::optional<JoinTerms> joinSession(std::unique_lock<std::mutex>& lock);
   bool hasEnded() const { return again_ || over_ || double_; }
   bool leaves() const { return options_.leave && options_.leave(); }
   bool explain(std::unique_lock<std::mutex>& lock);

@@ -16,8 +16,8 @@ double threadMilliseconds() {
   return 1e3 * static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_nsec);
 }
 
-DrawnAlone aloneIn(const PieceCosts::View& view, Span what, double ms) {
-  DrawnAlone alone;
+IsolatedDrawTime aloneIn(const PieceCosts::View& view, Span what, double ms) {
+  IsolatedDrawTime alone;
   alone.frame = view.list.ticket.signature.frame, alone.wall = view.list.wall;
   alone.eye = static_cast<std::uint32_t>(view.list.views[view.number].eye);
   alone.what = what, alone.ms = std::max(ms, 0.0);
@@ -132,7 +132,7 @@ void PieceCosts::sampleSome(const View& view, FrameProbe& probe) {
   const std::size_t end = std::min(at + kBatchesAFrame, wanted_.size());
   for (std::size_t i = at; i < end; ++i) {
     const Piece& piece = pieces_[wanted_[i]];
-    const DrawnAlone alone = aloneIn(view, Span::Draw, costOf(view, piece));
+    const IsolatedDrawTime alone = aloneIn(view, Span::Draw, costOf(view, piece));
     probe.drewAlone(alone, sharesOf(piece));
   }
 }

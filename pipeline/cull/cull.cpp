@@ -118,11 +118,11 @@ void WallCull::fill(const SlotView& state, const CullOptions& options, DrawList&
   out.wall = wall_;
   out.shadows.light = -1;
   opaque_.clear(), transparent_.clear(), added_.clear();
-  const RoomCull::Seen room = [&] {
+  const RoomCull::Visibility room = [&] {
     const SpanScope span(probe, Span::Test);
     return parts_.room.seen(state, options.eyes);
   }();
-  const WallSeen& seen = room.on(wall_);
+  const VisibleSet& seen = room.on(wall_);
   if (!seen.looks) {
     out.opaque.clear(), out.transparent.clear();
     out.viewCount = 0;
@@ -153,7 +153,7 @@ void WallCull::fill(const SlotView& state, const CullOptions& options, DrawList&
   if (probe) tell(state, seen, options.eyes, out);
 }
 
-void WallCull::lookThrough(const SlotView& state, const WallSeen& seen, DrawList& out) const {
+void WallCull::lookThrough(const SlotView& state, const VisibleSet& seen, DrawList& out) const {
   out.viewer = *state.viewer;
   seen.placed.setUp(out);
   setLights(state, out);
@@ -161,7 +161,7 @@ void WallCull::lookThrough(const SlotView& state, const WallSeen& seen, DrawList
 }
 
 /// What is drawn of the records that may be seen, by which views, at which level.
-void WallCull::choose(const SlotView& state, const WallSeen& seen, const DrawList& out) {
+void WallCull::choose(const SlotView& state, const VisibleSet& seen, const DrawList& out) {
   if (levels_) levels_->look(*state.viewer);
   const WallViews& wall = parts_.room.wall(wall_);
   const bool eyesMove = wall.reach.metres > 0 || wall.reach.radians > 0;  // before they draw
@@ -211,7 +211,7 @@ void WallCull::addCasters(const SlotView& state, DrawList& out) const {
 }
 
 /// Reports the counts, and the nodes that the work was for.
-void WallCull::tell(const SlotView& state, const WallSeen& seen, const EyeChoice& choice,
+void WallCull::tell(const SlotView& state, const VisibleSet& seen, const EyeChoice& choice,
                     const DrawList& out) const {
   FrameProbe& probe = *parts_.probe;
   std::size_t casters = 0;

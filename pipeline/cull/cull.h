@@ -39,11 +39,12 @@ public:
   void fill(const SlotView& state, const CullOptions& options, DrawList& out);
 
 private:
-  void lookThrough(const SlotView& state, const WallSeen& seen, DrawList& out) const;
-  void choose(const SlotView& state, const WallSeen& seen, const DrawList& out);
+  void lookThrough(const SlotView& state, const VisibleSet& seen, DrawList& out) const;
+  void choose(const SlotView& state, const VisibleSet& seen, const DrawList& out);
   void addCasters(const SlotView& state, DrawList& out) const;
   void write(DrawList& out) const;
-  void tell(const SlotView& state, const WallSeen& seen, const EyeChoice& choice, const DrawList& out) const;
+  void tell(const SlotView& state, const VisibleSet& seen, const EyeChoice& choice,
+            const DrawList& out) const;
 
   CullParts parts_;
   std::uint32_t wall_;

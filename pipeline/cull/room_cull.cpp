@@ -10,16 +10,16 @@ struct RoomCull::Found {
   std::size_t slot = 0;
   std::uint64_t written = kNever;  ///< which of the slot's frames; kNever: none that another wall may see
   std::atomic<std::uint32_t> holders = 0;
-  std::vector<WallSeen> walls;
+  std::vector<VisibleSet> walls;
 
   static constexpr std::uint64_t kNever = ~std::uint64_t{0};
 };
 
-RoomCull::Seen::~Seen() {
+RoomCull::Visibility::~Visibility() {
   if (found_) found_->holders.fetch_sub(1, std::memory_order_release);
 }
 
-const WallSeen& RoomCull::Seen::on(std::size_t wall) const {
+const VisibleSet& RoomCull::Visibility::on(std::size_t wall) const {
   return found_->walls[wall];
 }
 
@@ -28,14 +28,14 @@ RoomCull::RoomCull(std::vector<WallViews> walls, const BoundsKernels& kernels)
 
 RoomCull::~RoomCull() = default;
 
-RoomCull::Seen RoomCull::seen(const SlotView& state, const EyeChoice& choice) {
+RoomCull::Visibility RoomCull::seen(const SlotView& state, const EyeChoice& choice) {
   const std::lock_guard lock(mutex_);
   const auto known = std::ranges::find_if(
       found_, [&](const auto& f) { return f->slot == state.slot && f->written == state.written; });
   const bool first = known == found_.end();
   Found& found = first ? take(state) : **known;
   found.holders.fetch_add(1, std::memory_order_relaxed);
-  Seen seen(&found);
+  Visibility seen(&found);
   if (first) {
     lookFor(state, choice, found);
     if (state.intact())
@@ -95,7 +95,7 @@ void RoomCull::lookFor(const SlotView& state, const EyeChoice& choice, Found& fo
   found.walls.resize(walls_.size());
   for (std::uint32_t number = 0; number < walls_.size(); ++number) {
     const WallViews& wall = walls_[number];
-    WallSeen& seen = found.walls[number];
+    VisibleSet& seen = found.walls[number];
     seen.tested = 0, seen.records.clear();
     seen.from = wall.camera ? wall.camera->view() : std::nullopt;
     seen.looks = !wall.camera || seen.from;
@@ -133,7 +133,7 @@ void RoomCull::keep(const TreeSphere& sphere, std::size_t first, const InstanceR
 
 void RoomCull::reached(const SlotView& state, const EyeChoice& choice, std::size_t wall,
                        std::vector<NodeRef>& owners) {
-  const Seen held = seen(state, choice);
+  const Visibility held = seen(state, choice);
   if (!held.on(wall).looks) return;
   const std::lock_guard lock(mutex_);
   volumes_.clear(), wallsOf_.clear();

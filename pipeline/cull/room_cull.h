@@ -28,7 +28,7 @@
 namespace stadion {
 
 /// The part of a frame that one wall may see.
-struct WallSeen {
+struct VisibleSet {
   bool looks = true;               ///< false: its camera is off
   std::optional<CameraView> from;  ///< where its camera stood when the room was searched
   PlacedViews placed;              ///< the wall's views at that time
@@ -41,17 +41,17 @@ class RoomCull {
 
 public:
   /// Holds what was found, until it goes.
-  class Seen {
+  class Visibility {
   public:
-    Seen(Seen&& o) noexcept : found_(std::exchange(o.found_, nullptr)) {}
-    Seen& operator=(Seen&&) = delete;
-    ~Seen();
+    Visibility(Visibility&& o) noexcept : found_(std::exchange(o.found_, nullptr)) {}
+    Visibility& operator=(Visibility&&) = delete;
+    ~Visibility();
 
-    const WallSeen& on(std::size_t wall) const;
+    const VisibleSet& on(std::size_t wall) const;
 
   private:
     friend RoomCull;
-    explicit Seen(Found* found) : found_(found) {}
+    explicit Visibility(Found* found) : found_(found) {}
     Found* found_;
   };
 
@@ -61,7 +61,7 @@ public:
 
   const WallViews& wall(std::size_t number) const { return walls_[number]; }
   /// Expects the same choice for all walls of a frame.
-  Seen seen(const SlotView& state, const EyeChoice& choice = {});
+  Visibility seen(const SlotView& state, const EyeChoice& choice = {});
   /// Returns the owners for which the search for `wall` went down to single spheres. Searches again.
   void reached(const SlotView& state, const EyeChoice& choice, std::size_t wall,
                std::vector<NodeRef>& owners);

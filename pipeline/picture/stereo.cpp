@@ -7,16 +7,16 @@
 namespace stadion {
 namespace {
 
-struct Named {
+struct LayoutName {
   StereoLayout layout;
   const char* name;
 };
-constexpr Named kLayouts[] = {{StereoLayout::Pair, "pair"},
-                              {StereoLayout::SideBySide, "side-by-side"},
-                              {StereoLayout::TopBottom, "top-bottom"},
-                              {StereoLayout::Anaglyph, "anaglyph"},
-                              {StereoLayout::Interlaced, "interlaced"},
-                              {StereoLayout::Off, "off"}};
+constexpr LayoutName kLayouts[] = {{StereoLayout::Pair, "pair"},
+                                   {StereoLayout::SideBySide, "side-by-side"},
+                                   {StereoLayout::TopBottom, "top-bottom"},
+                                   {StereoLayout::Anaglyph, "anaglyph"},
+                                   {StereoLayout::Interlaced, "interlaced"},
+                                   {StereoLayout::Off, "off"}};
 
 void copyRow(const Picture& from, std::uint32_t row, Picture& to, std::uint32_t x, std::uint32_t y) {
   std::copy_n(from.at(0, row), std::size_t(from.width) * 4, to.at(x, y));
@@ -58,20 +58,20 @@ Picture anaglyph(const Picture& left, const Picture& right) {
 }  // namespace
 
 std::optional<StereoLayout> stereoLayout(std::string_view name) {
-  for (const Named& n : kLayouts)
+  for (const LayoutName& n : kLayouts)
     if (name == n.name) return n.layout;
   return std::nullopt;
 }
 
 const char* stereoLayoutName(StereoLayout layout) {
-  for (const Named& n : kLayouts)
+  for (const LayoutName& n : kLayouts)
     if (layout == n.layout) return n.name;
   return "";
 }
 
 std::vector<std::string> stereoLayoutNames() {
   std::vector<std::string> names;
-  for (const Named& n : kLayouts) names.emplace_back(n.name);
+  for (const LayoutName& n : kLayouts) names.emplace_back(n.name);
   return names;
 }
 

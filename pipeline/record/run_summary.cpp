@@ -74,7 +74,7 @@ SampleStatistics sampleStatisticsOf(std::vector<double> values) {
 
 namespace {
 
-std::string textOf(const BudgetKept& b) {
+std::string textOf(const BudgetSummary& b) {
   std::string text = fmt::format("  {} {}:{}: ", b.node, b.file, b.line);
   if (b.budget > 0) text += fmt::format("budget {:g} ms, ", b.budget);
   if (b.drawMeasured)
@@ -90,7 +90,7 @@ std::string textOf(const BudgetKept& b) {
   return text + "\n";
 }
 
-Json json(const BudgetKept& b) {
+Json json(const BudgetSummary& b) {
   return Json{{"node", b.node},
               {"file", b.file},
               {"line", b.line},
@@ -131,11 +131,12 @@ std::string clusterText(const ClusterSummary& c) {
 /// Describes the measures that keep the head's pose young.
 std::string headText(const RunSummary& s) {
   std::string text;
-  if (s.latched)
+  if (s.lateLatch)
     text += fmt::format(
         "  late latch: {} frames from a newer head, up to {:.1f} mm and {:.2f} degrees away; {} beyond "
         "the reach\n",
-        s.latched->frames, 1e3 * s.latched->farthest, s.latched->widest * kDegrees, s.latched->beyond);
+        s.lateLatch->frames, 1e3 * s.lateLatch->farthest, s.lateLatch->widest * kDegrees,
+        s.lateLatch->beyond);
   if (s.aimedAt) text += fmt::format("  the head was told {:.1f} ms ahead, at the end\n", *s.aimedAt);
   return text;
 }
@@ -154,13 +155,12 @@ std::string toText(const RunSummary& s) {
   if (s.groups > 1) text += fmt::format("  the last of {} groups in {:.0f} s\n", s.groups, s.uptimeSeconds);
   text += fmt::format("  walls {}, stereo {}, {} x {} pixels, {}, {} Hz\n", s.walls, s.stereo, s.width,
                       s.height, s.mode, s.rate);
-  if (!s.howDrawn.workers.empty())
-    text += fmt::format("  drawn by {}: {}\n", s.howDrawn.text, s.howDrawn.why);
-  if (!s.howDrawn.chosen.empty())
-    text += fmt::format("  renderer {}: {}\n", s.howDrawn.renderer, s.howDrawn.chosen);
+  if (!s.drawing.workers.empty()) text += fmt::format("  drawn by {}: {}\n", s.drawing.text, s.drawing.why);
+  if (!s.drawing.chosen.empty())
+    text += fmt::format("  renderer {}: {}\n", s.drawing.renderer, s.drawing.chosen);
   if (s.warmUpMs > 0)
     text += fmt::format("  warm-up {:.3f} s before the first frame: {}\n", s.warmUpMs / 1000,
-                        s.howDrawn.renderer == "cpu" ? "meshes, textures" : "shaders, uploads");
+                        s.drawing.renderer == "cpu" ? "meshes, textures" : "shaders, uploads");
   if (s.frameMs.count + s.stages.size() + s.latency.size() > 0)
     text += fmt::format("  {:<16} {:<12} {:>9} {:>9} {:>9} {:>9}\n", "milliseconds", "wall", "p50", "p95",
                         "p99", "max");
@@ -179,8 +179,8 @@ std::string toText(const RunSummary& s) {
   for (const auto& [name, value] : s.counters) text += fmt::format("  {}: {}\n", name, value);
   for (const MeasuredDistance& m : s.measured)
     text += fmt::format("  measured {:.3f} m: {} at {:.3f} s\n", m.metres, m.node, m.seconds);
-  for (const BudgetKept& b : s.budgets) text += textOf(b);
-  for (const Obeyed& o : s.obeyed)
+  for (const BudgetSummary& b : s.budgets) text += textOf(b);
+  for (const ReplayedDegradation& o : s.replayedDegradations)
     text += fmt::format("  obeyed the log: {} gave up {} levels at most, {} at the end, {} changes\n", o.node,
                         o.highest, o.now, o.changes);
   if (s.cluster) text += clusterText(*s.cluster);
@@ -194,28 +194,28 @@ std::string toText(const RunSummary& s) {
   return text;
 }
 
-std::string happeningsText(const RunSummary& s) {
-  if (s.happened.empty()) return {};
+std::string eventsText(const RunSummary& s) {
+  if (s.events.empty()) return {};
   std::map<std::pair<std::string, std::string>, Again> again;
-  for (const Happening& h : s.happened)
+  for (const ShowEvent& h : s.events)
     if (!h.metres) ++again[{h.event, h.node}].times, again[{h.event, h.node}].last = h.seconds;
   std::string text = "\nwhat happened\n";
   std::size_t lines = 0, told = 0;
-  for (const Happening& h : s.happened) {
+  for (const ShowEvent& h : s.events) {
     Again* alike = h.metres ? nullptr : &again[{h.event, h.node}];
     if (alike && alike->times <= RunSummary::kMostAlike) alike = nullptr;
     if (alike && alike->told) continue;
-    if (++lines > RunSummary::kHappeningsTold) break;
+    if (++lines > RunSummary::kEventsInText) break;
     told += alike ? alike->times : 1;
     text += fmt::format("{:9.4f} s  {:<10} {}{}{}\n", h.seconds, h.event, h.node,
                         h.metres ? fmt::format("  {:.3f} m", *h.metres) : "",
                         alike ? fmt::format("  {} times, until {:.4f} s", alike->times, alike->last) : "");
     if (alike) alike->told = true;
   }
-  if (s.happenedCount > told)
+  if (s.eventCount > told)
     text += fmt::format(
-        "  ... and {} more; summary.json (--out DIR, or --json) has {} of them\n", s.happenedCount - told,
-        s.happened.size() == s.happenedCount ? "all" : fmt::format("the first {}", s.happened.size()));
+        "  ... and {} more; summary.json (--out DIR, or --json) has {} of them\n", s.eventCount - told,
+        s.events.size() == s.eventCount ? "all" : fmt::format("the first {}", s.events.size()));
   return text;
 }
 
@@ -237,14 +237,14 @@ void addShow(Json& j, const RunSummary& s) {
   j["elapsed_seconds"] = s.elapsedSeconds;
   j["groups"] = s.groups;
   j["uptime_seconds"] = s.uptimeSeconds;
-  if (!s.howDrawn.workers.empty())
+  if (!s.drawing.workers.empty())
     j["how_drawn"] =
-        Json{{"renderer", s.howDrawn.renderer},
-             {"renderer_why", s.howDrawn.chosen},
-             {"wall_workers", s.howDrawn.workers},
-             {s.howDrawn.renderer == "cpu" ? "draw_threads" : "rasteriser_threads", s.howDrawn.threads},
-             {"pinned", s.howDrawn.pinned},
-             {"why", s.howDrawn.why}};
+        Json{{"renderer", s.drawing.renderer},
+             {"renderer_why", s.drawing.chosen},
+             {"wall_workers", s.drawing.workers},
+             {s.drawing.renderer == "cpu" ? "draw_threads" : "rasteriser_threads", s.drawing.threads},
+             {"pinned", s.drawing.pinned},
+             {"why", s.drawing.why}};
 }
 
 void addTimes(Json& j, const RunSummary& s) {
@@ -267,11 +267,11 @@ void addLateness(Json& j, const RunSummary& s) {
   j["late_walls"] = Json::object();
   for (const WallLate& w : s.lateWalls)
     j["late_walls"][w.wall] = Json{{"frames", w.frames}, {"in_a_row", w.inARow}};
-  if (s.latched)
-    j["late_latch"] = Json{{"frames", s.latched->frames},
-                           {"beyond_reach", s.latched->beyond},
-                           {"farthest_m", s.latched->farthest},
-                           {"widest_rad", s.latched->widest}};
+  if (s.lateLatch)
+    j["late_latch"] = Json{{"frames", s.lateLatch->frames},
+                           {"beyond_reach", s.lateLatch->beyond},
+                           {"farthest_m", s.lateLatch->farthest},
+                           {"widest_rad", s.lateLatch->widest}};
   if (s.aimedAt) j["predicted_ms"] = *s.aimedAt;
 }
 
@@ -302,8 +302,8 @@ void addDegradation(Json& j, const RunSummary& s) {
   if (s.stress)
     j["stress"] =
         Json{{"highest", s.stress->highest}, {"at_end", s.stress->atEnd}, {"changes", s.stress->changes}};
-  for (const BudgetKept& b : s.budgets) j["budgets"].push_back(json(b));
-  for (const Obeyed& o : s.obeyed)
+  for (const BudgetSummary& b : s.budgets) j["budgets"].push_back(json(b));
+  for (const ReplayedDegradation& o : s.replayedDegradations)
     j["obeyed"].push_back(
         Json{{"node", o.node}, {"changes", o.changes}, {"highest_level", o.highest}, {"level", o.now}});
 }
@@ -332,12 +332,12 @@ void addNotes(Json& j, const RunSummary& s) {
 }
 
 void addHappenings(Json& j, const RunSummary& s) {
-  j["happened_count"] = s.happenedCount;
+  j["happened_count"] = s.eventCount;
   j["happened"] = Json::array();
-  for (const Happening& h : s.happened) {
-    Json happening{{"seconds", h.seconds}, {"event", h.event}, {"node", h.node}};
-    if (h.metres) happening["metres"] = *h.metres;
-    j["happened"].push_back(std::move(happening));
+  for (const ShowEvent& h : s.events) {
+    Json event{{"seconds", h.seconds}, {"event", h.event}, {"node", h.node}};
+    if (h.metres) event["metres"] = *h.metres;
+    j["happened"].push_back(std::move(event));
   }
   j["measured"] = Json::array();
   for (const MeasuredDistance& m : s.measured)

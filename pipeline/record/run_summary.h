@@ -46,7 +46,7 @@ struct WallLate {
 };
 
 /// Results of late latch (loop/head_latch.h).
-struct LateLatched {
+struct LateLatchSummary {
   std::uint64_t frames = 0, beyond = 0;  ///< drawn from a newer head pose; of these, clamped to the edge of
                                          ///< the reach
   double farthest = 0, widest = 0;       ///< distance and turn of the head between App and Draw, at most [m],
@@ -83,7 +83,7 @@ struct ClusterSummary {
 };
 
 /// An event in the show, such as an impact.
-struct Happening {
+struct ShowEvent {
   double seconds = 0;  ///< show time [s]
   std::string event, node;
   std::optional<double> metres{};  ///< a measured distance
@@ -96,7 +96,7 @@ struct MeasuredDistance {
 };
 
 /// How a node kept its budget.
-struct BudgetKept {
+struct BudgetSummary {
   std::string node, file;  ///< path of the node, script
   std::uint32_t line = 0;
   double budget = 0;           ///< [ms]; 0 = it has none, but degrades to save the frame
@@ -110,20 +110,20 @@ struct BudgetKept {
 };
 
 /// A node's degradations in a replayed run, as the log orders them.
-struct Obeyed {
+struct ReplayedDegradation {
   std::string node;
   std::uint64_t changes = 0;           ///< changes of the degradation level
   std::uint32_t highest = 0, now = 0;  ///< levels of its degradation ladder
 };
 
 /// The stress of a show: the factor by which all distances are multiplied.
-struct StressFelt {
+struct StressSummary {
   double highest = 1, atEnd = 1;
   std::uint64_t changes = 0;
 };
 
 /// The renderer of the walls, threads or processes, and the reasons.
-struct HowDrawn {
+struct DrawingSummary {
   std::string renderer;       ///< cpu or gl
   std::string chosen;         ///< why this renderer; empty: it was asked for
   std::string workers;        ///< thread or process; empty: nothing was drawn
@@ -134,8 +134,8 @@ struct HowDrawn {
 
 /// A run's results. It has more than 20 fields: one for each figure of the report.
 struct RunSummary {
-  static constexpr std::size_t kMostHappenings = 5'000;  ///< kept; a show may run for days
-  static constexpr std::size_t kHappeningsTold = 200;    ///< lines in the text
+  static constexpr std::size_t kMostEvents = 5'000;  ///< kept; a show may run for days
+  static constexpr std::size_t kEventsInText = 200;  ///< lines in the text
   /// A node's further events of one kind are counted in one line, such as the end of each pass of a loop.
   static constexpr std::size_t kMostAlike = 5;
 
@@ -148,7 +148,7 @@ struct RunSummary {
   double elapsedSeconds = 0;      ///< duration in real time
   std::uint64_t groups = 1;       ///< groups of visitors; the other figures describe the last one
   double uptimeSeconds = 0;       ///< real time of all groups and the pauses between them
-  HowDrawn howDrawn{};
+  DrawingSummary drawing{};
   double warmUpMs = 0;  ///< before the first frame is drawn: contexts, shaders, uploads; counted here only
   std::uint64_t lateFrames = 0;
   SampleStatistics frameMs;  ///< from one frame shown to the next
@@ -156,7 +156,7 @@ struct RunSummary {
   std::uint64_t mostTicksWithoutFrame = 0;  ///< ticks in a row without a frame on any wall
   std::vector<WallLatency> latency;         ///< motion to image
   std::vector<WallLate> lateWalls;          ///< walls that were late at least once
-  std::optional<LateLatched> latched;
+  std::optional<LateLatchSummary> lateLatch;
   std::optional<double> aimedAt;  ///< prediction at the end: time after a frame's start [ms]
   std::uint64_t lastFrame = 0;    ///< the frame of the hashes
   std::optional<std::uint64_t> stateHash;
@@ -168,21 +168,21 @@ struct RunSummary {
   std::vector<std::string> remarks;        ///< deviations from the request
   std::string stopped;                     ///< the signal that stopped the run; empty = it played to its end
   std::string failure;                     ///< the reason for stopping early; empty = none
-  std::vector<Happening> happened;         ///< the first ones, at most kMostHappenings
-  std::vector<MeasuredDistance> measured;  ///< the first ones, at most kMostHappenings
-  std::uint64_t happenedCount = 0;         ///< all of them
-  std::vector<BudgetKept> budgets;         ///< budgets and costs of nodes with a budget or with degradations
-  std::vector<Obeyed> obeyed;              ///< degradations that a replay took from its log
+  std::vector<ShowEvent> events;           ///< the first ones, at most kMostEvents
+  std::vector<MeasuredDistance> measured;  ///< the first ones, at most kMostEvents
+  std::uint64_t eventCount = 0;            ///< all of them
+  std::vector<BudgetSummary> budgets;      ///< budgets and costs of nodes with a budget or with degradations
+  std::vector<ReplayedDegradation> replayedDegradations;  ///< degradations that a replay took from its log
   /// Stress control over the whole show; nothing = stress was not controlled.
-  std::optional<StressFelt> stress;
+  std::optional<StressSummary> stress;
   std::optional<ClusterSummary> cluster;
 };
 
 /// Returns the summary without its failure, which is logged as an error, and without events.
 std::string toText(const RunSummary& summary);
-/// Returns the first kHappeningsTold events, one a line. Repeated events are counted at their first
+/// Returns the first kEventsInText events, one a line. Repeated events are counted at their first
 /// occurrence. Empty if there were no events.
-std::string happeningsText(const RunSummary& summary);
+std::string eventsText(const RunSummary& summary);
 /// Returns one JSON object on one line. Hashes are strings of 16 hexadecimal digits.
 std::string toJson(const RunSummary& summary);
 

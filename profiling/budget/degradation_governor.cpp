@@ -86,7 +86,7 @@ void DegradationGovernor::take(const SharedSpan& shared) {
   costs_.take(shared);
 }
 
-void DegradationGovernor::take(const DrawnAlone& drawn, const std::vector<NodeShare>& nodes) {
+void DegradationGovernor::take(const IsolatedDrawTime& drawn, const std::vector<NodeShare>& nodes) {
   const std::lock_guard lock(mutex_);
   costs_.take(drawn, nodes);
 }

@@ -69,7 +69,7 @@ public:
   void take(std::size_t track, const SpanRecord& record) override;
   void take(const ShortVisits& visits) override;
   void take(const SharedSpan& shared) override;
-  void take(const DrawnAlone& drawn, const std::vector<NodeShare>& nodes) override;
+  void take(const IsolatedDrawTime& drawn, const std::vector<NodeShare>& nodes) override;
   void caughtUp() override;
   /// Returns the worst overrun of a frame that ended recently.
   std::optional<Overrun> overrunOf(std::uint64_t frame) const;

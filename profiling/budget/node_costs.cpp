@@ -103,7 +103,7 @@ void NodeCosts::spend(std::uint64_t frame, NodeRef node, double ms) {
   for (const std::size_t governed : at->second) costs[governed] += ms;
 }
 
-void NodeCosts::sample(const DrawnAlone& s, std::span<const NodeShare> among) {
+void NodeCosts::sample(const IsolatedDrawTime& s, std::span<const NodeShare> among) {
   for (const auto& [node, part] : among)
     if (const auto at = above_.find(node); at != above_.end())
       for (const std::size_t governed : at->second) {
@@ -127,7 +127,7 @@ void NodeCosts::take(const SharedSpan& s) {
   sample({s.frame, s.wall, 0, s.what, s.ms, 0, s.round}, alike);
 }
 
-void NodeCosts::take(const DrawnAlone& d, const std::vector<NodeShare>& nodes) {
+void NodeCosts::take(const IsolatedDrawTime& d, const std::vector<NodeShare>& nodes) {
   if (d.what == Span::Draw) return sample(d, nodes);
   const NodeShare whole{sky_, 1};
   if (d.what == Span::Sky && sky_.valid()) sample(d, {&whole, 1});

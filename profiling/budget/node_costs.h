@@ -46,7 +46,7 @@ public:
   void take(const SpanRecord& record);
   void take(const ShortVisits& visits);
   void take(const SharedSpan& shared);
-  void take(const DrawnAlone& drawn, const std::vector<NodeShare>& nodes);
+  void take(const IsolatedDrawTime& drawn, const std::vector<NodeShare>& nodes);
 
   /// From that frame on a governed node is drawn in another way, or not at all: earlier samples are void.
   void drawnOtherwise(std::size_t governed, std::uint64_t frame, bool hidden);
@@ -70,7 +70,7 @@ private:
     auto operator<=>(const SampleKey&) const = default;
   };
   void spend(std::uint64_t frame, NodeRef node, double ms);
-  void sample(const DrawnAlone& taken, std::span<const NodeShare> among);
+  void sample(const IsolatedDrawTime& taken, std::span<const NodeShare> among);
   /// How a governed node is drawn, and since when.
   struct Drawn {
     std::uint64_t since = 0;

@@ -10,26 +10,26 @@
 namespace stadion::plan {
 namespace {
 
-const char* nameOf(Doing what) {
+const char* nameOf(Activity what) {
   switch (what) {
-  case Doing::App: return "App";
-  case Doing::Cull: return "Cull";
-  case Doing::Calls: return "Draw";
-  case Doing::Raster: return "rasterised";
-  case Doing::Swap: return "swap";
-  case Doing::ForTurn: return "waits for its turn";
-  case Doing::ForPixels: return "waits for its pixels";
-  case Doing::ForWalls: return "waits for other walls";
+  case Activity::App: return "App";
+  case Activity::Cull: return "Cull";
+  case Activity::Calls: return "Draw";
+  case Activity::Raster: return "rasterised";
+  case Activity::Swap: return "swap";
+  case Activity::ForTurn: return "waits for its turn";
+  case Activity::ForPixels: return "waits for its pixels";
+  case Activity::ForWalls: return "waits for other walls";
   }
   return "";
 }
 
 char markOf(const Bar& bar) {
   switch (bar.what) {
-  case Doing::ForTurn: return ':';
-  case Doing::ForPixels: return '=';
-  case Doing::ForWalls: return '-';
-  case Doing::Swap: return '|';
+  case Activity::ForTurn: return ':';
+  case Activity::ForPixels: return '=';
+  case Activity::ForWalls: return '-';
+  case Activity::Swap: return '|';
   default: return static_cast<char>('0' + bar.frame % 10);
   }
 }

@@ -50,12 +50,12 @@ std::vector<Use> usesOf(const Schedule& s, const Window& w, const Plan& plan) {
   uses.push_back({"processors", processors / (plan.machine.cores * s.end)});
   for (std::size_t row = 0; row < s.rows.size(); ++row) {
     const auto own = [&](const Bar& b) {
-      return b.row == row && (!isWait(b.what) || b.what == Doing::ForPixels);
+      return b.row == row && (!isWait(b.what) || b.what == Activity::ForPixels);
     };
     uses.push_back({s.rows[row], timeIn(s, w, own) / length});
   }
   const auto inTurn = [&](const Bar& b) {
-    return b.what == Doing::Calls || (plan.waitsInTurn && b.what == Doing::ForPixels);
+    return b.what == Activity::Calls || (plan.waitsInTurn && b.what == Activity::ForPixels);
   };
   const bool takesTurns = plan.takesTurns && plan.walls > 1 && plan.rasterisers == 1;
   if (takesTurns && plan.pipelined && plan.machines == 1)

@@ -103,7 +103,7 @@ private:
     const FrameCost& f = costOf(frame);
     return f.walls[wall % f.walls.size()];
   }
-  void note(std::size_t row, Doing what, std::uint64_t frame, double begin) {
+  void note(std::size_t row, Activity what, std::uint64_t frame, double begin) {
     if (simulation_.now() > begin) out_.bars.push_back({row, what, frame, begin, simulation_.now()});
   }
 
@@ -130,7 +130,7 @@ private:
       const std::size_t slot = slots_[machine].beginWrite();
       const Ticket ticket{frame, simulation_.now()};
       co_await computeApp(machine, frame);
-      note(machine, Doing::App, frame, ticket.began);
+      note(machine, Activity::App, frame, ticket.began);
       slots_[machine].endWrite(slot, ticket);
     }
     slots_[machine].finish();
@@ -160,7 +160,7 @@ private:
       my.handed.push_back(lease->ticket);
       co_await simulation_.compute(machineOf(wall), rest);
       ++my.culled;
-      note(rowOf(wall, false), Doing::Cull, lease->ticket.frame, begin);
+      note(rowOf(wall, false), Activity::Cull, lease->ticket.frame, begin);
       slots.release(lease->slot);
     }
     my.finished = true;
@@ -181,35 +181,35 @@ private:
         co_await simulation_.until([&rasteriser] { return !rasteriser.taken; });
         rasteriser.taken = true;
       }
-      note(row, Doing::ForTurn, ticket.frame, begin);
+      note(row, Activity::ForTurn, ticket.frame, begin);
       begin = simulation_.now();
       for (const PictureCost& picture : costOf(ticket.frame, wall).pictures) {
         co_await simulation_.compute(machineOf(wall), picture.calls);
         co_await simulation_.until([&my, drawn] { return my.culled > drawn; });
-        note(row, Doing::Calls, ticket.frame, begin);
+        note(row, Activity::Calls, ticket.frame, begin);
         send(wall, ticket.frame, picture);
         begin = simulation_.now();
         if (plan_.waitsInTurn) co_await simulation_.until([&my] { return my.inWork == 0; });
-        note(row, Doing::ForPixels, ticket.frame, begin);
+        note(row, Activity::ForPixels, ticket.frame, begin);
         begin = simulation_.now();
       }
       rasteriser.taken = false;
       begin = simulation_.now();
       co_await simulation_.until([&my] { return my.inWork == 0; });
-      note(row, Doing::ForPixels, ticket.frame, begin);
+      note(row, Activity::ForPixels, ticket.frame, begin);
 
       begin = simulation_.now();
       const std::uint64_t round = rounds_;
       ++arrivedOf_[machineOf(wall)];
       if (++arrived_ == plan_.walls) {
         co_await simulation_.compute(machineOf(wall), costOf(ticket.frame).swap);
-        note(row, Doing::Swap, ticket.frame, begin);
+        note(row, Activity::Swap, ticket.frame, begin);
         out_.shown.push_back({ticket.frame, ticket.began, simulation_.now()});
         arrived_ = 0, ++rounds_;
         std::ranges::fill(arrivedOf_, 0);
       } else {
         co_await simulation_.until([this, round] { return rounds_ != round; });
-        note(row, Doing::ForWalls, ticket.frame, begin);
+        note(row, Activity::ForWalls, ticket.frame, begin);
       }
       ++my.emptyLists;
     }
@@ -233,7 +233,7 @@ private:
       my.pictures.pop_front();
       const double begin = simulation_.now();
       co_await simulation_.compute(machine, picture.raster, picture.threads);
-      note(rowOfRasteriser(index), Doing::Raster, picture.frame, begin);
+      note(rowOfRasteriser(index), Activity::Raster, picture.frame, begin);
       --walls_[picture.wall].inWork;
     }
   }
@@ -248,38 +248,38 @@ private:
       co_await simulation_.sleepUntil(tick);
       const double began = simulation_.now();
       co_await computeApp(machine, frame);
-      note(machine, Doing::App, frame, began);
+      note(machine, Activity::App, frame, began);
       for (std::size_t wall = machine; wall < plan_.walls; wall += machines_) {
         const double begin = simulation_.now();
         co_await simulation_.compute(machine, costOf(frame, wall).cull);
-        note(machine, Doing::Cull, frame, begin);
+        note(machine, Activity::Cull, frame, begin);
       }
       for (std::size_t wall = machine; wall < plan_.walls; wall += machines_) {
         double begin = simulation_.now();
         for (const PictureCost& picture : costOf(frame, wall).pictures) {
           co_await simulation_.compute(machine, picture.calls);
-          note(machine, Doing::Calls, frame, begin);
+          note(machine, Activity::Calls, frame, begin);
           send(wall, frame, picture);
           begin = simulation_.now();
           if (plan_.waitsInTurn)
             co_await simulation_.until([this, wall] { return walls_[wall].inWork == 0; });
-          note(machine, Doing::ForPixels, frame, begin);
+          note(machine, Activity::ForPixels, frame, begin);
           begin = simulation_.now();
         }
         begin = simulation_.now();
         co_await simulation_.until([this, wall] { return walls_[wall].inWork == 0; });
-        note(machine, Doing::ForPixels, frame, begin);
+        note(machine, Activity::ForPixels, frame, begin);
       }
       const double begin = simulation_.now();
       const std::uint64_t round = rounds_;
       if (++arrived_ == machines_) {
         co_await simulation_.compute(machine, costOf(frame).swap);
-        note(machine, Doing::Swap, frame, begin);
+        note(machine, Activity::Swap, frame, begin);
         out_.shown.push_back({frame, began, simulation_.now()});
         arrived_ = 0, ++rounds_;
       } else {
         co_await simulation_.until([this, round] { return rounds_ != round; });
-        note(machine, Doing::ForWalls, frame, begin);
+        note(machine, Activity::ForWalls, frame, begin);
       }
     }
     ++drawnOut_;

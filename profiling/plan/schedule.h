@@ -66,7 +66,7 @@ struct Plan {
   std::size_t frames = 60;
 };
 
-enum class Doing : std::uint8_t {
+enum class Activity : std::uint8_t {
   App,
   Cull,
   Calls,   ///< Draw, in its turn
@@ -76,14 +76,14 @@ enum class Doing : std::uint8_t {
   ForPixels,  ///< Draw waits for the rasteriser
   ForWalls,   ///< Draw waits for other walls to finish
 };
-constexpr bool isWait(Doing d) {
-  return d >= Doing::ForTurn;
+constexpr bool isWait(Activity d) {
+  return d >= Activity::ForTurn;
 }
 
 /// An interval of one thread, or of the rasteriser.
 struct Bar {
   std::size_t row = 0;  ///< in Schedule::rows
-  Doing what = Doing::App;
+  Activity what = Activity::App;
   std::uint64_t frame = 0;
   double begin = 0, end = 0;
 };

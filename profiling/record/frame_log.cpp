@@ -283,7 +283,7 @@ std::size_t FrameLog::nextBatch(std::uint32_t wall, std::uint32_t eye, std::size
   return now;
 }
 
-void FrameLog::drewAlone(const DrawnAlone& drawn, std::span<const NodeShare> nodes) {
+void FrameLog::drewAlone(const IsolatedDrawTime& drawn, std::span<const NodeShare> nodes) {
   track().disturb();
   const std::size_t at = 2 * std::size_t{drawn.wall} + drawn.eye;
   const std::lock_guard lock(mutex_);

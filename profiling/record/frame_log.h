@@ -63,7 +63,7 @@ public:
   virtual void take(const CountRecord&) {}
   virtual void take(const ShortVisits&) {}
   virtual void take(const SharedSpan&) {}
-  virtual void take(const DrawnAlone&, const std::vector<NodeShare>&) {}
+  virtual void take(const IsolatedDrawTime&, const std::vector<NodeShare>&) {}
   /// True if the reader also takes the frames before FrameLogOptions::from.
   virtual bool takesFirstFrames() const { return false; }
   /// Called when all present records have been passed on.
@@ -92,7 +92,7 @@ public:
   DrawSample drawSample(std::uint64_t frame, std::uint32_t wall) override;
   bool wantsAlone(std::span<const NodeRef> owners) const override;
   std::size_t nextBatch(std::uint32_t wall, std::uint32_t eye, std::size_t batches) override;
-  void drewAlone(const DrawnAlone& drawn, std::span<const NodeShare> nodes) override;
+  void drewAlone(const IsolatedDrawTime& drawn, std::span<const NodeShare> nodes) override;
 
   /// Turns sampling of drawing on or off. Any thread.
   void setSamples(bool on) { samples_ = on; }
@@ -109,7 +109,7 @@ private:
   static constexpr std::size_t kShortVisits = 1 << 12;
 
   struct Alone {
-    DrawnAlone drawn;
+    IsolatedDrawTime drawn;
     std::vector<NodeShare> nodes;
   };
   /// The sampling state of a wall's eye.

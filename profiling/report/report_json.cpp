@@ -220,7 +220,7 @@ private:
     for (const CountRow& c : data_.figures.counts)
       s["counts"].push_back(
           {{"of", c.of}, {"what", c.what}, {"mean", number(c.mean)}, {"max", number(c.most)}});
-    for (const Explained* e : data_.figures.explained())
+    for (const StageBreakdown* e : data_.figures.breakdowns())
       s["explained"].push_back({{"stage", e->stage},
                                 {"measured", number(e->measured)},
                                 {"nodes", number(e->nodes)},

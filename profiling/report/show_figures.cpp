@@ -240,7 +240,7 @@ private:
   }
 
   void explain() {
-    Explained& app = out_.app;
+    StageBreakdown& app = out_.app;
     // If other threads help, App waits for them meanwhile.
     app.stage = "app";
     const double helped = appScale_ * profile_.helped() / wholeFrames_;
@@ -253,7 +253,7 @@ private:
     app.named += std::max(0.0, sum(Span::Publish) - published);
     app.named -= std::min(sum(Span::Workers), helped);
 
-    Explained& cull = out_.cull;
+    StageBreakdown& cull = out_.cull;
     cull.stage = "cull", cull.measured = sum(Span::Cull);
     for (const NodeRow& row : out_.nodes) cull.nodes += row.cull;
     // The parts without a node.
@@ -261,7 +261,7 @@ private:
       for (std::uint32_t wall = 0; wall < out_.walls.size(); ++wall)
         if (profile_.shares(s, wall) == 0) cull.named += sum(s, wall);
 
-    Explained& draw = out_.draw;
+    StageBreakdown& draw = out_.draw;
     draw.stage = "draw", draw.measured = sum(Span::Draw);
     for (const Span s :
          {Span::Prepare, Span::Upload, Span::ShadowMaps, Span::Finish, Span::Read, Span::ForTurn})
@@ -286,7 +286,7 @@ private:
 
   /// Explains the eyes as drawn alone.
   void explainAlone() {
-    Explained& alone = out_.alone;
+    StageBreakdown& alone = out_.alone;
     alone.stage = "alone";
     for (const NodeRow& row : out_.nodes) alone.nodes += row.draw;
     for (const auto& [key, eye] : profile_.eyes())

@@ -64,7 +64,7 @@ struct CountRow {
 };
 
 /// The part of a stage that is explained.
-struct Explained {
+struct StageBreakdown {
   std::string stage;    ///< app, cull, draw, alone
   double measured = 0;  ///< cost on all walls, for all eyes
   double nodes = 0;
@@ -84,15 +84,15 @@ struct ShowFigures {
   std::vector<CountRow> counts;
   /// By the clock, as the show was played. Nodes and parts get their shares of the eye drawn alone, scaled to
   /// the eye's time.
-  Explained app, cull, draw;
+  StageBreakdown app, cull, draw;
   /// The eyes drawn alone, and their nodes and parts drawn alone, before scaling.
-  Explained alone;
+  StageBreakdown alone;
   double warmUpMs = 0;     ///< before the first frame is drawn; in no other figure. 0: nothing was drawn
   std::string drawMethod;  ///< empty: nothing was drawn
   std::uint64_t wholeFrames = 0;   ///< number of `frames` with recorded nodes in App
   std::uint64_t framesNeeded = 0;  ///< frames that would measure every node, estimated; 0: these did, or no
                                    ///< number would
-  std::array<const Explained*, 4> explained() const { return {&app, &cull, &draw, &alone}; }
+  std::array<const StageBreakdown*, 4> breakdowns() const { return {&app, &cull, &draw, &alone}; }
 };
 
 /// Returns true if this OpenGL, by its name, draws on the processor, so that drawing is measured as processor

@@ -40,7 +40,7 @@ std::string tooLittleText(const ShowFigures& f) {
 }
 
 /// If the pieces do not add up to the whole, their costs are less certain than they look.
-std::string apartText(const Explained& alone) {
+std::string apartText(const StageBreakdown& alone) {
   constexpr double kMuch = 0.15;
   if (std::abs(alone.covered() - 1) <= kMuch) return {};
   return fmt::format(
@@ -167,7 +167,7 @@ std::string toText(const ShowFigures& f, std::size_t mostNodes) {
   for (const CountRow& c : f.counts)
     text += fmt::format("{:10.1f} {:10.0f}  {}: {}\n", c.mean, c.most, c.of, c.what);
   text += "\nexplained   measured     nodes  the stage's own parts\n";
-  for (const Explained* e : f.explained())
+  for (const StageBreakdown* e : f.breakdowns())
     if (!f.drawMethod.empty() || (e != &f.draw && e != &f.alone))
       text +=
           fmt::format("{:5} {} {:9.4f} {:9.4f} {:9.4f}{}\n", e->stage,
@@ -200,7 +200,7 @@ std::string toJson(const ShowFigures& f) {
   j["counts"] = nlohmann::json::array();
   for (const CountRow& c : f.counts)
     j["counts"].push_back({{"of", c.of}, {"what", c.what}, {"mean", c.mean}, {"max", c.most}});
-  for (const Explained* e : f.explained())
+  for (const StageBreakdown* e : f.breakdowns())
     j["explained"].push_back(
         {{"stage", e->stage},
          {"measured_ms", e->measured},

@@ -48,7 +48,7 @@ void ShowProfile::adopt(std::uint32_t load, std::uint32_t first) {
       ++at;
       continue;
     }
-    Counted as = at->first;
+    CountKey as = at->first;
     as.node.load = first;
     counts_[as].add(at->second);
     at = counts_.erase(at);
@@ -165,7 +165,7 @@ void ShowProfile::take(const SharedSpan& s) {
       ++profileOf(ref).walls[s.wall].shares[s.what];
 }
 
-void ShowProfile::take(const DrawnAlone& d, const std::vector<NodeShare>& nodes) {
+void ShowProfile::take(const IsolatedDrawTime& d, const std::vector<NodeShare>& nodes) {
   EyeCost& eye = eyes_[{d.wall, d.eye}];
   eye.empty.add(d.emptyMs);
   if (d.what == Span::LeftEye || d.what == Span::RightEye)

@@ -66,12 +66,12 @@ struct EyeCost {
 };
 
 /// The owner of counted work: a stage, an eye, or a node.
-struct Counted {
+struct CountKey {
   Span of = Span::App;  ///< the stage; LeftEye, RightEye: of Draw
   std::uint32_t wall = kNoWall;
   NodeRef node;
   Count what = Count::Visits;
-  auto operator<=>(const Counted&) const = default;
+  auto operator<=>(const CountKey&) const = default;
 };
 
 class ShowProfile final : public SpanReader {
@@ -83,7 +83,7 @@ public:
   void take(std::size_t track, const SpanRecord& record) override;
   void take(const CountRecord& count) override;
   void take(const SharedSpan& shared) override;
-  void take(const DrawnAlone& drawn, const std::vector<NodeShare>& nodes) override;
+  void take(const IsolatedDrawTime& drawn, const std::vector<NodeShare>& nodes) override;
 
   const std::map<NodeRef, NodeProfile>& nodes() const { return nodes_; }
   /// Returns totals by kind and wall (kNoWall: no wall).
@@ -91,7 +91,7 @@ public:
   /// By wall and eye.
   const std::map<std::pair<std::uint32_t, std::uint32_t>, EyeCost>& eyes() const { return eyes_; }
   /// Returns the series of each count.
-  const std::map<Counted, CostSeries>& counts() const { return counts_; }
+  const std::map<CountKey, CostSeries>& counts() const { return counts_; }
   std::uint64_t frames() const { return frames_; }
   /// Returns the number of frames with parts of that wall's Cull.
   std::uint64_t keptCulls(std::uint32_t wall) const;
@@ -139,7 +139,7 @@ private:
   std::map<std::pair<std::uint32_t, std::uint32_t>, EyeCost> eyes_;
   std::map<std::uint32_t, std::uint64_t> sampled_;
   std::map<std::pair<Span, std::uint32_t>, std::uint64_t> shares_;
-  std::map<Counted, CostSeries> counts_;
+  std::map<CountKey, CostSeries> counts_;
   std::uint64_t frames_ = 0, wholeFrames_ = 0;
   double wholeApp_ = 0;
   double helped_ = 0;

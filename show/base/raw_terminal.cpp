@@ -17,7 +17,7 @@ namespace {
 constexpr std::array kEnding{SIGHUP, SIGQUIT, SIGABRT, SIGSEGV, SIGBUS, SIGILL, SIGFPE, SIGPIPE};
 
 /// Reached by handlers, which can reach nothing else. Complete before `isTaken` says so.
-struct Taken {
+struct SavedTerminal {
   int file = -1;
   termios before{}, raw{};
   std::array<struct sigaction, kEnding.size()> actions{};  ///< of kEnding, before

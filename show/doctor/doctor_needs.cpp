@@ -23,22 +23,22 @@ bool hasSounds(const SourceText& text, const NodeRegistry& types) {
 
 }  // namespace
 
-std::unique_ptr<WantedOfMachine> WantedOfMachine::read(const std::vector<std::string>& words,
-                                                       Diagnostics& findings) {
-  auto wanted = std::make_unique<WantedOfMachine>();
+std::unique_ptr<MachineNeeds> MachineNeeds::read(const std::vector<std::string>& words,
+                                                 Diagnostics& findings) {
+  auto wanted = std::make_unique<MachineNeeds>();
   bool all = true;
   for (const std::string& word : words) all &= wanted->add(word, findings);
   return all ? std::move(wanted) : nullptr;
 }
 
-DoctorNeeds WantedOfMachine::needs() const {
+DoctorNeeds MachineNeeds::needs() const {
   DoctorNeeds needs;
   needs.topics = topics_, needs.interfaces = interfaces_;
   for (const WallFile& walls : walls_) needs.walls.push_back(&walls);
   return needs;
 }
 
-bool WantedOfMachine::add(const std::string& word, Diagnostics& findings) {
+bool MachineNeeds::add(const std::string& word, Diagnostics& findings) {
   if (word.ends_with(".evs")) return addShow(word, findings);
   if (word.ends_with(".walls")) return addWalls(word, findings);
   if (word.ends_with(".cluster")) return addCluster(word, findings);
@@ -53,7 +53,7 @@ bool WantedOfMachine::add(const std::string& word, Diagnostics& findings) {
   return false;
 }
 
-bool WantedOfMachine::addShow(const std::string& file, Diagnostics& findings) {
+bool MachineNeeds::addShow(const std::string& file, Diagnostics& findings) {
   const SharedTypes types = standardNodes();
   const auto texts = ScriptTexts::read(file, AssetRoots::ofScript(file), *types);
   const auto show = texts->show();
@@ -66,7 +66,7 @@ bool WantedOfMachine::addShow(const std::string& file, Diagnostics& findings) {
   return true;
 }
 
-bool WantedOfMachine::addWalls(const std::string& file, Diagnostics& findings) {
+bool MachineNeeds::addWalls(const std::string& file, Diagnostics& findings) {
   auto walls = loadWalls(file, shareFolder() + "/walls", findings);
   if (!walls) return false;
   topics_.insert(topics_.end(), {"programs", "drawing", "displays"});
@@ -74,7 +74,7 @@ bool WantedOfMachine::addWalls(const std::string& file, Diagnostics& findings) {
   return true;
 }
 
-bool WantedOfMachine::addCluster(const std::string& file, Diagnostics& findings) {
+bool MachineNeeds::addCluster(const std::string& file, Diagnostics& findings) {
   const auto cluster = loadCluster(file, findings);
   if (!cluster) return false;
   topics_.insert(topics_.end(), {"programs", "network"});

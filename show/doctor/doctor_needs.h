@@ -12,10 +12,10 @@
 
 namespace stadion {
 
-class WantedOfMachine {
+class MachineNeeds {
 public:
   /// Null, with the findings, if a word means nothing.
-  static std::unique_ptr<WantedOfMachine> read(const std::vector<std::string>& words, Diagnostics& findings);
+  static std::unique_ptr<MachineNeeds> read(const std::vector<std::string>& words, Diagnostics& findings);
 
   /// Refers to this object.
   DoctorNeeds needs() const;

@@ -85,7 +85,7 @@ std::optional<DrawSetting> settingOf(const std::string& word) {
   return word == wordOf(s) ? std::optional(s) : std::nullopt;
 }
 
-std::vector<RoomToMeasure> roomsToMeasure(const RoomsWanted& wanted, Diagnostics& findings) {
+std::vector<RoomToMeasure> roomsToMeasure(const RoomRequest& wanted, Diagnostics& findings) {
   const auto sides = parseSize(wanted.size);
   const auto fits = [](std::uint32_t side) { return side >= 1 && side <= kLargest; };
   if (!sides || !fits(sides->first) || !fits(sides->second))
@@ -111,15 +111,15 @@ std::vector<RoomToMeasure> roomsToMeasure(const RoomsWanted& wanted, Diagnostics
   return rooms;
 }
 
-Result<RoomFound> measureRoom(const RoomToMeasure& wanted, const std::string& folder,
-                              const std::atomic<bool>& stop,
-                              const std::function<void(const std::string&)>& progress) {
+Result<RoomMeasurement> measureRoom(const RoomToMeasure& wanted, const std::string& folder,
+                                    const std::atomic<bool>& stop,
+                                    const std::function<void(const std::string&)>& progress) {
   const auto settings = settingsToTry(processorsHere(), wanted.room.walls);
   // A single wall's own processors are all there are.
   SettingTrials trials(settings, wanted.room.walls > 1 && processorsHere() > 1);
   const double window = std::clamp(
       wanted.seconds / (kRoundsWanted * static_cast<double>(settings.size())) - kOverhead, 0.3, 5.0);
-  RoomFound found{wanted.room, {}};
+  RoomMeasurement found{wanted.room, {}};
   const auto limit = std::chrono::seconds(std::lround(std::max(kLeastLimit, wanted.seconds / kRoundsWanted)));
   const Clock::time_point begin = Clock::now();
   double longest = 0;
@@ -145,8 +145,8 @@ Result<RoomFound> measureRoom(const RoomToMeasure& wanted, const std::string& fo
     progress("not everything could be tried in that time; --seconds gives more\n");
   found.room.settings = trials.results();
   if (found.room.settings.empty() && !stop)
-    return Result<RoomFound>::failure(wanted.walls +
-                                      ": nothing could be measured in that time; --seconds gives more");
+    return Result<RoomMeasurement>::failure(wanted.walls +
+                                            ": nothing could be measured in that time; --seconds gives more");
   return found;
 }
 

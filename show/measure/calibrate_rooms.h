@@ -15,7 +15,7 @@
 
 namespace stadion {
 
-struct RoomsWanted {
+struct RoomRequest {
   std::vector<std::string> walls;  ///< wall files
   std::string size, look;
   double seconds = 50;  ///< for all of them
@@ -28,20 +28,20 @@ struct RoomToMeasure {
   double seconds = 0;
 };
 
-struct RoomFound {
+struct RoomMeasurement {
   MeasuredRoom room;
   std::string rasteriser;
 };
 
 /// Rooms of more walls have more of the time.
-std::vector<RoomToMeasure> roomsToMeasure(const RoomsWanted& wanted, Diagnostics& findings);
+std::vector<RoomToMeasure> roomsToMeasure(const RoomRequest& wanted, Diagnostics& findings);
 
 /// Takes not much longer than its seconds, even if not everything could be tried. The show lies in `folder`.
 /// Ends early once `stop` is true.
 /// `progress` receives text about each setting, piece by piece, with its line breaks.
-Result<RoomFound> measureRoom(const RoomToMeasure& room, const std::string& folder,
-                              const std::atomic<bool>& stop,
-                              const std::function<void(const std::string&)>& progress);
+Result<RoomMeasurement> measureRoom(const RoomToMeasure& room, const std::string& folder,
+                                    const std::atomic<bool>& stop,
+                                    const std::function<void(const std::string&)>& progress);
 
 /// "process:2:pinned", for the process that measures it.
 std::string wordOf(const DrawSetting& setting);

@@ -20,7 +20,7 @@ namespace {
 using Read = Result<FlownObject>;
 
 /// What is asked of the importer, and what the script says of the body.
-struct Wanted {
+struct FitRequest {
   std::string file;
   ImportOptions options;
   Appearance appearance;
@@ -31,7 +31,7 @@ struct Wanted {
 
 /// What the script's own rules say of matter that the command line states: what they refuse, no show can
 /// have.
-std::optional<Diagnostic> refusedByScripts(const Wanted& w, const Mesh& mesh, const StatedMatter& stated,
+std::optional<Diagnostic> refusedByScripts(const FitRequest& w, const Mesh& mesh, const StatedMatter& stated,
                                            const BodyAttributes& body, double mass) {
   const auto three = [](const char* name, const std::optional<Vec3>& v) {
     return v ? fmt::format(", {}=\"{:.17g}, {:.17g}, {:.17g}\"", name, v->x(), v->y(), v->z()) : "";
@@ -64,7 +64,7 @@ std::optional<Diagnostic> refusedByScripts(const Wanted& w, const Mesh& mesh, co
   return std::nullopt;
 }
 
-Read imported(const Wanted& w, const StatedMatter& stated, AssetRoots roots) {
+Read imported(const FitRequest& w, const StatedMatter& stated, AssetRoots roots) {
   Importer importer(Importer::installedProgram(), std::move(roots));
   const auto model = importer.load(w.file, w.options, w.where);
   if (!model) return model.error();
@@ -98,7 +98,7 @@ Read fromModel(const std::string& file, const std::vector<std::string>& further,
     return Read::failure("there is no folder " + path.parent_path().string());
   for (const std::string& r : further)
     if (!roots.add(r)) return Read::failure("--asset-root: cannot open the folder " + r);
-  Wanted w;
+  FitRequest w;
   w.file = path.filename().string();
   return imported(w, stated, std::move(roots));
 }
@@ -142,7 +142,7 @@ Read fromScript(const std::string& file, const std::string& name, const std::vec
     return wrong;
   }
   const Declaration& d = *found;
-  Wanted w;
+  FitRequest w;
   w.file = std::string(d.text("file")), w.where = d.where("file");
   w.options.unit = d.optionalNumber("unit");
   w.options.up = d.optionalChoice<UpAxis>("up");

@@ -53,7 +53,7 @@ extern "C" void reportCrash(int signal) {
 
 }  // namespace
 
-ToldInCrash::ToldInCrash(const std::string& file) {
+CrashFileRegistration::CrashFileRegistration(const std::string& file) {
   if (file.size() >= sizeof ToldFile::name) return;
   for (int i = 0; i < static_cast<int>(std::size(toldFiles)); ++i) {
     int free = ToldFile::Free;
@@ -65,7 +65,7 @@ ToldInCrash::ToldInCrash(const std::string& file) {
   }
 }
 
-ToldInCrash::~ToldInCrash() {
+CrashFileRegistration::~CrashFileRegistration() {
   if (place_ >= 0) toldFiles[place_].state = ToldFile::Free;
 }
 

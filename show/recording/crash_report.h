@@ -9,12 +9,12 @@ namespace stadion {
 /// A file with the last frames. While this object lives, a crash report names the file.
 ///
 /// Threads  any; of more than four at a time the others are not told of.
-class ToldInCrash {
+class CrashFileRegistration {
 public:
-  explicit ToldInCrash(const std::string& file);
-  ~ToldInCrash();
-  ToldInCrash(const ToldInCrash&) = delete;
-  ToldInCrash& operator=(const ToldInCrash&) = delete;
+  explicit CrashFileRegistration(const std::string& file);
+  ~CrashFileRegistration();
+  CrashFileRegistration(const CrashFileRegistration&) = delete;
+  CrashFileRegistration& operator=(const CrashFileRegistration&) = delete;
 
 private:
   int place_ = -1;

@@ -106,17 +106,17 @@ std::optional<Diagnostic> RunWatch::finish() {
 }
 
 void RunWatch::note(const EventRecord& event, const Scene& scene) {
-  ++happenedCount_;
-  if (happened_.size() < RunSummary::kMostHappenings)
-    happened_.push_back(
+  ++eventCount_;
+  if (events_.size() < RunSummary::kMostEvents)
+    events_.push_back(
         {toSeconds(event.when), std::string(event.event.name()), nameIn(scene, event.node), event.figure});
-  if (event.figure && measured_.size() < RunSummary::kMostHappenings)
+  if (event.figure && measured_.size() < RunSummary::kMostEvents)
     measured_.push_back({toSeconds(event.when), nameIn(scene, event.node), *event.figure});
 }
 
 void RunWatch::note(const DegradationDecision& d, const Scene& scene) {
   const NodeRef node{d.load, d.position};
-  Obeyed& o = givenUp_[node];
+  ReplayedDegradation& o = givenUp_[node];
   if (o.node.empty() && givesUp(scene, node)) o.node = nameIn(scene, node);
   ++o.changes;
   o.highest = std::max(o.highest, d.level), o.now = d.level;
@@ -129,11 +129,11 @@ void RunWatch::addObeyed(RunSummary& s) const {
   std::uint64_t aboutNothing = 0;
   for (const auto& [node, o] : givenUp_)
     if (node.load == 0)
-      s.stress = StressFelt{stressOf(o.highest), stressOf(o.now), o.changes};
+      s.stress = StressSummary{stressOf(o.highest), stressOf(o.now), o.changes};
     else if (o.node.empty())
       aboutNothing += o.changes;
     else
-      s.obeyed.push_back(o);
+      s.replayedDegradations.push_back(o);
   if (aboutNothing > 0)
     s.remarks.push_back("decisions of the log about nodes that are not there or give nothing up: " +
                         std::to_string(aboutNothing));
@@ -149,9 +149,9 @@ void RunWatch::addTo(RunSummary& s, std::uint64_t frames) const {
                 {"changes published per frame", static_cast<double>(published_) / each},
                 {"messages delivered", static_cast<double>(delivered_)},
                 {"messages lost", static_cast<double>(lost_)}};
-  s.happened = happened_;
+  s.events = events_;
   s.measured = measured_;
-  s.happenedCount = happenedCount_;
+  s.eventCount = eventCount_;
   addObeyed(s);
 }
 

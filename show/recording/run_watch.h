@@ -59,10 +59,10 @@ private:
   std::vector<NodeTrace> traces_;
   TimeSignature last_;
   std::uint64_t stateHash_ = 0, historyHash_ = 0, visited_ = 0, published_ = 0, delivered_ = 0, lost_ = 0;
-  std::vector<Happening> happened_;
+  std::vector<ShowEvent> events_;
   std::vector<MeasuredDistance> measured_;
-  std::uint64_t happenedCount_ = 0;
-  std::map<NodeRef, Obeyed> givenUp_;  ///< {}: by the whole show, its stress
+  std::uint64_t eventCount_ = 0;
+  std::map<NodeRef, ReplayedDegradation> givenUp_;  ///< {}: by the whole show, its stress
 };
 
 }  // namespace stadion

@@ -57,7 +57,7 @@ public:
       if (!box) findings.warning(box.error().where, box.error().message + kBlackBoxElsewhere);
       if (box) {
         made->box_ = std::move(box.value()), readers.push_back(made->box_.get());
-        made->told_.emplace(made->box_->file());
+        made->crashFile_.emplace(made->box_->file());
       }
     }
     if (options.report) {
@@ -141,7 +141,7 @@ private:
   ShowProfile profile_{&names_};
   std::unique_ptr<DegradationGovernor> governor_;
   std::unique_ptr<BlackBox> box_;
-  std::optional<ToldInCrash> told_;  ///< names the file of the black box in a crash message
+  std::optional<CrashFileRegistration> crashFile_;  ///< names the file of the black box in a crash message
   std::unique_ptr<TraceFile> trace_;
   std::unique_ptr<ReportRecording> report_;
   std::unique_ptr<FrameLog> log_;

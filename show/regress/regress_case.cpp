@@ -23,7 +23,7 @@ using namespace regression;
 
 constexpr const char* kCountWork = "--count-work";
 
-struct Played {
+struct CaseRun {
   std::optional<RunFacts> facts{};
   std::string fault{};
   bool refused = false;  ///< for a mistake of the user's
@@ -46,7 +46,7 @@ public:
            const std::atomic<bool>& stop, const RegressProgress& progress)
       : case_(c), o_(o), with_(with), update_(update), stop_(stop), progress_(progress) {}
 
-  CaseResult play(const std::string& mode, const Played* first, const std::string& firstMode) {
+  CaseResult play(const std::string& mode, const CaseRun* first, const std::string& firstMode) {
     const auto start = std::chrono::steady_clock::now();
     const double processor = childrensSeconds();
     result_ = {};
@@ -67,10 +67,10 @@ public:
     result_.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     return std::move(result_);
   }
-  const Played& last() const { return last_; }
+  const CaseRun& last() const { return last_; }
 
 private:
-  Played run(const std::string& program, const std::string& mode) {
+  CaseRun run(const std::string& program, const std::string& mode) {
     std::vector<std::string> words = playWords(program, case_, mode);
     words.emplace_back(kCountWork);
     ChildResult child = runChild(words, o_.limit, stop_);
@@ -125,7 +125,7 @@ private:
   }
 
   void compareBuilds(const std::string& mode) {
-    const Played other = run(with_.program, mode);
+    const CaseRun other = run(with_.program, mode);
     if (!other.facts) {
       result_.fault = other.fault, result_.refused = other.refused;
       return;
@@ -372,7 +372,7 @@ private:
   const std::atomic<bool>& stop_;
   const RegressProgress& progress_;
   CaseResult result_;
-  Played last_;
+  CaseRun last_;
 };
 
 }  // namespace
@@ -382,7 +382,7 @@ std::vector<CaseResult> playCase(const SuiteCase& c, const RegressSettings& o, c
                                  const RegressProgress& progress) {
   CasePlay play(c, o, with, update, stop, progress);
   std::vector<CaseResult> results;
-  Played first;
+  CaseRun first;
   for (std::size_t i = 0; i < c.modes.size() && !stop; ++i) {
     results.push_back(play.play(c.modes[i], i > 0 ? &first : nullptr, c.modes.front()));
     if (i == 0) first = play.last();

@@ -50,7 +50,7 @@ std::string logBeside(const std::string& show) {
 using Clock = std::chrono::steady_clock;
 
 /// A child and what it says.
-struct Running {
+struct RunningChild {
   Descriptor out = makeMemoryFile(), err = makeMemoryFile();
   ChildProcess child;
   ChildResult result;
@@ -90,7 +90,7 @@ struct Running {
 
 ChildResult runChild(const std::vector<std::string>& words, std::chrono::seconds limit,
                      const std::atomic<bool>& stop, const std::vector<std::string>& environment) {
-  Running child;
+  RunningChild child;
   child.start(words, -1, environment);
   const auto deadline = Clock::now() + limit;
   while (!child.ended(std::chrono::milliseconds(200))) child.giveUpIf(stop, deadline, limit);
@@ -110,7 +110,7 @@ std::pair<ChildResult, ChildResult> runInTurns(const std::vector<std::string>& f
   Descriptor ofFirst(ends[0]), ofSecond(ends[1]);
   const char turn = 't';
   (void)!send(ofSecond.get(), &turn, 1, MSG_NOSIGNAL);  // what one end sends the other one reads
-  Running a, b;
+  RunningChild a, b;
   a.start(first, ofFirst.get(), environment);
   b.start(second, ofSecond.get(), environment);
   ofFirst.close(), ofSecond.close();  // so that each child learns when the other one has ended

@@ -79,7 +79,7 @@ void OpenSession::fillReport(SessionReport& report, const FrameLoopOutcome& outc
   summary.lateFrames = byTicks ? std::max(outcome.missedTicks, outcome.ticksWithoutFrame) : 0;
   summary.mostTicksWithoutFrame = outcome.mostTicksWithoutFrame;
   if (const LatchCounts* c = state_.stages->latched())
-    summary.latched = LateLatched{c->latched, c->beyond, c->farthest, c->widest};
+    summary.lateLatch = LateLatchSummary{c->latched, c->beyond, c->farthest, c->widest};
   if (s.draw.ahead) summary.aimedAt = 1e3 * toSeconds(state_.stages->aimedAt());
   summary.elapsedSeconds = elapsed;
   state_.watch->addTo(summary, outcome.framesSimulated);
@@ -97,7 +97,7 @@ void OpenSession::addDrawing(RunSummary& summary) const {
   summary.remarks.push_back(drawn.empty() ? "nothing was drawn" : "drawn by " + drawn);
   if (!drawing_) return;
   const DrawSetting& how = drawing_->setting();
-  HowDrawn& to = summary.howDrawn;
+  DrawingSummary& to = summary.drawing;
   to.renderer = renderer_->drawsWithGl() ? "gl" : "cpu", to.chosen = renderer_->why();
   to.workers = how.processes ? "process" : "thread", to.threads = how.rasteriserThreads;
   to.pinned = how.pinned, to.why = drawing_->why();

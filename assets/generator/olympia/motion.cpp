@@ -49,7 +49,7 @@ Limb bent(const Vec3& root, const Vec3& end, const Vec3& pole, double a, double 
   return {upper, facing(z, z.cross(hinge))};
 }
 
-struct Placed {
+struct FootPose {
   Vec3 ankle;
   double yaw, pitch;  ///< pitch: heel up
 };
@@ -63,14 +63,14 @@ Vec3 ankleOn(Point sole, double yaw, double pitch) {
 }
 
 /// A foot that stands, its heel up as far as the hip demands it.
-Placed standing(Point sole, double yaw, const Vec3& hip) {
+FootPose standing(Point sole, double yaw, const Vec3& hip) {
   const double reach = 0.995 * (-joints::kKnee.z - joints::kAnkle.z);
   double pitch = 0;
   while (pitch < 75 && (hip - ankleOn(sole, yaw, pitch)).norm() > reach) pitch += 0.5;
   return {ankleOn(sole, yaw, pitch), yaw, pitch};
 }
 
-Placed footAt(const Foot& foot, double time, const Vec3& hip) {
+FootPose footAt(const Foot& foot, double time, const Vec3& hip) {
   Point sole = foot.start;
   double yaw = foot.yaw;
   for (const Step& step : foot.steps) {
@@ -81,7 +81,7 @@ Placed footAt(const Foot& foot, double time, const Vec3& hip) {
     if (time <= step.lift) break;
     const double s = (time - step.lift) / (step.land - step.lift), eased = smoothstep(0, 1, s);
     const double turning = mix(yaw, step.yaw, eased);
-    const Placed from = standing(sole, yaw, hip), to = standing(step.to, step.yaw, hip);
+    const FootPose from = standing(sole, yaw, hip), to = standing(step.to, step.yaw, hip);
     if (!step.by.empty()) {
       std::vector<Track::Key> keys{{step.lift, {from.ankle.x(), from.ankle.y(), from.ankle.z()}}};
       keys.insert(keys.end(), step.by.begin(), step.by.end());
@@ -143,7 +143,7 @@ private:
     const auto upper = static_cast<std::size_t>(first);
     const Vec3 hip = vec(times({side, 1, 1}, joints::kHip));
     const Vec3 placed = X_pelvis_ * hip;
-    const Placed sole = footAt(foot, time_, placed);
+    const FootPose sole = footAt(foot, time_, placed);
     const Quat toes = about(Vec3::UnitZ(), sole.yaw);
     // The knee looks between where the pelvis and the toes do.
     const Vec3 ahead = (X_pelvis_.q * Vec3(0.12 * side, 1, 0.1)).normalized() + toes * Vec3(0, 1, 0.15);

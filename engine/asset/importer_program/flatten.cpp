@@ -149,8 +149,8 @@ Flat flatten(const aiScene& scene, const FlattenOptions& options) {
   return std::move(flattener.flat);
 }
 
-Dropped dropBadTriangles(Flat& flat) {
-  Dropped dropped;
+DroppedTriangles dropBadTriangles(Flat& flat) {
+  DroppedTriangles dropped;
   std::vector<Fault> faults;
   bool slivers = false, notFinite = false;
   for (const FlatTriangle& t : flat.triangles) {

@@ -46,13 +46,13 @@ struct FlattenOptions {
 /// Throws Refusal when the scene goes beyond the limits.
 Flat flatten(const aiScene& scene, const FlattenOptions& options);
 
-struct Dropped {
+struct DroppedTriangles {
   std::size_t notFinite = 0, degenerate = 0;
 };
 
 /// Takes out triangles with a corner that is not finite or that have no area. Slivers between three different
 /// corners stay if the surface is closed only with them.
-Dropped dropBadTriangles(Flat& flat);
+DroppedTriangles dropBadTriangles(Flat& flat);
 
 /// Makes the normals that are missing: smooth, except across edges sharper than 40 degrees.
 void makeNormals(Flat& flat);

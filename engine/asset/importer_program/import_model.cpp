@@ -138,7 +138,7 @@ bool seenThrough(const Flat& flat) {
   return std::ranges::any_of(flat.vertices, [](const FlatVertex& v) { return v.colour[3] != 255; });
 }
 
-std::string listed(const std::vector<std::string>& notes, const Dropped& dropped) {
+std::string listed(const std::vector<std::string>& notes, const DroppedTriangles& dropped) {
   std::string text;
   for (const std::string& note : notes) text += note + '\n';
   if (dropped.notFinite)
@@ -150,7 +150,7 @@ std::string listed(const std::vector<std::string>& notes, const Dropped& dropped
 
 }  // namespace
 
-Imported importModel(const Request& request) {
+ImportedModel importModel(const Request& request) {
   const FormatInfo* format = formatOf(request.path);
   if (!format) throw Refusal("is not in a format for shows; use " + allowedFormats());
   std::string why;
@@ -163,10 +163,10 @@ Imported importModel(const Request& request) {
   const aiScene& scene = readScene(importer, request, *format, *file);
   Flat flat = flatten(scene, {toShow(*format, request.head, *file), request.head.nodeDepth, request.head.mesh,
                               givesNormals(format->format), format->linearColours});
-  const Dropped dropped = dropBadTriangles(flat);
+  const DroppedTriangles dropped = dropBadTriangles(flat);
   if (flat.triangles.empty())
     throw Refusal(dropped.notFinite ? "holds no triangles with finite corners" : "holds no triangles");
-  Imported result;
+  ImportedModel result;
   std::vector<std::string> notes;
   readMaterials(scene, *format,
                 {request.root.get(), folderOf(request.path), request.head.fileBytes, request.head.mesh},

@@ -5,12 +5,12 @@
 
 namespace stadion::importer {
 
-struct Imported {
+struct ImportedModel {
   Mesh mesh;
   std::string notes;  ///< notes for the author, one a line
 };
 
 /// Throws Refusal when the file is missing, broken or beyond the limits.
-Imported importModel(const Request& request);
+ImportedModel importModel(const Request& request);
 
 }  // namespace stadion::importer

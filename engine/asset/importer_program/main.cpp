@@ -44,7 +44,7 @@ bool serve(int socket, const importer::Request& request) {
   std::vector<std::uint8_t> bytes;
   ImportStatus status = ImportStatus::Failed;
   try {
-    importer::Imported imported = importer::importModel(request);
+    importer::ImportedModel imported = importer::importModel(request);
     bytes = encode(imported.mesh);
     text = std::move(imported.notes);
     status = ImportStatus::Loaded;

@@ -45,10 +45,10 @@ Face faceOf(const Flat& flat, const FlatTriangle& t) {
 }
 
 // The corners (3 x triangle + k) that meet at each position, grouped by prefix sums.
-struct Meeting {
+struct CornerTable {
   std::vector<std::uint32_t> weld, start, corner;
 
-  explicit Meeting(const Flat& flat) {
+  explicit CornerTable(const Flat& flat) {
     std::vector<std::array<float, 3>> positions;
     for (const FlatVertex& v : flat.vertices) positions.push_back(v.position);
     weld = weldPositions(positions);
@@ -63,7 +63,7 @@ struct Meeting {
   }
 };
 
-Vec3 cornerNormal(const std::vector<Face>& faces, const Meeting& meeting, std::uint32_t position,
+Vec3 cornerNormal(const std::vector<Face>& faces, const CornerTable& meeting, std::uint32_t position,
                   const Face& own) {
   const std::uint32_t begin = meeting.start[position], end = meeting.start[position + 1];
   const bool all = end - begin > kMostPairs || own.normal.isZero();
@@ -116,7 +116,7 @@ void makeNormals(Flat& flat) {
   std::vector<Face> faces;
   faces.reserve(flat.triangles.size());
   for (const FlatTriangle& t : flat.triangles) faces.push_back(faceOf(flat, t));
-  const Meeting meeting(flat);
+  const CornerTable meeting(flat);
   // Every corner that needs a normal gets a vertex of its own; joinInto joins those that came out equal.
   for (std::uint32_t t = 0; t < flat.triangles.size(); ++t) {
     for (std::uint32_t& c : flat.triangles[t].corner) {

@@ -89,7 +89,7 @@ private:
 };
 
 /// How many of a kind the file has, and the highest index that a face has named.
-struct Counted {
+struct IndexKind {
   const char* name;
   std::int64_t count = 0, highest = 0;
   Word namedBy;
@@ -109,7 +109,7 @@ public:
       read(words);
       if (!statements.comment().empty()) change(statements.comment(), "");  // assimp reads on in it
     }
-    for (const Counted& kind : kinds_)
+    for (const IndexKind& kind : kinds_)
       if (kind.highest > kind.count) refuseIndex(kind, kind.namedBy);
     if (!text_.empty() && !text_.ends_with('\n')) change(text_.substr(text_.size()), "\n");
     if (changes_.empty()) return {};
@@ -216,12 +216,12 @@ private:
     refuseAt(word, quoted(word.text) + " is not the corner of a face; write it as 7, 7/1, 7//3 or 7/1/3");
   }
 
-  [[noreturn]] static void refuseIndex(const Counted& kind, const Word& word) {
+  [[noreturn]] static void refuseIndex(const IndexKind& kind, const Word& word) {
     refuseAt(word, quoted(word.text) + " names a " + kind.name + " that does not exist; there are " +
                        std::to_string(kind.count));
   }
 
-  static void readIndex(std::string_view digits, Counted& kind, const Word& word) {
+  static void readIndex(std::string_view digits, IndexKind& kind, const Word& word) {
     if (digits.starts_with('+')) digits.remove_prefix(1);
     std::int64_t index = 0;
     const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), index);
@@ -247,7 +247,7 @@ private:
   }
 
   std::string_view text_;
-  std::array<Counted, 3> kinds_{
+  std::array<IndexKind, 3> kinds_{
       {{"vertex", 0, 0, {}}, {"texture coordinate", 0, 0, {}}, {"normal", 0, 0, {}}}};
   std::vector<Change> changes_;
 };

@@ -115,14 +115,14 @@ private:
     return clock_.end() - now_.emptyMs;
   }
   void tell(Span what, double ms, std::span<const NodeShare> nodes) {
-    DrawnAlone drawn = now_;
+    IsolatedDrawTime drawn = now_;
     drawn.what = what, drawn.ms = ms;
     probe_->drewAlone(drawn, nodes);
   }
 
   IsolatedDrawTimer clock_;
   FrameProbe* probe_ = nullptr;
-  DrawnAlone now_;
+  IsolatedDrawTime now_;
   std::array<double, 33> empties_{};  ///< costs of drawing nothing in the last frames [ms]
   std::size_t emptiesTaken_ = 0;
   std::span<const std::uint32_t> starts_;

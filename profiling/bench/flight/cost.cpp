@@ -21,7 +21,7 @@ FlightState startOf(const Throw& t) {
 }
 
 /// An object to be timed; `run` makes `steps` steps of a body.
-struct Timed {
+struct TimedRun {
   std::string name;
   std::function<void()> run;
   double steps = 1;
@@ -31,7 +31,7 @@ struct Timed {
 /// The state lives as long as the timed object. Its path does not matter, but it must stay finite, so it
 /// restarts each round.
 template <class Step>
-Timed single(const std::string& name, const Throw& t, Step step) {
+TimedRun single(const std::string& name, const Throw& t, Step step) {
   const FlightState start = startOf(t);
   auto state = std::make_shared<FlightState>(start);
   return {name,
@@ -43,7 +43,7 @@ Timed single(const std::string& name, const Throw& t, Step step) {
           {}};
 }
 
-Timed swarm(const std::string& name, const Throw& t, std::shared_ptr<const FlightStepper> stepper) {
+TimedRun swarm(const std::string& name, const Throw& t, std::shared_ptr<const FlightStepper> stepper) {
   auto bodies = std::make_shared<FlightSwarm>(kBodies);
   auto left = std::make_shared<int>(0);
   return {name,
@@ -59,8 +59,8 @@ Timed swarm(const std::string& name, const Throw& t, std::shared_ptr<const Fligh
           {}};
 }
 
-std::vector<Timed> everything() {
-  std::vector<Timed> all;
+std::vector<TimedRun> everything() {
+  std::vector<TimedRun> all;
   const auto add = [&all](const std::string& name, const Throw& t, const FlightModel& model, bool many) {
     const ThingFacts& f = factsOf(t.thing);
     auto stepper = std::make_shared<const FlightStepper>(model, f.body, t.air(), 1.0 / 60, f.axis);
@@ -98,14 +98,14 @@ double median(std::vector<double> v) {
   return *middle;
 }
 
-double medianRatio(const Timed& a, const Timed& b) {
+double medianRatio(const TimedRun& a, const TimedRun& b) {
   std::vector<double> ratios;
   for (std::size_t i = 0; i < a.ns.size(); ++i) ratios.push_back(a.ns[i] / b.ns[i]);
   return median(ratios);
 }
 
-const Timed* find(const std::vector<Timed>& all, const std::string& name) {
-  const auto found = std::ranges::find(all, name, &Timed::name);
+const TimedRun* find(const std::vector<TimedRun>& all, const std::string& name) {
+  const auto found = std::ranges::find(all, name, &TimedRun::name);
   return found == all.end() ? nullptr : &*found;
 }
 
@@ -124,21 +124,21 @@ void addChecks(Costs& costs) {
 }  // namespace
 
 Costs measureCosts(int rounds) {
-  std::vector<Timed> all = everything();
+  std::vector<TimedRun> all = everything();
   constexpr int kWarm = 20;
   for (int round = -kWarm; round < std::max(rounds, 1); ++round)
-    for (Timed& t : all) {
+    for (TimedRun& t : all) {
       const auto start = std::chrono::steady_clock::now();
       t.run();
       const std::chrono::duration<double, std::nano> took = std::chrono::steady_clock::now() - start;
       if (round >= 0) t.ns.push_back(took.count() / t.steps);
     }
   Costs costs;
-  const Timed &free = *find(all, "ballistic"), &paper = *find(all, "bias=paper");
-  for (const Timed& t : all) {
+  const TimedRun &free = *find(all, "ballistic"), &paper = *find(all, "bias=paper");
+  for (const TimedRun& t : all) {
     if (t.name.ends_with(" x 1000")) continue;
     StepCost s{t.name, median(t.ns), 0, medianRatio(t, free), medianRatio(t, paper), 0};
-    if (const Timed* many = find(all, t.name + " x 1000"))
+    if (const TimedRun* many = find(all, t.name + " x 1000"))
       s.batch = median(many->ns), s.batchOfOne = medianRatio(*many, t);
     costs.steps.push_back(s);
   }

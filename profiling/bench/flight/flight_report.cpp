@@ -105,7 +105,7 @@ bool allMet(const FlightReport& report) {
 std::string textOf(const FlightReport& report) {
   std::string text = ladderText(report.ladder) + "\n" + integratorText(report.integrators) + "\n" +
                      costText(report.costs, report.ladder) + "\n";
-  const Published& p = report.published;
+  const PublishedThrows& p = report.published;
   text +=
       fmt::format("Best throw of a discus at 25 m/s, 42 rad/s: {:.2f} m, released at {:.1f}, pitched {:.1f}, "
                   "rolled {:.1f} degrees\n\nLimits\n",
@@ -144,7 +144,7 @@ std::string jsonOf(const FlightReport& report) {
                              {"landing_rms", error ? numberOrNull(error->held.landing) : Json()},
                              {"attitude_mean_deg", error ? numberOrNull(error->held.attitude) : Json()}});
   }
-  const Published& p = report.published;
+  const PublishedThrows& p = report.published;
   json["discus_optimum"] = {
       {"range_m", p.discusRange}, {"release_deg", p.gamma}, {"pitch_deg", p.pitch}, {"roll_deg", p.roll}};
   json["javelin_30_34_m"] = p.javelinRange;

@@ -13,7 +13,7 @@ struct FlightReport {
   Ladder ladder;
   Integrators integrators;
   Costs costs;
-  Published published;
+  PublishedThrows published;
   Checks hard;
 
   Checks checks() const;  ///< all of them

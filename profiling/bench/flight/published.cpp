@@ -48,8 +48,8 @@ double climb(Angles& a) {
 
 }  // namespace
 
-Published measurePublished() {
-  Published p;
+PublishedThrows measurePublishedThrows() {
+  PublishedThrows p;
   for (const double roll : {0.0, 30.0, -30.0}) {  // there may be several summits
     Angles a{37, 30, roll};
     const double d = climb(a);

@@ -55,17 +55,17 @@ struct LessRunSet {
 };
 
 /// A stage by one clock, prepared for both questions.
-struct Prepared {
+struct PreparedSeries {
   const StageSeries& series;
   UsualTimes usual;
   std::vector<Mark> marks;
 };
 
 /// Answers the first question for all stages of a family.
-void findSameFrames(const std::vector<Prepared>& family, std::vector<StageFrames*>& found,
+void findSameFrames(const std::vector<PreparedSeries>& family, std::vector<StageFrames*>& found,
                     const RunDesign& design, const std::vector<RunSet>& labellings, double alarm) {
   std::set<RunSet, LessRunSet> patterns;
-  for (const Prepared& p : family)
+  for (const PreparedSeries& p : family)
     for (const Mark& m : p.marks) patterns.insert(m.runs);
   std::vector<double> most;
   for (const RunSet& now : labellings) {
@@ -157,7 +157,7 @@ private:
 };
 
 /// Returns the number of long frames of each run.
-std::vector<double> longCounts(const Prepared& p, std::size_t level) {
+std::vector<double> longCounts(const PreparedSeries& p, std::size_t level) {
   std::vector<double> counts(p.series.runs.size(), 0);
   for (const Mark& m : p.marks)
     if (m.level == level && m.frame >= kFirstFrames)
@@ -191,7 +191,7 @@ struct AskedFigure {
   double least = 0;
 };
 
-std::vector<AskedFigure> figuresToAsk(const std::vector<Prepared>& family, double tolerance) {
+std::vector<AskedFigure> figuresToAsk(const std::vector<PreparedSeries>& family, double tolerance) {
   std::vector<AskedFigure> asked;
   for (std::size_t i = 0; i < family.size(); ++i) {
     const StageSeries& s = family[i].series;
@@ -212,7 +212,7 @@ std::vector<AskedFigure> figuresToAsk(const std::vector<Prepared>& family, doubl
 
 /// Answers the second question for all stages of a family. Each figure has its own distribution over the
 /// labellings; the least probability among them answers for all.
-void compareFigures(const std::vector<Prepared>& family, std::vector<StageFrames*>& found,
+void compareFigures(const std::vector<PreparedSeries>& family, std::vector<StageFrames*>& found,
                     const RunDesign& design, const std::vector<RunSet>& labellings, const HitchOptions& o) {
   const std::vector<AskedFigure> asked = figuresToAsk(family, o.tolerance);
   std::vector<double> least(labellings.size(), 1), own;
@@ -357,7 +357,7 @@ std::vector<StageFrames> compareFrames(const std::vector<StageSeries>& series, c
   for (const StageSeries& s : series) found.push_back({s.stage, s.name, s.kind, {}, false, {}});
   const std::vector<RunSet> labellings = labellingsOf(design);
   for (const TimeKind kind : {TimeKind::Processor, TimeKind::Elapsed}) {
-    std::vector<Prepared> family;
+    std::vector<PreparedSeries> family;
     std::vector<StageFrames*> results;
     for (std::size_t i = 0; i < series.size(); ++i) {
       if (series[i].kind != kind) continue;

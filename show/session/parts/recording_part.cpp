@@ -85,7 +85,7 @@ private:
     const DegradationGovernor* governor = recording_->governor();
     if (!governor) return;
     if (const auto stress = governor->stress())
-      summary.stress = StressFelt{stress->highest, stress->now, stress->changes};
+      summary.stress = StressSummary{stress->highest, stress->now, stress->changes};
     for (const BudgetReport& b : governor->reports())
       summary.budgets.push_back({b.name, b.file, b.line, b.budget, b.mean, b.worst, b.worstFrame,
                                  b.worstStage, b.overruns, b.changes, b.highest, b.now, b.levels,

@@ -110,7 +110,7 @@ TEST(StrengthAxis, AStillDeviceLeavesTheShowAsleep) {
 TEST(StrengthAxis, OfAMediumItScalesTheWind) {
   const ForceField fan{MediumField{1.2, 0.5, {4, 0, 0}}, {}, {}, 0, 0.5, 0.5};
   ForceField wind{MediumField{1.2, 0.5, {2, 0, 0}}, {}, {}};
-  const Exposed body{2, 0.1, Vec3::Zero(), {0, 1, 0}};
+  const BodyInField body{2, 0.1, Vec3::Zero(), {0, 1, 0}};
   EXPECT_LT((accelerationOf(fan, body, 0.3) - accelerationOf(wind, body, 0.3)).norm(), 1e-15);
   EXPECT_TRUE(fan.evenMedium());
   wind.last = 0;

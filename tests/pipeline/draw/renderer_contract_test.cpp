@@ -137,7 +137,7 @@ TEST(PictureRenderer, InstancesLookLikeSingleMeshes) {
 
 /// Wants pieces of every frame drawn alone, one eye's after the other as far as they go.
 struct Sampling final : FrameProbe {
-  std::vector<DrawnAlone> pieces;
+  std::vector<IsolatedDrawTime> pieces;
   std::map<NodeRef, int> told;
   std::set<NodeRef> alone;  ///< drawn with no other node
   double parts = 0;         ///< of all pieces
@@ -157,7 +157,7 @@ struct Sampling final : FrameProbe {
     next = now + kBatchesAFrame < batches ? now + kBatchesAFrame : 0;
     return now;
   }
-  void drewAlone(const DrawnAlone& drawn, std::span<const NodeShare> nodes) override {
+  void drewAlone(const IsolatedDrawTime& drawn, std::span<const NodeShare> nodes) override {
     if (drawn.what != Span::Draw) return;
     pieces.push_back(drawn);
     for (const NodeShare& share : nodes) ++told[share.node], parts += double{share.part};

@@ -107,10 +107,10 @@ TEST(RunSummary, MakesGoodJsonOfBadNumbersAndNames) {
 TEST(RunSummary, TellsOfStressWhetherThereAreBudgetsOrNot) {
   RunSummary s = example();
   EXPECT_FALSE(nlohmann::json::parse(toJson(s)).contains("stress")) << "there was no decider";
-  s.stress = StressFelt{};
+  s.stress = StressSummary{};
   EXPECT_EQ(nlohmann::json::parse(toJson(s))["stress"]["highest"], 1);
   EXPECT_EQ(toText(s).find("farther away"), std::string::npos);
-  s.stress = StressFelt{4, 2, 12};
+  s.stress = StressSummary{4, 2, 12};
   const auto stress = nlohmann::json::parse(toJson(s))["stress"];
   EXPECT_EQ(stress["highest"], 4);
   EXPECT_EQ(stress["at_end"], 2);
@@ -182,11 +182,11 @@ std::size_t linesIn(const std::string& text) {
 
 TEST(Happenings, WhatANodeTellsAgainAndAgainIsCountedWhereItWasFirst) {
   RunSummary s;
-  for (int i = 1; i <= 6; ++i) s.happened.push_back({i * 1.0, "finished", "wind"});
-  for (int i = 1; i <= 5; ++i) s.happened.push_back({6.0 + i, "onimpact", "ball"});
-  for (int i = 1; i <= 9; ++i) s.happened.push_back({20.0 + i, "measured", "tape", i * 10.0});
-  s.happenedCount = s.happened.size();
-  const std::string text = happeningsText(s);
+  for (int i = 1; i <= 6; ++i) s.events.push_back({i * 1.0, "finished", "wind"});
+  for (int i = 1; i <= 5; ++i) s.events.push_back({6.0 + i, "onimpact", "ball"});
+  for (int i = 1; i <= 9; ++i) s.events.push_back({20.0 + i, "measured", "tape", i * 10.0});
+  s.eventCount = s.events.size();
+  const std::string text = eventsText(s);
   EXPECT_EQ(linesIn(text), 2u + 1 + 5 + 9) << text;
   EXPECT_NE(text.find("   1.0000 s  finished   wind  6 times, until 6.0000 s\n"), text.npos) << text;
   EXPECT_NE(text.find("  10.0000 s  onimpact   ball\n"), text.npos) << text;
@@ -196,11 +196,11 @@ TEST(Happenings, WhatANodeTellsAgainAndAgainIsCountedWhereItWasFirst) {
 
 TEST(Happenings, NoMoreThanAPageIsToldAndTheRestIsCounted) {
   RunSummary s;
-  for (int i = 0; i < 300; ++i) s.happened.push_back({i * 0.1, "enter", fmt::format("zone {}", i)});
-  for (int i = 0; i < 50; ++i) s.happened.push_back({40.0 + i, "finished", "wind"});
-  s.happenedCount = 1000;
-  const std::string text = happeningsText(s);
-  EXPECT_EQ(linesIn(text), 2u + RunSummary::kHappeningsTold + 1) << text;
+  for (int i = 0; i < 300; ++i) s.events.push_back({i * 0.1, "enter", fmt::format("zone {}", i)});
+  for (int i = 0; i < 50; ++i) s.events.push_back({40.0 + i, "finished", "wind"});
+  s.eventCount = 1000;
+  const std::string text = eventsText(s);
+  EXPECT_EQ(linesIn(text), 2u + RunSummary::kEventsInText + 1) << text;
   EXPECT_NE(text.find("... and 800 more; summary.json (--out DIR, or --json) has the first 350 of them"),
             text.npos)
       << text;

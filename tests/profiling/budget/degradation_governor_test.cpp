@@ -139,7 +139,7 @@ struct Drawn : Governed {
     for (; count > 0; --count) {
       const bool hidden = degradationAt(scene.tree().load(1)->terms.at(0).gives, level(0)).hidden;
       if (at % 16 == 9 && !hidden) {
-        const DrawnAlone alone{at, 0, 0, Span::Draw, ms, 0};
+        const IsolatedDrawTime alone{at, 0, 0, Span::Draw, ms, 0};
         governor->take(alone, {{NodeRef{1, 0}, 1}});
       }
       frame({hidden ? 1e-4 * static_cast<double>(1 + at % 3) : 0});  // being hidden is some work, too
@@ -151,10 +151,10 @@ TEST(DegradationGovernor, WhatDrawingNothingTakesIsTakenOffOnce) {
   Governed g({{1, {}, 1}});
   for (int i = 0; i < 100; ++i) {
     for (int piece = 0; g.at % 16 == 9 && piece < 8; ++piece)
-      g.governor->take(DrawnAlone{g.at, 0, 0, Span::Draw, 0.2, 0.15}, {{NodeRef{1, 0}, 1}});
+      g.governor->take(IsolatedDrawTime{g.at, 0, 0, Span::Draw, 0.2, 0.15}, {{NodeRef{1, 0}, 1}});
     g.frame({0});
   }
-  EXPECT_NEAR(g.governor->reports().at(0).worst, 1.6, 1e-9) << "DrawnAlone::ms is without it";
+  EXPECT_NEAR(g.governor->reports().at(0).worst, 1.6, 1e-9) << "IsolatedDrawTime::ms is without it";
   // The first sample alone says nothing yet.
   EXPECT_GT(g.governor->reports().at(0).overruns, 60U);
 }
@@ -164,7 +164,8 @@ TEST(DegradationGovernor, WhatComesToItsTurnSeldomCountsUntilItsNextButOne) {
   constexpr std::uint64_t kRound = 1000;
   for (std::uint64_t i = 0; i < 3 * kRound; ++i) {
     const NodeShare whole{NodeRef{1, 0}, 1};
-    if (g.at % kRound == 9) g.governor->take(DrawnAlone{g.at, 0, 0, Span::Draw, 3, 0.1, kRound}, {whole});
+    if (g.at % kRound == 9)
+      g.governor->take(IsolatedDrawTime{g.at, 0, 0, Span::Draw, 3, 0.1, kRound}, {whole});
     g.frame({0});
   }
   EXPECT_NEAR(static_cast<double>(g.governor->reports().at(0).overruns), 2 * kRound, 20);
@@ -298,7 +299,7 @@ TEST(DegradationGovernor, TheSkyThatIsSeenTakesWhatTheBackgroundDoes) {
   g.dusk = NodeTerms{0.5, {}, 1};
   g.annex(CommandId::Load);
   for (int i = 0; i < 100; ++i) {
-    if (g.at % 16 == 9) g.governor->take(DrawnAlone{g.at, 0, 0, Span::Sky, 2, 0}, {});
+    if (g.at % 16 == 9) g.governor->take(IsolatedDrawTime{g.at, 0, 0, Span::Sky, 2, 0}, {});
     g.frame({});
   }
   const BudgetReport sky = g.governor->reports().at(0);
@@ -315,7 +316,7 @@ TEST(NodeCosts, ASkyIsSeenWhileItsNodeIsHiddenUntilAnotherOneIs) {
   const std::map<NodeRef, std::vector<std::size_t>> above{{scene, {0}}, {dusk, {1, 0}}};
   NodeCosts costs;
   costs.govern(nodes, above, dusk);
-  const DrawnAlone background{10, 0, 0, Span::Sky, 2, 0};
+  const IsolatedDrawTime background{10, 0, 0, Span::Sky, 2, 0};
   costs.take(background, {});
   costs.drawnOtherwise(0, 12, true);
   EXPECT_EQ(costs.of(20)[0].cost.drawn, 2);

@@ -102,7 +102,7 @@ TEST(Schedule, AllWallsSwapTogetherWithTheSlowest) {
   EXPECT_NEAR(forecastOf(s, plan).period, 9, 1e-9);
   double waited = 0;
   for (const Bar& b : s.bars)
-    if (b.what == Doing::ForWalls) waited += b.end - b.begin;
+    if (b.what == Activity::ForWalls) waited += b.end - b.begin;
   EXPECT_NEAR(waited / static_cast<double>(s.shown.size()), 5, 0.1);
 }
 

@@ -318,10 +318,10 @@ TEST(FrameLog, OnlyWhatIsWatchedIsDrawnAloneUnlessAllIsToBeExplained) {
 
 TEST(FrameLog, WhatIsDrawnAloneSaysWhenItsTurnComesAgain) {
   struct Kept final : SpanReader {
-    std::vector<DrawnAlone> drawn;
+    std::vector<IsolatedDrawTime> drawn;
     using SpanReader::take;
     void take(std::size_t, const SpanRecord&) override {}
-    void take(const DrawnAlone& d, const std::vector<NodeShare>&) override { drawn.push_back(d); }
+    void take(const IsolatedDrawTime& d, const std::vector<NodeShare>&) override { drawn.push_back(d); }
   } kept;
   FrameLog log({&kept}, {.from = 0});
   { const SpanScope draw(&log, Span::Draw, 9, 1); }

@@ -45,7 +45,7 @@ const DoctorFinding& of(const std::vector<DoctorFinding>& all, const std::string
 
 std::string messageOf(const std::vector<std::string>& words) {
   Diagnostics findings;
-  EXPECT_FALSE(WantedOfMachine::read(words, findings));
+  EXPECT_FALSE(MachineNeeds::read(words, findings));
   return findings.all().empty() ? "" : findings.all()[0].message;
 }
 
@@ -175,10 +175,10 @@ TEST(Doctor, LooksForTheInterfaceOfACluster) {
 TEST(Doctor, KnowsWhatAShowNeeds) {
   Diagnostics findings;
   const std::string scripts = STADION_SOURCE_DIR "/scripts/";
-  const auto kick = WantedOfMachine::read({scripts + "kick.evs"}, findings);
-  const auto olympia = WantedOfMachine::read({scripts + "olympia.evs"}, findings);
+  const auto kick = MachineNeeds::read({scripts + "kick.evs"}, findings);
+  const auto olympia = MachineNeeds::read({scripts + "olympia.evs"}, findings);
   ASSERT_TRUE(kick && olympia);
-  const auto hasSound = [](const WantedOfMachine& wanted) {
+  const auto hasSound = [](const MachineNeeds& wanted) {
     const auto topics = wanted.needs().topics;
     return std::ranges::find(topics, "sound") != topics.end();
   };
