@@ -71,7 +71,7 @@ bool RegressFolder::open(const RegressOptions& o, const std::string& suiteText) 
 }
 
 bool RegressFolder::lock() {
-  lock_ = Descriptor(::open(folder_.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
+  lock_ = FileDescriptor(::open(folder_.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
   if (flock(lock_.get(), LOCK_EX | LOCK_NB) == 0) return true;
   std::fprintf(
       stderr,

@@ -37,7 +37,7 @@ private:
   std::string pathOf(const std::string& name) const { return folder_ + "/" + name; }
 
   std::string folder_;
-  Descriptor lock_;  ///< the folder, ours alone while it is open
+  FileDescriptor lock_;  ///< the folder, ours alone while it is open
   regression::DoneCases done_;
   std::map<std::string, AtomicFile> outputs_;  ///< by name
 };

@@ -1,5 +1,5 @@
 #pragma once
-/// Owns one open file descriptor.
+/// Owns one open file descriptor and closes it.
 
 #include <unistd.h>
 

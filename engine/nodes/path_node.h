@@ -10,8 +10,8 @@
 ///           placed node when it moves what stands below it.
 /// Times     nodes that watch the target get its way inside the frame: straight ways exactly, bends and
 ///           turns as chords of 2 ms on a grid of show time.
-/// Rests     kept from running, it goes on where it stopped. In one of several frames, it is then where its
-///           own time has it; watching nodes see it go straight there within that frame.
+/// Degraded  while it rests, its time stands still. If it runs in one of several frames, its target is then
+///           where its own time has it. Watching nodes see it go straight there within that frame.
 /// Frames    keys are in the coordinates of the target's parent, or of its own parent.
 
 #include "engine/nodes/switched.h"

@@ -28,14 +28,14 @@ Mat3 uprightAxes(double along, double across, double up) {
 }  // namespace
 
 // Targets stand in its own file or in one around it: they stay as long as it does.
-void OscillationNode::settleTargets(Scene& scene) {
+void SwayNode::settleTargets(Scene& scene) {
   if (settled_) return;
   settled_ = true;
   findTargets(scene);
   fleet_ = scene.placements().addFleet(*this, placements_);
 }
 
-bool OscillationNode::resume(Scene& scene) {
+bool SwayNode::resume(Scene& scene) {
   const Nanoseconds now = scene.now();
   if (since_ < 0 || since_ > now || elapsed_ < 0 || elapsed_ > now) return false;
   if (!settled_) return true;
@@ -43,7 +43,7 @@ bool OscillationNode::resume(Scene& scene) {
   return scene.placements().resumeFleet(fleet_, *this, placements_.size());
 }
 
-void OscillationNode::findTargets(Scene& scene) {
+void SwayNode::findTargets(Scene& scene) {
   if (sway_.targets.empty()) sway_.targets.push_back(self());
   const std::size_t count = sway_.targets.size();
   nodes_.resize(count), placements_.resize(count, kNoPlacement), swings_.resize(count);
@@ -56,7 +56,7 @@ void OscillationNode::findTargets(Scene& scene) {
   settlePhases();
 }
 
-void OscillationNode::settleTarget(std::size_t k, Scene& scene) {
+void SwayNode::settleTarget(std::size_t k, Scene& scene) {
   Node* node = scene.find(sway_.targets[k]);
   PlacedNode* placed = node ? node->placed() : nullptr;
   nodes_[k] = placed;
@@ -72,7 +72,7 @@ void OscillationNode::settleTarget(std::size_t k, Scene& scene) {
   swings_[k].widens = sphereScale(X_PN);
 }
 
-void OscillationNode::settlePhases() {
+void SwayNode::settlePhases() {
   const auto anglesAt = [](const Vec3& angle) {
     Angles a;
     for (int i = 0; i < 3; ++i) {
@@ -89,7 +89,7 @@ void OscillationNode::settlePhases() {
   }
 }
 
-OscillationNode::Moment OscillationNode::momentAt(Nanoseconds elapsed) const {
+SwayNode::Moment SwayNode::momentAt(Nanoseconds elapsed) const {
   const double t = toSeconds(elapsed);
   Moment m;
   for (int i = 0; i < 3; ++i) {
@@ -100,11 +100,11 @@ OscillationNode::Moment OscillationNode::momentAt(Nanoseconds elapsed) const {
   return m;
 }
 
-void OscillationNode::putMembers(std::size_t first, std::span<MemberPlace> places) const {
+void SwayNode::putMembers(std::size_t first, std::span<MemberPlace> places) const {
   putAll(moment_, first, places);
 }
 
-void OscillationNode::putAll(const Moment& m, std::size_t first, std::span<MemberPlace> places) const {
+void SwayNode::putAll(const Moment& m, std::size_t first, std::span<MemberPlace> places) const {
   const Vec3 &sin = m.first.sin, &cos = m.first.cos;
   for (std::size_t k = first, end = first + places.size(); k < end;) {
     const Angles& phase = blocks_[k / kBlock];
@@ -117,8 +117,7 @@ void OscillationNode::putAll(const Moment& m, std::size_t first, std::span<Membe
   }
 }
 
-inline void OscillationNode::put(std::size_t k, const Mat3& turn, const Angles& block,
-                                 MemberPlace& place) const {
+inline void SwayNode::put(std::size_t k, const Mat3& turn, const Angles& block, MemberPlace& place) const {
   const Swing& swing = swings_[k];
   const Angles& step = steps_[k % kBlock];
   std::array<double, 12>& m = place.rows;
@@ -137,7 +136,7 @@ inline void OscillationNode::put(std::size_t k, const Mat3& turn, const Angles& 
   place.widens = swing.widens;
 }
 
-void OscillationNode::putTargets(Scene& scene) {
+void SwayNode::putTargets(Scene& scene) {
   settleTargets(scene);
   moment_ = momentAt(elapsed_);
   scene.placements().moveFleet(fleet_);
@@ -145,14 +144,14 @@ void OscillationNode::putTargets(Scene& scene) {
 }
 
 /// They stay where they are: from now on that is their own affair.
-void OscillationNode::leaveTargets(Scene& scene) {
+void SwayNode::leaveTargets(Scene& scene) {
   putTargets(scene);
   for (PlacedNode* node : nodes_)
     if (node && !node->isMovedFromOutside()) node->leaveFleet(scene);
 }
 
 /// Reports the targets' motion from since_ on to the nodes that watch them.
-void OscillationNode::trace(Nanoseconds to, FrameContext& frame) {
+void SwayNode::trace(Nanoseconds to, FrameContext& frame) {
   settleTargets(frame.scene);
   if (to <= since_) return;
   // In its first frame it reports always: watchers may not have registered yet.
@@ -163,7 +162,7 @@ void OscillationNode::trace(Nanoseconds to, FrameContext& frame) {
       traceOne(k, to, frame);
 }
 
-void OscillationNode::traceOne(std::size_t k, Nanoseconds to, FrameContext& frame) const {
+void SwayNode::traceOne(std::size_t k, Nanoseconds to, FrameContext& frame) const {
   const Placements& placements = frame.scene.placements();
   const PlacementId id = placements_[k], up = placements.parent(id);
   const auto at = [&](Nanoseconds time) {
@@ -185,7 +184,7 @@ void OscillationNode::traceOne(std::size_t k, Nanoseconds to, FrameContext& fram
 }
 
 /// They are put where t = 0 has them.
-void OscillationNode::jump(Nanoseconds when, FrameContext& frame) {
+void SwayNode::jump(Nanoseconds when, FrameContext& frame) {
   settleTargets(frame.scene);
   const Placements& placements = frame.scene.placements();
   const auto pose = [&](std::size_t k) { return poseOf(placements.world(placements_[k])); };
@@ -197,13 +196,13 @@ void OscillationNode::jump(Nanoseconds when, FrameContext& frame) {
   for (const auto& [k, way] : watched) way->push_back({when, pose(k), true});
 }
 
-void OscillationNode::onEnter(Scene& scene) {
+void SwayNode::onEnter(Scene& scene) {
   PlacedNode::onEnter(scene);
   since_ = scene.now();
 }
 
 /// Targets of files around its own stay behind.
-void OscillationNode::onLeave(Scene& scene) {
+void SwayNode::onLeave(Scene& scene) {
   if (fleet_ != kNoFleet) scene.placements().removeFleet(fleet_);
   for (PlacedNode* node : nodes_)
     if (node && node->self().load != self().load && !node->isMovedFromOutside()) node->leaveFleet(scene);
@@ -211,13 +210,13 @@ void OscillationNode::onLeave(Scene& scene) {
 }
 
 /// What has passed up to `time` does not count.
-void OscillationNode::restUntil(Nanoseconds time) {
+void SwayNode::restUntil(Nanoseconds time) {
   if (since_ >= time) return;
   if (putAt_ == since_) putAt_ = time;
   since_ = time;
 }
 
-void OscillationNode::advanceTo(Nanoseconds time, FrameContext& frame) {
+void SwayNode::advanceTo(Nanoseconds time, FrameContext& frame) {
   if (frame.rested) restUntil(frame.start());
   if (switch_.on()) {
     trace(time, frame);
@@ -226,7 +225,7 @@ void OscillationNode::advanceTo(Nanoseconds time, FrameContext& frame) {
   since_ = time;
 }
 
-void OscillationNode::receive(const Message& m, FrameContext& frame) {
+void SwayNode::receive(const Message& m, FrameContext& frame) {
   PlacedNode::receive(m, frame);
   // What has passed up to the command still counts.
   const bool moved = switch_.on();
@@ -238,7 +237,7 @@ void OscillationNode::receive(const Message& m, FrameContext& frame) {
     leaveTargets(frame.scene);
 }
 
-void OscillationNode::simulate(FrameContext& frame) {
+void SwayNode::simulate(FrameContext& frame) {
   PlacedNode::simulate(frame);
   if (!switch_.on()) return;
   advanceTo(frame.now.time, frame);
@@ -246,7 +245,7 @@ void OscillationNode::simulate(FrameContext& frame) {
 }
 
 template <class Self, class Fields>
-void OscillationNode::fields(Self& self, Fields& f) {
+void SwayNode::fields(Self& self, Fields& f) {
   PlacedNode::fields(self, f);
   f("switch", self.switch_), f("elapsed", self.elapsed_), f("since", self.since_);
   f.kept("put", self.putAt_), f.kept("settled", self.settled_), f.kept("fleet", self.fleet_);
@@ -254,11 +253,11 @@ void OscillationNode::fields(Self& self, Fields& f) {
   f.kept("turn", self.moment_.turn);
 }
 
-void OscillationNode::hash(StateHash& h) const {
+void SwayNode::hash(StateHash& h) const {
   hashFields(*this, h);
 }
 
-void OscillationNode::state(StateFields& f) {
+void SwayNode::state(StateFields& f) {
   fields(*this, f);
 }
 
@@ -266,13 +265,13 @@ namespace {
 
 std::unique_ptr<Node> makeSway(const NodeRequest& r) {
   const Declaration& d = r.declaration;
-  OscillationAttributes a;
+  SwayAttributes a;
   for (const NodeReference& target : d.references("target"))
     if (const NodeRef node = r.resolve(target); node.valid()) a.targets.push_back(node);
   a.amplitude = d.vec3("amplitude"), a.frequency = d.vec3("frequency");
   a.phase = d.vec3("phase") * kDegree, a.phaseStep = d.vec3("phasestep") * kDegree;
   a.angularVelocity = d.vec3("angularvelocity") * kDegree;
-  return std::make_unique<OscillationNode>(r.self, r.name, r.place, std::move(a), d.flag("initstate"));
+  return std::make_unique<SwayNode>(r.self, r.name, r.place, std::move(a), d.flag("initstate"));
 }
 
 void lintSway(const Declaration& node, LintScope& scope) {

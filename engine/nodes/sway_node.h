@@ -1,23 +1,22 @@
 #pragma once
-/// `sway`: moves its targets to and fro, each along a sinusoid about where the script has put it, and turns
-/// them evenly: boats, banners, a shoal.
+/// `sway`: moves its targets along sinusoids about the places that the script gives them, and turns them
+/// evenly: boats, banners, a shoal.
 ///
 /// Target k, from 0, is displaced along each axis by amplitude x sin(2 pi frequency t + phase + k phasestep)
-/// and turned about itself by angularvelocity x t. t is the time for which the node has been on: nothing is
-/// integrated, so that the way does not depend on the frame rate.
+/// and turned about itself by angularvelocity x t. t is the time for which the node has been on. The node
+/// integrates nothing, so its targets' poses do not depend on the frame rate.
 ///
-/// All targets are moved together, as a fleet (Placements): what the sinusoids have in common is computed
-/// once a frame and once for 64 targets that follow each other, and a target costs a few multiplications
-/// (sin(a + b) = sin a cos b + cos a sin b). Where a target is follows from this node's state; it is no part
-/// of the target's own until it is left there.
+/// The node moves all targets together, as a fleet (Placements). It computes the shared part of the sinusoids
+/// once a frame, and once for each 64 successive targets. A target then costs a few multiplications, by
+/// sin(a + b) = sin a cos b + cos a sin b. A target's pose follows from this node's state. It becomes a part
+/// of the target's own state only when this node leaves the target there.
 ///
-/// Commands  enable (goes on where it stopped), disable (the targets stay where they are at the command's
-///           time), toggle, reset (back to t = 0), and those of a placed node when it moves what stands below
-///           it.
-/// Times     nodes that watch a target get its way inside the frame, as chords of 2 ms on a grid of show
+/// Commands  enable (continues from its last t), disable (the targets keep their poses at the command's
+///           time), toggle, reset (back to t = 0), and the commands of a placed node if it moves its children.
+/// Times     nodes that watch a target receive its path inside the frame, as chords of 2 ms on a grid of show
 ///           time.
-/// Rests     kept from running, it goes on where it stopped. In one of several frames, its targets are then
-///           where its own time has them; watching nodes see them go straight there within that frame.
+/// Degraded  while it rests, t stands still. If it runs in one of several frames, its targets are then where
+///           its own time has them. Watching nodes see them go straight there within that frame.
 /// Frames    displacement and angular velocity are in the coordinates of the target's parent.
 
 #include "engine/nodes/switched.h"
@@ -31,7 +30,7 @@ namespace stadion {
 
 extern const NodeType kSwayType;
 
-struct OscillationAttributes {
+struct SwayAttributes {
   std::vector<NodeRef> targets;         ///< in the order of the script; empty = itself
   Vec3 amplitude = Vec3::Zero();        ///< [m]
   Vec3 frequency = Vec3::Zero();        ///< [Hz]
@@ -40,9 +39,9 @@ struct OscillationAttributes {
   Vec3 angularVelocity = Vec3::Zero();  ///< [rad/s]
 };
 
-class OscillationNode : public PlacedNode, private FleetRule {
+class SwayNode : public PlacedNode, private FleetRule {
 public:
-  OscillationNode(NodeRef self, std::string name, PlaceAttributes place, OscillationAttributes sway, bool on)
+  SwayNode(NodeRef self, std::string name, PlaceAttributes place, SwayAttributes sway, bool on)
       : PlacedNode(kSwayType, self, std::move(name), std::move(place)), sway_(std::move(sway)), switch_(on) {}
 
   Rank rank() const override { return Rank::Motion; }
@@ -93,7 +92,7 @@ private:
   void traceOne(std::size_t k, Nanoseconds to, FrameContext& frame) const;
   void jump(Nanoseconds when, FrameContext& frame);
 
-  OscillationAttributes sway_;
+  SwayAttributes sway_;
   Switched switch_;
   Nanoseconds elapsed_ = 0;
   Nanoseconds since_ = 0;             ///< show time up to which elapsed_ counts

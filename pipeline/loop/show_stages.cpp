@@ -1,7 +1,7 @@
 #include "pipeline/loop/show_stages.h"
 
 #include "engine/input/tracker_names.h"
-#include "pipeline/draw/warm_up_list.h"
+#include "pipeline/gl_draw/warm_up_list.h"
 #include "pipeline/process/per_view_process_renderer.h"
 #include "pipeline/wall/cpu_wall_renderer.h"
 #include "pipeline/wall/gl_wall_renderer.h"

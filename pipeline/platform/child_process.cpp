@@ -62,8 +62,8 @@ private:
 
 /// Returns a copy of `fd` that connecting the standard streams does not overwrite; none if `fd` is safe
 /// already.
-Descriptor aboveStandard(int& fd) {
-  Descriptor copy(fd >= 0 && fd <= 2 ? fcntl(fd, F_DUPFD_CLOEXEC, 3) : -1);
+FileDescriptor aboveStandard(int& fd) {
+  FileDescriptor copy(fd >= 0 && fd <= 2 ? fcntl(fd, F_DUPFD_CLOEXEC, 3) : -1);
   if (copy) fd = copy.get();
   return copy;
 }
@@ -90,20 +90,6 @@ std::vector<std::string> environmentWith(const std::vector<std::string>& words) 
 
 }  // namespace
 
-Descriptor& Descriptor::operator=(Descriptor&& o) noexcept {
-  if (this != &o) {
-    close();
-    fd_ = o.fd_;
-    o.fd_ = -1;
-  }
-  return *this;
-}
-
-void Descriptor::close() {
-  if (fd_ >= 0) ::close(fd_);
-  fd_ = -1;
-}
-
 ChildProcess::~ChildProcess() {
   if (!running()) return;
   kill();
@@ -113,7 +99,8 @@ ChildProcess::~ChildProcess() {
 std::optional<int> ChildProcess::start(const std::vector<std::string>& argv, const Streams& streams,
                                        const std::vector<std::string>& environment, Group group) {
   Streams from = streams;
-  const Descriptor in = aboveStandard(from.in), out = aboveStandard(from.out), err = aboveStandard(from.err);
+  const FileDescriptor in = aboveStandard(from.in), out = aboveStandard(from.out),
+                       err = aboveStandard(from.err);
   SpawnOrders orders;
   orders.connect(from.in, 0);
   orders.connect(from.out, 1);
@@ -154,15 +141,15 @@ void ChildProcess::kill() {
 
 Pipe makePipe() {
   int ends[2];
-  if (pipe2(ends, O_CLOEXEC) != 0) return Pipe{Descriptor(), Descriptor()};
-  return {Descriptor(ends[0]), Descriptor(ends[1])};
+  if (pipe2(ends, O_CLOEXEC) != 0) return Pipe{FileDescriptor(), FileDescriptor()};
+  return {FileDescriptor(ends[0]), FileDescriptor(ends[1])};
 }
 
-Descriptor makeMemoryFile() {
-  return Descriptor(memfd_create("stadion-child", MFD_CLOEXEC));
+FileDescriptor makeMemoryFile() {
+  return FileDescriptor(memfd_create("stadion-child", MFD_CLOEXEC));
 }
 
-std::string contentOf(const Descriptor& file, std::size_t limit) {
+std::string contentOf(const FileDescriptor& file, std::size_t limit) {
   std::string text(limit, '\0');
   const ssize_t got = file ? pread(file.get(), text.data(), text.size(), 0) : 0;
   text.resize(got > 0 ? static_cast<std::size_t>(got) : 0);

@@ -5,6 +5,8 @@
 /// Threads    one thread at a time.
 /// Errors     start() says why there is no child; no signal and no exception.
 
+#include "engine/base/file_descriptor.h"
+
 #include <chrono>
 #include <optional>
 #include <string>
@@ -12,21 +14,6 @@
 #include <vector>
 
 namespace stadion {
-
-/// A file descriptor that is closed with its owner, and never inherited by accident.
-class Descriptor {
-public:
-  explicit Descriptor(int fd = -1) : fd_(fd) {}
-  ~Descriptor() { close(); }
-  Descriptor(Descriptor&& o) noexcept : fd_(o.fd_) { o.fd_ = -1; }
-  Descriptor& operator=(Descriptor&& o) noexcept;
-  int get() const { return fd_; }
-  explicit operator bool() const { return fd_ >= 0; }
-  void close();
-
-private:
-  int fd_;
-};
 
 class ChildProcess {
 public:
@@ -66,13 +53,13 @@ private:
 
 /// A pipe: `read` returns the data written to `write`. Both are invalid if the system has none left.
 struct Pipe {
-  Descriptor read, write;
+  FileDescriptor read, write;
 };
 Pipe makePipe();
 
 /// Returns a nameless file in memory, which collects a child's output. Invalid if the system has none left.
-Descriptor makeMemoryFile();
+FileDescriptor makeMemoryFile();
 /// Returns its first `limit` bytes.
-std::string contentOf(const Descriptor& file, std::size_t limit = 4096);
+std::string contentOf(const FileDescriptor& file, std::size_t limit = 4096);
 
 }  // namespace stadion

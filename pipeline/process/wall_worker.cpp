@@ -22,7 +22,7 @@ namespace {
 ProcessStatus statusOf(int pid) {
   char text[1024];  // the longest line has some 400 characters
   std::snprintf(text, sizeof text, "/proc/%d/stat", pid);
-  const Descriptor file(::open(text, O_RDONLY | O_CLOEXEC));
+  const FileDescriptor file(::open(text, O_RDONLY | O_CLOEXEC));
   const ssize_t size = file ? ::read(file.get(), text, sizeof text) : 0;
   std::string_view left(text, size > 0 ? static_cast<std::size_t>(size) : 0);
   const auto name = left.rfind(')');  // the program's name may hold blanks
@@ -75,8 +75,8 @@ std::optional<std::string> WallWorker::start() {
   stop();
   int ends[2];
   if (::socketpair(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC, 0, ends) != 0) return std::strerror(errno);
-  Descriptor ours(ends[0]);
-  const Descriptor theirs(ends[1]);
+  FileDescriptor ours(ends[0]);
+  const FileDescriptor theirs(ends[1]);
   const ChildProcess::Streams streams{theirs.get(), -1, STDERR_FILENO};
   if (const auto error = process_->start({setting_.program.string()}, streams)) {
     state_ = State::Down;

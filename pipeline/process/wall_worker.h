@@ -108,7 +108,7 @@ private:
   SharedMeshes& sharedMeshes_;
   std::unique_ptr<ChildProcess> process_ = std::make_unique<ChildProcess>();
   std::vector<std::unique_ptr<ChildProcess>> dying_;  ///< killed; no call waits for their end
-  Descriptor socket_;
+  FileDescriptor socket_;
   SharedSegment list_, pictures_;
   State state_ = State::Down;
   StillKeys known_;

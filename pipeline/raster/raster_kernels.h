@@ -1,6 +1,6 @@
 #pragma once
 /// Draws small triangles into a picture, several at a time, as OpenGL draws them (3.3 core, 3.6.1). Internal
-/// to pipeline/draw/.
+/// to pipeline/gl_draw/.
 ///
 /// Corners lie on a grid of 1/256 pixel. A pixel is drawn if its middle is inside, or on a left or lower
 /// edge. Depths are linear in the picture, colours in space.

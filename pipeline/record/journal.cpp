@@ -43,8 +43,8 @@ std::string oneLine(std::string_view text) {
   return line;
 }
 
-Descriptor openToAppend(const std::string& file) {
-  return Descriptor(
+FileDescriptor openToAppend(const std::string& file) {
+  return FileDescriptor(
       ::open(file.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC | O_NONBLOCK | O_NOCTTY, 0666));
 }
 
@@ -60,7 +60,7 @@ void moveOn(const std::string& file) {
 
 Result<std::unique_ptr<Journal>> Journal::open(std::string file, std::size_t limit) {
   using Opened = Result<std::unique_ptr<Journal>>;
-  const Descriptor opened = openToAppend(file);
+  const FileDescriptor opened = openToAppend(file);
   struct stat info {};
   if (!opened || fstat(opened.get(), &info) != 0)
     return Opened::failure(file + " cannot be written: " + std::strerror(errno));
@@ -108,7 +108,7 @@ bool Journal::lockSoon(int file) {
 std::optional<std::string> Journal::write(std::string_view line) {
   constexpr int kTries = 8;
   for (int i = 0; i < kTries; ++i) {
-    const Descriptor file = openToAppend(file_);
+    const FileDescriptor file = openToAppend(file_);
     struct stat ours {
     }, named{};
     if (!file || fstat(file.get(), &ours) != 0) return std::strerror(errno);

@@ -232,7 +232,7 @@ private:
   /// An encoder that reports success may still have lost frames on a full disk. Counts the frames in the
   /// file.
   bool verify() {
-    const Descriptor answer = makeMemoryFile();
+    const FileDescriptor answer = makeMemoryFile();
     ChildProcess probe;
     const auto problem =
         probe.start({options_.ffprobe, "-v", "error", "-count_packets", "-select_streams", "v:0",
@@ -273,8 +273,8 @@ private:
   std::atomic<bool> abandoned_ = false;
 
   ChildProcess encoder_;  ///< from here on: used by the thread only
-  Descriptor toEncoder_;
-  Descriptor complaints_;
+  FileDescriptor toEncoder_;
+  FileDescriptor complaints_;
   std::uint64_t sent_ = 0;
 
   std::thread thread_;

@@ -48,7 +48,7 @@ Nanoseconds machineClock() {
       .count();
 }
 
-std::unique_ptr<SharedProgress> SharedProgress::map(Descriptor file) {
+std::unique_ptr<SharedProgress> SharedProgress::map(FileDescriptor file) {
   static_assert(sizeof(Page) <= kPageBytes);
   void* at = mmap(nullptr, kPageBytes, PROT_READ | PROT_WRITE, MAP_SHARED, file.get(), 0);
   if (at == MAP_FAILED) return nullptr;
@@ -60,7 +60,7 @@ Result<std::unique_ptr<SharedProgress>> SharedProgress::create() {
     return Result<std::unique_ptr<SharedProgress>>::failure(
         std::string("no memory to share with the player: ") + std::strerror(errno));
   };
-  Descriptor file(memfd_create("stadion-progress", 0));  // the player inherits it
+  FileDescriptor file(memfd_create("stadion-progress", 0));  // the player inherits it
   if (!file || ftruncate(file.get(), kPageBytes) != 0) return none();
   auto made = map(std::move(file));
   if (!made) return none();
@@ -72,7 +72,7 @@ std::unique_ptr<SharedProgress> SharedProgress::attach(int descriptor) {
   struct stat info {};
   if (fstat(descriptor, &info) != 0 || !S_ISREG(info.st_mode) || info.st_size < kPageBytes) return nullptr;
   fcntl(descriptor, F_SETFD, FD_CLOEXEC);  // not for the player's own children
-  auto made = map(Descriptor(descriptor));
+  auto made = map(FileDescriptor(descriptor));
   return made && made->page_->mark == kMark ? std::move(made) : nullptr;
 }
 

@@ -96,10 +96,10 @@ public:
 
 private:
   struct Page;
-  SharedProgress(Descriptor file, Page* page) : file_(std::move(file)), page_(page) {}
-  static std::unique_ptr<SharedProgress> map(Descriptor file);
+  SharedProgress(FileDescriptor file, Page* page) : file_(std::move(file)), page_(page) {}
+  static std::unique_ptr<SharedProgress> map(FileDescriptor file);
 
-  Descriptor file_;
+  FileDescriptor file_;
   Page* page_;
 };
 

@@ -1,6 +1,6 @@
 #include "pipeline/wall/wall_contexts.h"
 
-#include "pipeline/draw/gl_renderer.h"
+#include "pipeline/gl_draw/gl_renderer.h"
 
 namespace stadion {
 

@@ -37,7 +37,7 @@ std::string howItEnded(int status) {
                            : fmt::format("ended with exit code {}", status);
 }
 
-std::string wholeContentOf(const Descriptor& file) {
+std::string wholeContentOf(const FileDescriptor& file) {
   struct stat about {};
   if (!file || fstat(file.get(), &about) != 0) return {};
   return contentOf(file, static_cast<std::size_t>(about.st_size));

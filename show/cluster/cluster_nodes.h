@@ -70,7 +70,7 @@ private:
     bool waitsForFiles = false;  ///< the node was reported as waiting for other files
     Clock::time_point begun{}, notBefore{};
     worker::Restarts restarts{};
-    Descriptor said{};
+    FileDescriptor said{};
     ChildProcess child{};
   };
 

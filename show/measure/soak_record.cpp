@@ -87,7 +87,7 @@ bool SoakRecord::lock(Diagnostics& findings) {
     return false;
   };
   constexpr int kHow = O_RDWR | O_CREAT | O_APPEND | O_CLOEXEC | O_NONBLOCK | O_NOCTTY;
-  file_ = Descriptor(::open(name_.c_str(), kHow, 0666));
+  file_ = FileDescriptor(::open(name_.c_str(), kHow, 0666));
   struct stat about {};
   if (!file_ || fstat(file_.get(), &about) != 0)
     return refuse(std::string(" cannot be written: ") + std::strerror(errno));

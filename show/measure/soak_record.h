@@ -82,7 +82,7 @@ private:
 
   std::string name_;  ///< empty: nothing is written
   std::function<void(const std::string&)> fault_;
-  Descriptor file_;
+  FileDescriptor file_;
   bool incomplete_ = false;
   std::uint32_t process_ = 0, processes_ = 0;
   std::vector<SoakSample> samples_;

@@ -17,7 +17,7 @@
 namespace stadion {
 namespace {
 
-std::string everythingIn(const Descriptor& file) {
+std::string everythingIn(const FileDescriptor& file) {
   struct stat info {};
   return fstat(file.get(), &info) == 0 ? contentOf(file, static_cast<std::size_t>(info.st_size)) : "";
 }
@@ -51,7 +51,7 @@ using Clock = std::chrono::steady_clock;
 
 /// A child and what it says.
 struct RunningChild {
-  Descriptor out = makeMemoryFile(), err = makeMemoryFile();
+  FileDescriptor out = makeMemoryFile(), err = makeMemoryFile();
   ChildProcess child;
   ChildResult result;
 
@@ -107,7 +107,7 @@ std::pair<ChildResult, ChildResult> runInTurns(const std::vector<std::string>& f
     none.fault = "there is no socket to be had";
     return {none, none};
   }
-  Descriptor ofFirst(ends[0]), ofSecond(ends[1]);
+  FileDescriptor ofFirst(ends[0]), ofSecond(ends[1]);
   const char turn = 't';
   (void)!send(ofSecond.get(), &turn, 1, MSG_NOSIGNAL);  // what one end sends the other one reads
   RunningChild a, b;

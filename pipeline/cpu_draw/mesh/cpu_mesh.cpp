@@ -2,9 +2,9 @@
 
 #include "engine/maths/srgb.h"
 #include "pipeline/cpu_draw/mesh/cpu_material.h"
-#include "pipeline/draw/gpu/surface_check.h"
 #include "pipeline/gl/finite.h"
 #include "pipeline/gl/problem.h"
+#include "pipeline/gl_draw/gpu/surface_check.h"
 
 #include <algorithm>
 #include <utility>

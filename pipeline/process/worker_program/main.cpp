@@ -3,7 +3,7 @@
 /// Started by stadion with a socket as its standard input; it ends when the show closes that.
 
 #include "pipeline/cpu_draw/cpu_renderer.h"
-#include "pipeline/draw/gl_renderer.h"
+#include "pipeline/gl_draw/gl_renderer.h"
 #include "pipeline/process/list_bytes.h"
 #include "pipeline/process/protocol.h"
 #include "pipeline/process/shared_meshes.h"

@@ -230,7 +230,7 @@ struct StandsFixture : ShowFixture {
   static constexpr NodeRef kScene{1, 0}, kPath{2, 0};
   static constexpr std::uint32_t kHalf = 1, kQuarter = 2, kRest = 3;
   PathNode* path = nullptr;
-  OscillationNode* sway = nullptr;
+  SwayNode* sway = nullptr;
   LookingNode* looking = nullptr;
 
   StandsFixture() {
@@ -242,9 +242,9 @@ struct StandsFixture : ShowFixture {
       const std::vector<Keyframe> keys{{0, {Vec3::Zero(), Quat::Identity()}},
                                        {2, {Vec3(2, 0, 0), Quat::Identity()}}};
       path = &addNode<PathNode>(load, "path", PlaceAttributes{}, NodeRef{}, keys, true, false, true);
-      OscillationAttributes swell;
+      SwayAttributes swell;
       swell.amplitude = Vec3(0, 1, 0), swell.frequency = Vec3(0, 0.25, 0);
-      sway = &addNode<OscillationNode>(load, "sway", PlaceAttributes{}, swell, true);
+      sway = &addNode<SwayNode>(load, "sway", PlaceAttributes{}, swell, true);
       looking = &addNode<LookingNode>(load, "looking", *path);
       load.terms[kPath.position] = {1, {DegradationStep::Half, DegradationStep::Rest}, 1};
     };

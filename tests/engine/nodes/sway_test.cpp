@@ -13,8 +13,8 @@
 namespace stadion {
 namespace {
 
-OscillationAttributes swell() {
-  OscillationAttributes a;
+SwayAttributes swell() {
+  SwayAttributes a;
   a.amplitude = {2, 0.5, 1}, a.frequency = {0.2, 0.35, 0.5};
   a.phase = {0.3, -1, 2}, a.phaseStep = {0.7, 0.2, -0.4};
   a.angularVelocity = {0, 0, 0.8};
@@ -32,10 +32,9 @@ PlaceAttributes at(double x, double y, double z, double scale = 1) {
 struct SwayShow : ShowFixture {
   static constexpr std::uint32_t kBoats = 3;
   std::vector<PlacedNode*> boats;
-  OscillationNode* sway = nullptr;
+  SwayNode* sway = nullptr;
 
-  explicit SwayShow(double framesPerSecond = 60, OscillationAttributes a = swell(),
-                    std::uint32_t count = kBoats) {
+  explicit SwayShow(double framesPerSecond = 60, SwayAttributes a = swell(), std::uint32_t count = kBoats) {
     rate = framesPerSecond;
     const MeshId mesh = meshes.add(unitMesh());
     loader.files["show"] = [this, a, mesh, count](LoadedScene& load) mutable {
@@ -44,7 +43,7 @@ struct SwayShow : ShowFixture {
         boats.push_back(
             &addNode<MovingNode>(load, "boat" + std::to_string(i), at(10 * i, 1, 2, 1 + i), false, mesh));
       }
-      sway = &addNode<OscillationNode>(load, "sway", PlaceAttributes{}, a, true);
+      sway = &addNode<SwayNode>(load, "sway", PlaceAttributes{}, a, true);
     };
     scene.open("show");
   }
@@ -55,7 +54,7 @@ struct SwayShow : ShowFixture {
 };
 
 Affine expected(std::size_t boat, double t) {
-  const OscillationAttributes a = swell();
+  const SwayAttributes a = swell();
   Affine X = at(10.0 * static_cast<double>(boat), 1, 2).X_PN;
   for (int i = 0; i < 3; ++i)
     X.translation()[i] += a.amplitude[i] * std::sin(2 * kPi * a.frequency[i] * t + a.phase[i] +
@@ -95,9 +94,9 @@ TEST(Sway, TurnsWhatLiesAslantAboutAnyAxis) {
   const Vec3 omega(0.3, -0.2, 0.5);
   show.loader.files["show"] = [&](LoadedScene& load) {
     boat = &addNode<MovingNode>(load, "boat", place, false);
-    OscillationAttributes a;
+    SwayAttributes a;
     a.targets = {{load.number, 0}}, a.angularVelocity = omega;
-    addNode<OscillationNode>(load, "sway", PlaceAttributes{}, a, true);
+    addNode<SwayNode>(load, "sway", PlaceAttributes{}, a, true);
   };
   show.scene.open("show");
   while (show.input.time < fromSeconds(2)) show.frame();
@@ -173,14 +172,14 @@ TEST(Sway, WithoutTargetsItMovesWhatStandsBelowIt) {
   ShowFixture show;
   PlacedNode* below = nullptr;
   show.loader.files["show"] = [&](LoadedScene& load) {
-    addNode<OscillationNode>(load, "sway", at(0, 0, 1), swell(), true);
+    addNode<SwayNode>(load, "sway", at(0, 0, 1), swell(), true);
     PlaceAttributes place = at(3, 0, 0);
     place.parent = {load.number, 0};
     below = &addNode<MovingNode>(load, "below", place, false);
   };
   show.scene.open("show");
   while (show.input.time < fromSeconds(1)) show.frame();
-  const OscillationAttributes a = swell();
+  const SwayAttributes a = swell();
   Vec3 p = Vec3(0, 0, 1) + Eigen::AngleAxisd(0.8, Vec3::UnitZ()) * Vec3(3, 0, 0);
   for (int i = 0; i < 3; ++i) p[i] += a.amplitude[i] * std::sin(2 * kPi * a.frequency[i] + a.phase[i]);
   EXPECT_LT((show.scene.placements().world(below->placement()).translation() - p).norm(), 1e-12);
@@ -256,9 +255,9 @@ TEST(Sway, WhatItMovedStaysWhereItIsWhenItIsUnloaded) {
     boat = &addNode<MovingNode>(load, "boat", at(0, 1, 2), false, mesh);
   };
   show.loader.files["swell"] = [&](LoadedScene& load) {
-    OscillationAttributes a = swell();
+    SwayAttributes a = swell();
     a.targets = {boat->self()};
-    addNode<OscillationNode>(load, "sway", PlaceAttributes{}, a, true);
+    addNode<SwayNode>(load, "sway", PlaceAttributes{}, a, true);
   };
   show.scene.open("show");
   const std::uint32_t swellLoad = show.scene.requestLoad("swell", {}, 0);
@@ -281,9 +280,9 @@ TEST(Sway, WhatAnotherMovesAsItBeginsIsPublishedOnce) {
     boat = &addNode<MovingNode>(load, "boat", at(0, 1, 2), false, mesh);
   };
   show.loader.files["swell"] = [&](LoadedScene& load) {
-    OscillationAttributes a = swell();
+    SwayAttributes a = swell();
     a.targets = {boat->self()};
-    addNode<OscillationNode>(load, "sway", PlaceAttributes{}, a, true);
+    addNode<SwayNode>(load, "sway", PlaceAttributes{}, a, true);
   };
   show.scene.open("show");
   show.frames(3);
@@ -298,14 +297,14 @@ TEST(Sway, WhatAnotherMovesAsItBeginsIsPublishedOnce) {
 TEST(Sway, OfTwoThatMoveTheSameTheLaterOneCounts) {
   ShowFixture show;
   PlacedNode* boat = nullptr;
-  OscillationAttributes other = swell();
+  SwayAttributes other = swell();
   other.amplitude = {0, 0, 3};
   show.loader.files["show"] = [&](LoadedScene& load) {
     boat = &addNode<MovingNode>(load, "boat", at(0, 1, 2), false);
-    OscillationAttributes a = swell();
+    SwayAttributes a = swell();
     a.targets = other.targets = {boat->self()};
-    addNode<OscillationNode>(load, "first", PlaceAttributes{}, a, true);
-    addNode<OscillationNode>(load, "second", PlaceAttributes{}, other, true);
+    addNode<SwayNode>(load, "first", PlaceAttributes{}, a, true);
+    addNode<SwayNode>(load, "second", PlaceAttributes{}, other, true);
   };
   show.scene.open("show");
   while (show.input.time < fromSeconds(1)) show.frame();
@@ -345,12 +344,12 @@ TEST(Sway, ReportsTheWayInsideTheFrameToNodesThatWatch) {
   show.rate = 5;
   Onlooker* onlooker = nullptr;
   show.loader.files["show"] = [&](LoadedScene& load) {
-    OscillationAttributes a = swell();
+    SwayAttributes a = swell();
     for (std::uint32_t i = 0; i < 2; ++i) {
       a.targets.push_back({load.number, i});
       addNode<MovingNode>(load, "boat" + std::to_string(i), at(10 * i, 1, 2, 1 + i), false);
     }
-    addNode<OscillationNode>(load, "sway", PlaceAttributes{}, a, true);
+    addNode<SwayNode>(load, "sway", PlaceAttributes{}, a, true);
     onlooker = &addNode<Onlooker>(load, "onlooker", NodeRef{load.number, 1});
   };
   show.scene.open("show");

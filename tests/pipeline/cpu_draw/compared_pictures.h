@@ -2,7 +2,7 @@
 /// The same draw list, drawn with OpenGL and by the CPU renderer.
 
 #include "pipeline/cpu_draw/cpu_renderer.h"
-#include "tests/pipeline/draw/renderer_scene.h"
+#include "tests/pipeline/gl_draw/renderer_scene.h"
 
 namespace stadion::test {
 

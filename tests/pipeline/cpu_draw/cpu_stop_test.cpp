@@ -2,7 +2,7 @@
 
 #include "engine/base/run_stopped.h"
 #include "pipeline/cpu_draw/cpu_renderer.h"
-#include "tests/pipeline/draw/renderer_scene.h"
+#include "tests/pipeline/gl_draw/renderer_scene.h"
 
 #include <gtest/gtest.h>
 

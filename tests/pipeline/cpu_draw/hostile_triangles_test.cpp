@@ -5,7 +5,7 @@
 #include "pipeline/cpu_draw/kernels/choose_kernels.h"
 #include "pipeline/cpu_draw/picture_setup.h"
 #include "tests/pipeline/cpu_draw/scalar_drawing.h"
-#include "tests/pipeline/draw/renderer_scene.h"
+#include "tests/pipeline/gl_draw/renderer_scene.h"
 
 #include <gtest/gtest.h>
 

@@ -2,7 +2,7 @@
 
 #include "pipeline/cull/eye_test.h"
 #include "tests/pipeline/cull/cull_room.h"
-#include "tests/pipeline/draw/renderer_scene.h"
+#include "tests/pipeline/gl_draw/renderer_scene.h"
 
 #include <gtest/gtest.h>
 

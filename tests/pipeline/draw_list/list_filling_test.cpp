@@ -4,7 +4,7 @@
 
 #include "pipeline/loop/frame_loop.h"
 #include "tests/pipeline/cull/cull_room.h"
-#include "tests/pipeline/draw/renderer_scene.h"
+#include "tests/pipeline/gl_draw/renderer_scene.h"
 
 #include <gtest/gtest.h>
 #include <thread>

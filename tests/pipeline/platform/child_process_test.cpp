@@ -14,7 +14,7 @@ namespace {
 using std::chrono::milliseconds;
 
 std::string saidBy(const std::vector<std::string>& words, const std::vector<std::string>& environment = {}) {
-  const Descriptor out = makeMemoryFile();
+  const FileDescriptor out = makeMemoryFile();
   ChildProcess child;
   EXPECT_FALSE(child.start(words, {-1, out.get(), -1}, environment));
   EXPECT_EQ(child.wait(milliseconds(120'000)), 0);
@@ -38,7 +38,7 @@ TEST(ChildProcess, ItsEnvironmentIsOursButForWhatIsSaid) {
 TEST(ChildProcess, ItsStreamsMayBeWhereTheStandardStreamsAre) {
   const int kept[] = {fcntl(0, F_DUPFD_CLOEXEC, 3), fcntl(1, F_DUPFD_CLOEXEC, 3),
                       fcntl(2, F_DUPFD_CLOEXEC, 3)};
-  const Descriptor in = makeMemoryFile(), out = makeMemoryFile(), err = makeMemoryFile();
+  const FileDescriptor in = makeMemoryFile(), out = makeMemoryFile(), err = makeMemoryFile();
   const std::string said = "what it is told";
   const bool told = pwrite(in.get(), said.data(), said.size(), 0) == std::ssize(said);
   dup2(in.get(), 2), dup2(out.get(), 0), dup2(err.get(), 1);

@@ -1,7 +1,7 @@
 // Walls that are drawn on processors of their own.
 #include "pipeline/process/per_wall_process_renderer.h"
 #include "pipeline/wall/gl_wall_renderer.h"
-#include "tests/pipeline/draw/renderer_scene.h"
+#include "tests/pipeline/gl_draw/renderer_scene.h"
 #include "tests/proc.h"
 
 #include <gtest/gtest.h>

@@ -3,7 +3,7 @@
 #include "pipeline/process/list_bytes.h"
 #include "pipeline/process/per_view_process_renderer.h"
 #include "tests/fresh_folder.h"
-#include "tests/pipeline/draw/renderer_scene.h"
+#include "tests/pipeline/gl_draw/renderer_scene.h"
 #include "tests/proc.h"
 
 #include <gtest/gtest.h>

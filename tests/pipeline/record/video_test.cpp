@@ -149,7 +149,7 @@ TEST(ThreadsVideo, LeavesNothingBehindWhenItIsGivenUp) {
 }
 
 TEST(ChildProcess, GivesBackTheExitStatusAndWhatWasSaid) {
-  const Descriptor said = makeMemoryFile();
+  const FileDescriptor said = makeMemoryFile();
   ChildProcess child;
   ASSERT_FALSE(child.start({"sh", "-c", "echo hello; exit 5"}, {-1, said.get(), -1}));
   EXPECT_EQ(child.wait(milliseconds(120000)), 5);

@@ -262,7 +262,7 @@ TEST(SharedProgress, AShowThatCatchesUpIsDueWhereItWouldBe) {
 TEST(SharedProgress, AnotherDescriptorIsRefused) {
   EXPECT_EQ(SharedProgress::attach(-1), nullptr);
   EXPECT_EQ(SharedProgress::attach(dup(2)), nullptr);
-  const Descriptor other = makeMemoryFile();
+  const FileDescriptor other = makeMemoryFile();
   ASSERT_EQ(ftruncate(other.get(), 8192), 0);
   EXPECT_EQ(SharedProgress::attach(dup(other.get())), nullptr);
 }

@@ -2,7 +2,7 @@
 #include "pipeline/gl/picture_size.h"
 #include "pipeline/platform/shared_library.h"
 #include "pipeline/target/rasteriser_settings.h"
-#include "tests/pipeline/draw/renderer_scene.h"
+#include "tests/pipeline/gl_draw/renderer_scene.h"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 /// Any number of views: walls beyond what one search takes, and walls with views through several screens.
 
 #include "tests/pipeline/cull/cull_room.h"
-#include "tests/pipeline/draw/renderer_scene.h"
+#include "tests/pipeline/gl_draw/renderer_scene.h"
 
 #include <gtest/gtest.h>
 

@@ -3,7 +3,7 @@
 
 #include "pipeline/gl/gl_table.h"
 #include "pipeline/wall/gl_wall_renderer.h"
-#include "tests/pipeline/draw/renderer_scene.h"
+#include "tests/pipeline/gl_draw/renderer_scene.h"
 
 #include <gtest/gtest.h>
 #include <set>

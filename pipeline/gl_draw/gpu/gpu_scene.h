@@ -1,0 +1,87 @@
+#pragma once
+/// What one OpenGL context holds of the scene that it draws. All passes share it.
+///
+///   meshes()     vertices, indices, materials and textures of the meshes drawn so far
+///   surfaces()   the programs that draw surfaces
+///   instances()  where the meshes of the current draw list stand
+///   calls()      draw calls, and the state that they need
+///
+/// Besides, it holds the uniform blocks of the views and of what they share: sky and lights.
+///
+/// Ownership  owns the GL objects; the function table, the mesh store and the problem log must outlive it.
+/// Threads    the thread on which the context is current; its destructor too.
+/// Errors     reported to the log.
+
+#include "pipeline/draw_list/draw_list.h"
+#include "pipeline/gl/problem_log.h"
+#include "pipeline/gl_draw/gpu/draw_calls.h"
+#include "pipeline/gl_draw/gpu/list_instances.h"
+#include "pipeline/gl_draw/gpu/mesh_cache.h"
+#include "pipeline/gl_draw/gpu/surface_programs.h"
+#include "pipeline/shader/look.h"
+#include "pipeline/shader/uniform_blocks.h"
+
+#include <cstddef>
+#include <vector>
+
+namespace stadion {
+
+class GpuScene {
+public:
+  /// `sortsObjects`: transparent objects are drawn far to near, instead of as they are listed.
+  GpuScene(const GlTable& gl, const MeshStore& store, RenderQuality quality, bool sortsObjects,
+           ProblemLog& problems);
+
+  /// Returns true if triangles are removed before OpenGL sees them (TriangleCuller). It pays where a processor
+  /// rasterises with one sample a pixel: most triangles of distant objects cover no pixel.
+  bool cullsTriangles() const { return cullsTriangles_; }
+
+  /// Starts a draw list: frees meshes that the store has freed, and takes up the first items. `probe` gets
+  /// uploads and the waits for Cull; null = none.
+  void begin(const DrawList& list, FrameProbe* probe);
+  /// Uploads sky and lights of a list, and chooses the programs for them. `shadowed`: shadow maps are bound.
+  void light(const DrawList& list, bool shadowed);
+  /// Returns true if light() was called: nothing can be drawn before.
+  bool isLit() const { return isLit_; }
+  /// The block that light() uploaded.
+  const SceneBlock& lighting() const { return lighting_; }
+  /// Returns true if the sky has one colour: then it is cleared, not drawn.
+  bool skyIsFlat() const { return skyIsFlat_; }
+
+  /// Makes blocks for at least so many views.
+  void growTo(std::size_t views);
+  std::size_t views() const { return views_.size(); }
+  /// Uploads a view's block.
+  void setView(std::size_t view, const ViewBlock& block);
+  /// Binds the blocks of a view, and of sky and lights, for all programs.
+  void bindView(std::size_t view) const;
+
+  MeshCache& meshes() { return meshes_; }
+  const MeshCache& meshes() const { return meshes_; }
+  SurfacePrograms& surfaces() { return surfaces_; }
+  ListInstances& instances() { return instances_; }
+  const InstanceBatches& batches() const { return instances_.batches(); }
+  DrawCalls& calls() { return calls_; }
+  const DrawCalls& calls() const { return calls_; }
+
+  /// The batch's mesh; null if no instance is seen or the mesh cannot be drawn.
+  const GlMesh* meshOf(const InstanceBatch& seen) {
+    return seen.count > 0 ? meshes_.find(seen.mesh) : nullptr;
+  }
+
+private:
+  const GlTable& gl_;
+  Look look_;
+  ProblemLog& problems_;
+  DrawCalls calls_;
+  bool cullsTriangles_;
+  MeshCache meshes_;
+  SurfacePrograms surfaces_;
+  ListInstances instances_;
+  GlBuffer scene_;
+  std::vector<GlBuffer> views_;  ///< uniform blocks of the views; at least one
+  SceneBlock lighting_{};
+  bool isLit_ = false, skyIsFlat_ = false;
+};
+
+}  // namespace stadion

@@ -1,0 +1,241 @@
+#include "pipeline/gl_draw/gpu/mesh_cache.h"
+
+#include "engine/maths/srgb.h"
+#include "pipeline/gl/finite.h"
+#include "pipeline/gl/problem.h"
+#include "pipeline/gl_draw/gpu/mask_levels.h"
+#include "pipeline/gl_draw/gpu/surface_check.h"
+#include "pipeline/shader/uniform_blocks.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstring>
+
+namespace stadion {
+namespace {
+
+struct Vertex {
+  std::array<float, 3> position, normal;
+  std::array<float, 2> uv;
+  std::array<std::uint16_t, 4> colour;
+};
+
+constexpr float kAnisotropy = 8;  // on the processor it makes textured scenes 2 to 3 times as slow
+
+/// Of all bytes, in sixteen bits.
+std::array<std::uint16_t, 256> colourTable(Look look) {
+  std::array<std::uint16_t, 256> table{};
+  for (std::size_t i = 0; i < table.size(); ++i) {
+    const double c = static_cast<double>(i) / 255;
+    table[i] = static_cast<std::uint16_t>(std::lround(65535 * (look == Look::Full ? linearFromSrgb(c) : c)));
+  }
+  return table;
+}
+
+std::vector<Vertex> interleave(const Mesh& mesh, Look look) {
+  const std::array<std::uint16_t, 256> colours = colourTable(look);
+  std::vector<Vertex> vertices(mesh.positions.size());
+  for (std::size_t i = 0; i < vertices.size(); ++i) {
+    Vertex& v = vertices[i];
+    std::transform(mesh.positions[i].begin(), mesh.positions[i].end(), v.position.begin(), finite);
+    std::transform(mesh.normals[i].begin(), mesh.normals[i].end(), v.normal.begin(), finite);
+    v.uv = mesh.uvs.empty() ? std::array<float, 2>{0, 0} : mesh.uvs[i];
+    v.colour = {65535, 65535, 65535, 65535};
+    if (mesh.colours.empty()) continue;
+    const auto& c = mesh.colours[i];
+    v.colour = {colours[c[0]], colours[c[1]], colours[c[2]], static_cast<std::uint16_t>(257 * c[3])};
+  }
+  return vertices;
+}
+
+/// Below which alpha the texture itself leaves holes; 0 if it leaves none.
+float textureCutoff(const Mesh& mesh, std::size_t texture) {
+  for (const Material& m : mesh.materials)
+    if (m.masked() && m.texture == static_cast<std::int64_t>(texture) && m.baseColour[3] > 0)
+      return m.alphaCutoff / m.baseColour[3];
+  return 0;
+}
+
+}  // namespace
+
+MeshParts partsOf(const GlMesh& mesh, std::uint32_t level) {
+  const std::vector<GlSubmesh>& parts = mesh.partsAt(level);
+  std::uint32_t triangles = 0;
+  for (const GlSubmesh& part : parts) triangles += part.triangles();
+  return {&mesh, parts, triangles};
+}
+
+void pointAtInstances(const GlTable& gl, const GlBuffer& instances, std::uint32_t first) {
+  constexpr std::size_t kRow = 4 * sizeof(float), kMatrix = 3 * kRow;
+  gl.BindBuffer(GL_ARRAY_BUFFER, instances.name());
+  for (GLuint row = 0; row < 3; ++row)
+    gl.VertexAttribPointer(kModelX + row, 4, GL_FLOAT, GL_FALSE, kMatrix,
+                           inBuffer(first * kMatrix + row * kRow));
+}
+
+MeshCache::MeshCache(const GlTable& gl, const MeshStore& meshes, Look look, bool culled)
+    : gl_(gl), store_(meshes), look_(look), culls_(culled),
+      anisotropy_(!isSoftware(gl) && (hasGlExtension(gl, "GL_EXT_texture_filter_anisotropic") ||
+                                      hasGlExtension(gl, "GL_ARB_texture_filter_anisotropic"))) {
+  gl_.GetIntegerv(GL_UNIFORM_BUFFER_OFFSET_ALIGNMENT, &uniformAlignment_);
+}
+
+const GlMesh* MeshCache::find(MeshId id) {
+  auto at = meshes_.find(id);
+  if (at == meshes_.end()) {
+    const SpanScope span(probe_, Span::Upload);
+    const Mesh* mesh = store_.find(id);
+    if (!mesh) report("mesh " + std::to_string(id) + " is to be drawn but no longer there");
+    at = meshes_.emplace(id, mesh ? Cached{mesh->hash, upload(*mesh)} : Cached{}).first;
+  }
+  return at->second.gl ? &*at->second.gl : nullptr;
+}
+
+bool MeshCache::holds(MeshId id) const {
+  return meshes_.contains(id);
+}
+
+void MeshCache::freeUnused() {
+  const std::uint64_t freed = store_.freedCount();
+  if (freed == freedCount_) return;
+  freedCount_ = freed;
+  std::erase_if(meshes_, [this](const auto& entry) { return !store_.holds(entry.first, entry.second.hash); });
+}
+
+std::optional<Diagnostic> MeshCache::takeProblem() {
+  return std::exchange(problem_, std::nullopt);
+}
+
+void MeshCache::report(std::string what) {
+  if (!problem_) problem_ = problem(std::move(what));
+}
+
+std::optional<GlMesh> MeshCache::upload(const Mesh& mesh) {
+  if (const std::string fault = drawingFault(mesh); !fault.empty()) {
+    report("\"" + mesh.name + "\" cannot be drawn: " + fault);
+    return {};
+  }
+  GlMesh out{
+      GlVertexArray(gl_), GlBuffer(gl_), GlBuffer(gl_), GlBuffer(gl_), {}, {}, {}, 0, {}, mesh.bounds, {}};
+  uploadVertices(mesh, out);
+  out.textures.reserve(mesh.textures.size());
+  for (std::size_t i = 0; i < mesh.textures.size(); ++i)
+    out.textures.push_back(uploadTexture(mesh.textures[i], textureCutoff(mesh, i)));
+  uploadMaterials(mesh, out);
+  if (const GLenum error = gl_.GetError(); error != GL_NO_ERROR) {
+    report("\"" + mesh.name + "\" cannot be drawn: OpenGL says " + glErrorName(error));
+    return {};
+  }
+  return out;
+}
+
+void MeshCache::uploadVertices(const Mesh& mesh, GlMesh& out) {
+  const std::vector<Vertex> vertices = interleave(mesh, look_);
+  gl_.BindVertexArray(out.vertexArray.name());
+  gl_.BindBuffer(GL_ARRAY_BUFFER, out.vertices.name());
+  gl_.BufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(vertices.size() * sizeof(Vertex)), vertices.data(),
+                 GL_STATIC_DRAW);
+  gl_.BindBuffer(GL_ELEMENT_ARRAY_BUFFER, out.indices.name());
+  uploadIndices(mesh, out);
+  const auto attribute = [&](GLuint at, GLint size, GLenum type, GLboolean normalised, std::size_t from) {
+    gl_.EnableVertexAttribArray(at);
+    gl_.VertexAttribPointer(at, size, type, normalised, sizeof(Vertex), inBuffer(from));
+  };
+  attribute(kPosition, 3, GL_FLOAT, GL_FALSE, offsetof(Vertex, position));
+  attribute(kNormal, 3, GL_FLOAT, GL_FALSE, offsetof(Vertex, normal));
+  attribute(kUv, 2, GL_FLOAT, GL_FALSE, offsetof(Vertex, uv));
+  attribute(kColour, 4, GL_UNSIGNED_SHORT, GL_TRUE, offsetof(Vertex, colour));
+  for (const GLuint row : {kModelX, kModelY, kModelZ}) {  // the renderer points them at its instances
+    gl_.EnableVertexAttribArray(row);
+    gl_.VertexAttribDivisor(row, 1);
+  }
+}
+
+/// Of all levels, one after the other.
+void MeshCache::uploadIndices(const Mesh& mesh, GlMesh& out) {
+  std::vector<std::uint32_t> ofLevels;
+  if (!mesh.levels.empty()) {
+    ofLevels = mesh.indices;
+    for (const MeshLevel& level : mesh.levels)
+      ofLevels.insert(ofLevels.end(), level.indices.begin(), level.indices.end());
+  }
+  const std::span<const std::uint32_t> all = mesh.levels.empty() ? std::span(mesh.indices) : ofLevels;
+  gl_.BufferData(GL_ELEMENT_ARRAY_BUFFER, static_cast<GLsizeiptr>(all.size_bytes()), all.data(),
+                 GL_STATIC_DRAW);
+  if (culls_) out.culler.emplace(mesh, all);
+}
+
+void MeshCache::uploadMaterials(const Mesh& mesh, GlMesh& out) {
+  const auto alignment = static_cast<std::size_t>(std::max(uniformAlignment_, 1));
+  const std::size_t stride = (sizeof(MaterialBlock) + alignment - 1) / alignment * alignment;
+  std::vector<std::byte> blocks(stride * mesh.materials.size());
+  for (std::size_t i = 0; i < mesh.materials.size(); ++i) {
+    const MaterialBlock block = fillMaterial(mesh.materials[i], look_);
+    std::memcpy(blocks.data() + i * stride, &block, sizeof block);
+  }
+  gl_.BindBuffer(GL_UNIFORM_BUFFER, out.materials.name());
+  gl_.BufferData(GL_UNIFORM_BUFFER, static_cast<GLsizeiptr>(blocks.size()), blocks.data(), GL_STATIC_DRAW);
+
+  const bool open = !encloses(mesh);
+  const auto partOf = [&](const Submesh& part, std::span<const std::uint32_t> indices, std::size_t before) {
+    const Material& material = mesh.materials[part.material];
+    const bool textured = material.texture >= 0 && !mesh.uvs.empty();
+    const auto nameOf = [&](std::int32_t texture) {
+      return texture >= 0 ? out.textures[static_cast<std::size_t>(texture)].name() : 0;
+    };
+    const auto own = indices.subspan(part.firstIndex, part.indexCount);
+    const auto [least, most] = std::ranges::minmax_element(own);
+    const std::uint32_t first = own.empty() ? 0 : *least, end = own.empty() ? 0 : *most + 1;
+    return GlSubmesh{static_cast<GLsizei>(part.indexCount),
+                     (before + part.firstIndex) * sizeof(std::uint32_t),
+                     static_cast<GLintptr>(part.material * stride),
+                     textured ? nameOf(material.texture) : 0,
+                     nameOf(material.emissiveTexture),
+                     material.transparent(),
+                     material.masked(),
+                     material.doubleSided || open,
+                     static_cast<std::uint32_t>(part.material),
+                     first,
+                     end};
+  };
+  for (const Submesh& part : mesh.submeshes) {
+    out.parts.push_back(partOf(part, mesh.indices, 0));
+    out.transparentParts += mesh.materials[part.material].transparent();
+  }
+  std::size_t first = mesh.indices.size();
+  for (const MeshLevel& level : mesh.levels) {
+    std::vector<GlSubmesh>& parts = out.levels.emplace_back();
+    for (const Submesh& part : level.submeshes) parts.push_back(partOf(part, level.indices, first));
+    first += level.indices.size();
+  }
+  const auto isPlain = [](const GlSubmesh& part) {
+    return part.texture == 0 && part.glowTexture == 0 && !part.transparent && !part.masked;
+  };
+  if (culls_ && look_ == Look::Plain && std::ranges::all_of(out.parts, isPlain)) out.shading.emplace(mesh);
+}
+
+GlTexture MeshCache::uploadTexture(const Texture& texture, float alphaCutoff) {
+  GlTexture out(gl_);
+  const std::vector<Texture> smaller =
+      alphaCutoff > 0 ? maskLevels(texture, alphaCutoff, look_) : std::vector<Texture>();
+  gl_.BindTexture(GL_TEXTURE_2D, out.name());
+  gl_.PixelStorei(GL_UNPACK_ALIGNMENT, 1);
+  const auto level = [&](GLint number, const Texture& of) {
+    gl_.TexImage2D(GL_TEXTURE_2D, number, look_ == Look::Full ? GL_SRGB8_ALPHA8 : GL_RGBA8,
+                   static_cast<GLsizei>(of.width), static_cast<GLsizei>(of.height), 0, GL_RGBA,
+                   GL_UNSIGNED_BYTE, of.rgba.data());
+  };
+  level(0, texture);
+  for (std::size_t i = 0; i < smaller.size(); ++i) level(static_cast<GLint>(i + 1), smaller[i]);
+  if (alphaCutoff > 0)
+    gl_.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAX_LEVEL, static_cast<GLint>(smaller.size()));
+  else
+    gl_.GenerateMipmap(GL_TEXTURE_2D);
+  gl_.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_LINEAR);
+  gl_.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+  if (anisotropy_) gl_.TexParameterf(GL_TEXTURE_2D, GL_TEXTURE_MAX_ANISOTROPY, kAnisotropy);
+  return out;
+}
+
+}  // namespace stadion

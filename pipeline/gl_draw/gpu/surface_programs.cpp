@@ -1,0 +1,74 @@
+#include "pipeline/gl_draw/gpu/surface_programs.h"
+
+#include "pipeline/shader/uniform_blocks.h"
+
+#include <cassert>
+
+namespace stadion {
+
+std::optional<Diagnostic> SurfacePrograms::build() {
+  SurfaceTraits common;
+  common.look = look_;
+  return buildUsual(common, sets_[0]);
+}
+
+/// All of the usual ones, or none.
+std::optional<Diagnostic> SurfacePrograms::buildUsual(const SurfaceTraits& common, Set& set) const {
+  set.common = common;
+  for (std::size_t i = SurfaceTraits::kUsual; i-- > 0;) {  // the first one last: it says that all are there
+    SurfaceTraits traits = common;
+    traits.textured = (i & 1) != 0, traits.localLights = (i & 2) != 0;
+    traits.writes = (i & 4) != 0 ? SurfaceWrites::Blended : SurfaceWrites::Picture;
+    assert(traits.index() == i);
+    auto built =
+        GlProgram::build(gl_, surfaceVertexShader(traits), surfaceFragmentShader(traits), shaderBindings());
+    if (!built) return built.error();
+    set.programs[i].emplace(std::move(built.value()));
+  }
+  return {};
+}
+
+void SurfacePrograms::choose(const Common& of) {
+  const bool counted = look_ == Look::Plain && of.lights <= kMostCounted;
+  SurfaceTraits common;
+  common.shadowed = of.shadowed, common.hazy = of.hazy, common.look = look_;
+  common.lights = counted ? static_cast<int>(of.lights) : -1;
+  const auto which = static_cast<std::size_t>(common.lights + 1);
+  Set& set = sets_[std::size_t{of.shadowed} | std::size_t{of.hazy} << 1 | which << 2];
+  if (set.empty())
+    if (const auto why = buildUsual(common, set)) problems_.report(why->message);
+  chosen_ = set.empty() ? &sets_[0] : &set;
+  localLights_ = of.localLights;
+}
+
+const GlProgram& SurfacePrograms::use(const GlSubmesh& part, SurfaceWrites writes) {
+  SurfaceTraits traits;
+  traits.textured = part.texture != 0, traits.localLights = localLights_;
+  traits.writes = writes;
+  traits.masked = part.masked, traits.glowing = part.glowTexture != 0;
+  const GlProgram& program = find(traits);
+  calls_.use(program);
+  return program;
+}
+
+const GlProgram& SurfacePrograms::find(SurfaceTraits traits) {
+  const std::size_t i = traits.index();
+  std::optional<GlProgram>& program = chosen_->programs[i];
+  if (!program && !chosen_->failed[i]) {
+    const SurfaceTraits& common = chosen_->common;
+    traits.look = common.look, traits.shadowed = common.shadowed, traits.hazy = common.hazy;
+    traits.lights = common.lights;
+    auto built =
+        GlProgram::build(gl_, surfaceVertexShader(traits), surfaceFragmentShader(traits), shaderBindings());
+    if (built) {
+      program.emplace(std::move(built.value()));
+    } else {
+      chosen_->failed[i] = true;
+      problems_.report(built.error().message);
+    }
+    calls_.forgetProgram();
+  }
+  return program ? *program : *chosen_->programs[i % SurfaceTraits::kUsual];
+}
+
+}  // namespace stadion
