@@ -18,7 +18,7 @@
 namespace stadion {
 namespace {
 
-/// Those in some of a show's files.
+/// Returns the findings that concern one of these files, or no file.
 Diagnostics inFiles(const std::set<std::filesystem::path>& files, const Diagnostics& findings) {
   Diagnostics own;
   std::error_code error;
@@ -28,7 +28,8 @@ Diagnostics inFiles(const std::set<std::filesystem::path>& files, const Diagnost
   return own;
 }
 
-/// A script that a show loads is checked in it: its names and assets are that show's.
+/// Returns the findings of one script. A script that a show loads (`around`) is checked as a part of that
+/// show, because it may use the show's names and assets.
 Diagnostics findingsOf(const std::string& file, const std::optional<std::string>& around,
                        const std::vector<std::string>& roots, const SharedTypes& types) {
   if (!around) return checkShow(file, roots, types);

@@ -16,7 +16,7 @@ enum ExitCode : int {
   kInternalFault = kFailed,  ///< our fault, OpenGL's, or the display was lost
 };
 
-/// Of a run that could not go on.
+/// Returns the exit code of a run that ended early for this reason.
 inline int exitCodeOf(const Reason& why) {
   return statusOf(why);
 }

@@ -34,8 +34,8 @@ struct ClusterOptions {
   RunOptions run;  ///< as the command line says it, for all nodes
 };
 
-/// Whether nothing is wrong that each node would find and tell by itself, or wait for the others meanwhile.
-/// What there is to warn of is the same for all.
+/// Checks what each host would check. Without this check, each host would report the same error, or wait for
+/// the others. Reports the first errors and returns false, or reports the warnings and returns true.
 bool canBePlayed(const ClusterOptions& o, const std::vector<std::vector<std::string>>& arguments) {
   const auto isWell = [](const Diagnostics& findings) {
     if (findings.hasErrors()) tell(findings);
@@ -54,7 +54,7 @@ bool canBePlayed(const ClusterOptions& o, const std::vector<std::vector<std::str
   return true;
 }
 
-/// The folders into which the nodes will write, opened as each will, and closed again.
+/// Makes the folders into which the hosts will write. Returns false, with the reason, if that fails.
 bool makeFolders(const std::string& out, const ClusterFile& cluster, Diagnostics& findings) {
   if (out.empty()) return true;
   for (const ClusterNode& node : cluster.nodes)
@@ -63,8 +63,8 @@ bool makeFolders(const std::string& out, const ClusterFile& cluster, Diagnostics
   return true;
 }
 
-/// The node's own, to which it adds lines as well. Null without --journal, or with the reason in the
-/// findings.
+/// Opens the journal of a host, to which its process adds lines as well. Returns null without --journal, or
+/// with the reason in the findings.
 std::unique_ptr<Journal> openJournal(const std::string& file, const ClusterNode& node,
                                      Diagnostics& findings) {
   if (file.empty()) return nullptr;
@@ -73,7 +73,7 @@ std::unique_ptr<Journal> openJournal(const std::string& file, const ClusterNode&
   return std::move(journal.value());
 }
 
-/// Into the file that was asked for; true if none was. Each node's own trace stays.
+/// Merges the traces of all hosts into `file` and keeps them. Returns true on success, or if `file` is empty.
 bool mergeTracesOf(const ClusterFile& cluster, const std::string& file) {
   if (file.empty()) return true;
   std::vector<TraceOfHost> traces;
@@ -81,7 +81,7 @@ bool mergeTracesOf(const ClusterFile& cluster, const std::string& file) {
   return writeMergedTrace(traces, file);
 }
 
-/// One object with the summary of each host, as --json prints it. False if it cannot be written.
+/// Writes one object with the summary of each host, as --json prints it. Returns false if that fails.
 bool writeSummaries(const ClusterFile& cluster, const std::string& out) {
   if (out.empty()) return true;
   constexpr std::size_t kMostBytes = 64 << 20;
@@ -97,7 +97,8 @@ bool writeSummaries(const ClusterFile& cluster, const std::string& out) {
   return !wrong;
 }
 
-/// This program, which ends with us. `progress`: where it says that it shows pictures.
+/// Returns the command line of a host's process, which ends with this process. `progress`: receives the
+/// frames that the host shows.
 std::vector<std::string> programOf(const std::vector<std::string>& arguments,
                                    const SharedProgress* progress) {
   std::vector<std::string> all{std::filesystem::canonical("/proc/self/exe").string(), "run", "--ends-with",

@@ -1,10 +1,10 @@
 #pragma once
 /// The options of one command: rows of the option table, bound to settings.
 ///
-/// Ownership  values are written into the bound variables, which must stay where they are until the command line
-/// has been read.
-/// Errors     expects names that the table has; a wrong value ends the reading of the command line with a message
-/// that names option, value and what is allowed.
+/// Ownership  values are written into the bound variables, which must stay where they are until the command
+///            line has been read.
+/// Errors     expects names that the table has; a wrong value ends the reading of the command line with a
+///            message that names option, value and what is allowed.
 
 #include "cli/options/value_grammar.h"
 

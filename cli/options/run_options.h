@@ -2,7 +2,7 @@
 /// The options of `stadion run`, in groups. Other subcommands take some of the groups.
 ///
 /// Ownership  the options' values are written into `o`, which must stay where it is until the command line
-/// has been read.
+///            has been read.
 
 #include "cli/options/renderer_options.h"
 #include "cli/options/trace_options.h"

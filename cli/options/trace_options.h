@@ -1,5 +1,5 @@
 #pragma once
-/// What can be asked of a trace on the command line, alike in `profile` and `run`.
+/// The options of a trace, the same in `profile` and `run`.
 
 #include "profiling/trace/trace_file.h"
 
@@ -13,7 +13,7 @@ struct TraceRequest {
   std::string frames;  ///< "A..B"
   double megabytes = 100;
 
-  /// Says what is wrong. Nothing if no trace is asked for.
+  /// Returns the options of the trace; nothing if no trace is requested. Adds errors to the findings.
   std::optional<TraceOptions> settle(Diagnostics& findings) const;
 };
 

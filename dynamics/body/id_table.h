@@ -3,7 +3,7 @@
 /// dynamics/.
 ///
 /// Order    iteration is by id. Cost: finding is one look when little has been erased, else a binary search;
-/// erasing costs little, as the gaps are closed once they are half of all.
+///          erasing costs little, as the gaps are closed once they are half of all.
 
 #include <algorithm>
 #include <cstdint>

@@ -2,11 +2,11 @@
 /// How far two convex bodies are apart, or how deep they overlap.
 ///
 /// Method   where the point of one that reaches lowest over a face of the other lies over that face: no more
-/// is needed. Else while they are clearly apart: coreDistance. Near a contact its normal is lost in rounding,
-/// but the separating plane is then square to a face of one, or to an edge of each: the widest gap over those
-/// directions is exact, and goes on smoothly below zero. Where features are round, one body is held off along
-/// the normal found so far and the distance taken again: that draws the normal to the true one. Deep overlap:
-/// with both made thinner first.
+///          is needed. Else while they are clearly apart: coreDistance. Near a contact its normal is lost in
+///          rounding, but the separating plane is then square to a face of one, or to an edge of each: the
+///          widest gap over those directions is exact, and goes on smoothly below zero. Where features are
+///          round, one body is held off along the normal found so far and the distance taken again: that
+///          draws the normal to the true one. Deep overlap: with both made thinner first.
 
 #include "dynamics/collision/gjk.h"
 

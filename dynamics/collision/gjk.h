@@ -2,7 +2,8 @@
 /// The distance between two convex cores.
 ///
 /// Method   Gilbert, Johnson, Keerthi, A Fast Procedure for Computing the Distance Between Complex Objects,
-/// 1988; ends when upper and lower bound of the distance agree to rounding, or nothing improves any more.
+///          1988; ends when upper and lower bound of the distance agree to rounding, or nothing improves any
+///          more.
 
 #include "dynamics/shapes/convex_core.h"
 

@@ -68,7 +68,7 @@ Local localGap(const Vec3& c, double r, const PlaneShape& s, DistanceLimits) {
   const Vec3 p = s.pose.q.conjugate() * (c - s.pose.p);
   if (!s.bounded()) return {p.z() - r, s.pose * Vec3(p.x(), p.y(), 0), s.normal(), true, -1};
   const Vec3 q(std::clamp(p.x(), -s.half.x(), s.half.x()), std::clamp(p.y(), -s.half.y(), s.half.y()), 0);
-  // Over the sheet its upper side counts, also for what has sunk in; what has come below otherwise meets its
+  // Over the sheet its upper side counts, also for a ball that has sunk in. A ball below that depth meets its
   // back.
   if (q.x() == p.x() && q.y() == p.y() && p.z() > -sheetDepth(s))
     return {p.z() - r, s.pose * q, s.normal(), true, -1};
@@ -192,7 +192,7 @@ std::optional<Touch> flightOnMesh(const BallFlight& flight, const TriangleTree& 
   std::int32_t hit = -1;
   double best = to - from;
   const auto seize = [&](std::uint32_t i, double time) { hit = static_cast<std::int32_t>(i), best = time; };
-  // What is met as soon as something else is met will be met after that.
+  // True if the ball reaches something else before this time, or at this time.
   const auto late = [&](double time) { return hit >= 0 && time + 1e-12 >= best; };
   tree.eachOnWay(
       0, best, [&](double s, double t) { return flight.around(s, t); },

@@ -50,10 +50,10 @@ struct Touch {
   bool swapped = false;  ///< gap was measured from the second side
 };
 
-/// Which distances must be exact.
+/// The distances that must be exact.
 struct DistanceLimits {
-  double limit = 1e300;        ///< farther than this none [m]
-  double enough = 0;           ///< nearer than this any point will do instead of the nearest [m]
+  double limit = 1e300;        ///< no distance beyond this one [m]
+  double enough = 0;           ///< below this distance, any point will do instead of the nearest [m]
   std::int32_t triangle = -1;  ///< triangle of a mesh at which such a point may be
 };
 
@@ -61,8 +61,8 @@ struct DistanceLimits {
 Gap ballGap(const Vec3& centre, double radius, const Shape& shape, const Pose& X_WN,
             DistanceLimits limits = {});
 
-/// The first contact in [from, to] of sides that approach; nothing if they stay apart. `iterations` is
-/// counted up.
+/// Returns the first contact in [from, to] of sides that approach; nothing if they stay apart. Adds the
+/// number of computed distances to `iterations`.
 std::optional<Touch> firstTouch(const Side& a, const Side& b, double from, double to,
                                 std::uint64_t& iterations);
 

@@ -2,7 +2,7 @@
 /// The nearest points of segments and triangles.
 ///
 /// Source   clamped closest points of two lines; a pair of triangles is nearest at two edges or at a corner
-/// and a face.
+///          and a face.
 
 #include "dynamics/shapes/triangle_tree.h"
 

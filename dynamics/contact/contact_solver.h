@@ -2,10 +2,10 @@
 /// Velocities of bodies in lasting contact: all contact points of an island at once.
 ///
 /// Method   Gauss and Seidel's sweeps over points, each with its normal and a friction disc, warm started,
-/// find out which points push, stick and slip; small islands then solve exactly for that choice (dense, with
-/// a trace of regularisation and refinement, so that redundant points and mass ratios do not matter) and mend
-/// it until it holds. Islands too large for that, or whose choice does not settle, go on sweeping along
-/// conjugate directions.
+///          find out which points push, stick and slip; small islands then solve exactly for that choice
+///          (dense, with a trace of regularisation and refinement, so that redundant points and mass ratios
+///          do not matter) and mend it until it holds. Islands too large for that, or whose choice does not
+///          settle, go on sweeping along conjugate directions.
 
 #include "dynamics/body/impulse.h"
 #include "dynamics/contact/flat_friction.h"

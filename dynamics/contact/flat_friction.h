@@ -2,12 +2,13 @@
 /// Friction of a flat contact whose pressure is even over its area: force and spin moment together.
 ///
 /// Formula  a flat contact that slides with u and spins with w moves about one point P of its plane. Its
-/// force is mu N times the mean of the directions of slip, its moment mu N times the mean distance from P;
-/// both are integrals over the area and become sums over its edges (Stokes). All forces and moments that it
-/// can resist form a convex body, its limit surface; what it resists is the point of that surface whose
-/// normal is the slip. Sources  Goyal, Ruina, Papadopoulos, Planar sliding with dry friction, Wear 143
-/// (1991); Farkas, Bartels, Unger, Wolf, Frictional coupling between sliding and spinning motion, Phys. Rev.
-/// Lett. 90 (2003) 248302.
+///          force is mu N times the mean of the directions of slip, its moment mu N times the mean distance
+///          from P; both are integrals over the area and become sums over its edges (Stokes). All forces and
+///          moments that it can resist form a convex body, its limit surface; what it resists is the point of
+///          that surface whose normal is the slip.
+/// Sources  Goyal, Ruina, Papadopoulos, Planar sliding with dry friction, Wear 143 (1991); Farkas, Bartels,
+///          Unger, Wolf, Frictional coupling between sliding and spinning motion, Phys. Rev. Lett. 90 (2003)
+///          248302.
 
 #include "engine/maths/maths.h"
 

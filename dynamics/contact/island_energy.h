@@ -1,10 +1,10 @@
 #pragma once
 /// What contacts may do to the energy of an island that nothing moves from outside: lower it.
 ///
-/// Method   the work of all impulses on the members is a b + a^2 c if they are `a` times as strong: where it
-/// would be positive they are weakened, all alike, until it is not. So momenta stay what they are. Overlap is
-/// pushed out at a speed of its own: the work that this takes is allowed to bodies that do not move as fast
-/// already.
+/// Method   impulses that are `a` times as strong do the work a b + a^2 c on the members. If the work would
+///          be positive, all impulses are weakened by one factor until it is not. So the total momentum stays.
+///          Overlap is pushed out at a speed of its own. Bodies that do not move as fast already may receive
+///          the work that this takes.
 
 #include "dynamics/body/impulse.h"
 
@@ -13,9 +13,12 @@
 
 namespace stadion {
 
-/// `free` are the velocities without the impulses, `end` those with them; a body that falls does so, on the
-/// mean of the step, by `falls` less than at its end [m/s]; empty: an instant. `allowed` is work that they
-/// may do [J]. Those behind the first `members` are moved by nothing.
+/// Weakens the impulses of a step until they do no more work than allowed.
+///
+/// `members` is the number of bodies that impulses move; the bodies behind them stay as they are. `free` are
+/// the velocities without the impulses. `end` are the velocities with them, and receives the result. `falls`
+/// is, by body, how much its velocity at the end of the step exceeds the mean of the step [m/s]; empty if the
+/// impulses act at one instant. `allowed` is the work that the impulses may do [J].
 void boundWork(std::size_t members, const std::vector<SolverBody>& free, std::vector<SolverBody>& end,
                const std::vector<Vec3>& falls, double allowed);
 

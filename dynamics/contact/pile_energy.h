@@ -2,7 +2,7 @@
 /// What a step of a pile may do to the energy of bodies that push each other: lower it.
 ///
 /// Groups   bodies that any contact point of the step has joined, through members only. A group that leans on
-/// something that moves by itself is not bounded: it may be lifted.
+///          something that moves by itself is not bounded: it may be lifted.
 
 #include "dynamics/contact/pile_solver.h"
 

@@ -1,17 +1,16 @@
 #pragma once
-/// The paper's bias (Eq. 4): a body's longest axis turns towards where it flies, by hand. No force, no
-/// torque: the centre's path and the angular velocity stay as they are.
+/// The paper's bias (Eq. 4): a body's longest axis turns towards its velocity, without a force or a torque.
+/// The path of the centre and the angular velocity stay as they are.
 ///
-/// Frames   `q_WA` is the flight frame A in World (`flight_shape.h`): x is the longest axis, towards the
-/// nose. Forms    Flow        the angle from the nose to the velocity falls as exp(-rate t): the paper's in a
-/// form
-///                      that does not depend on the frame rate. A step of h applies h/2 before the centre
-///                      moves, with the old velocity, and h/2 after it, with the new one (Strang).
+/// Frames   `q_WA` is the flight frame A in World (`flight_shape.h`): x is the longest axis, to the nose.
+/// Forms    Flow        the angle from the nose to the velocity falls as exp(-rate t): the paper's bias in a
+///                      form that does not depend on the frame rate. A step of h applies h/2 before the
+///                      centre moves, with the old velocity, and h/2 after it, with the new one (Strang).
 ///          Paper       Eq. 4 to the letter: a share of the angle every frame, whatever it lasts.
 ///          Covariance  the velocity, seen from the body, flows as u' = rate |v| (C u - (u.C u) u) with the
 ///                      surface's covariance C / l1 (Oja's flow, here exactly). Rods point along v, either
 ///                      end first; flat bodies lay their plane along v; balls do not turn. The rate is per
-///                      metre of flight, as of anything that air turns.
+///                      metre of flight.
 /// Limits   no velocity: nothing turns, and Flow fades in up to some 0.1 m/s. Nose backwards: it turns about
 ///          A's y. Round bodies (`PrincipalAxes::round`) have rate 0.
 

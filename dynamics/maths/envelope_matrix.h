@@ -2,7 +2,7 @@
 /// A square matrix that is zero but near its diagonal: row i and column i begin at the same index.
 ///
 /// Method   L U without exchange of rows: for contact problems, which are nearly symmetric and, with a trace
-/// of regularisation, positive. Work goes with the sum of the squares of the rows' lengths.
+///          of regularisation, positive. Work goes with the sum of the squares of the rows' lengths.
 
 #include <cstddef>
 #include <vector>

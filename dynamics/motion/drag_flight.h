@@ -2,8 +2,8 @@
 /// Flight through a medium under a constant pull: dv/dt = g - c u - k |u| u with u = v - wind.
 ///
 /// Method   Taylor series of the position about the start, from the recurrences of |u|^2 = u.u and |u| u
-/// (Moore, Methods and Applications of Interval Analysis, 1979, ch. 3); the horizon is chosen by the last
-/// terms.
+///          (Moore, Methods and Applications of Interval Analysis, 1979, ch. 3); the horizon is chosen by the
+///          last terms.
 
 #include "dynamics/motion/arc.h"
 #include "dynamics/motion/force_field.h"

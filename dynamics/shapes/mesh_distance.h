@@ -2,7 +2,7 @@
 /// Tests and distances of meshes by hierarchies of boxes, made by FCL. Its types stay in mesh_distance.cpp.
 ///
 /// Errors   an exception or a senseless answer from the library gives "unknown", which the callers treat as
-/// "do not move on".
+///          "do not move on".
 
 #include "engine/maths/maths.h"
 

@@ -1,10 +1,10 @@
 #pragma once
 /// The events of one window, by time: commands, touches, ends of arcs and ticks of the contact solver.
 ///
-/// Times    tau is seconds since the start of the window (world_time.h).
-/// Order    by tau, then in the order of posting.
-/// Versions an event of a body or collider carries the version of its motion. If that has changed, the event
-///          is void; the world checks this when the event is due.
+/// Times     tau is seconds since the start of the window (world_time.h).
+/// Order     by tau, then in the order of posting.
+/// Versions  an event of a body or collider carries the version of its motion. If that has changed, the event
+///           is void; the world checks this when the event is due.
 
 #include "dynamics/collision/touch.h"
 

@@ -48,7 +48,8 @@ inline Vec3 nearestOn(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c
   return sum > 0 ? Vec3(va / sum, vb / sum, vc / sum) : Vec3(1, 0, 0);
 }
 
-/// The triangles of a surface, halved again and again by the middles of their boxes.
+/// A binary tree of boxes over the triangles of a surface. Each box is split at the median along its longest
+/// axis.
 class NearestTriangle {
 public:
   NearestTriangle(const Mesh& mesh, std::span<const std::uint32_t> indices) {

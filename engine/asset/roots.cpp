@@ -13,7 +13,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// What is wrong with the name itself, or nothing.
+/// Returns what is wrong with the name itself; empty if nothing is.
 std::string faultOf(const std::string& name) {
   if (name.empty()) return "an asset needs a file name";
   if (name.find('\0') != std::string::npos) return "an asset's file name must not contain a NUL character";

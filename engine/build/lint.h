@@ -64,10 +64,9 @@ void lintSender(const Declaration& node, LintScope& scope);
 /// For types that move their targets, or what has them as parent.
 void lintTargets(const Declaration& node, LintScope& scope);
 
-/// Expects a document whose names are resolved. Looks at this file only; files inside and around it may use
-/// what seems unused here, so a field or trigger is called unused only if it has no name or the file stands
-/// alone
-/// (`alone`: no file loads it and it loads none).
+/// Expects a document whose names are resolved. Looks at this file only. Files inside and around it may use
+/// what seems unused here. So a field or trigger is called unused only if it has no name, or if the file
+/// stands alone (`alone`: no file loads it and it loads none).
 void lint(const Document& document, bool alone, Diagnostics& findings);
 
 /// Warns of messages whose stated latency is shorter than a frame: it fixes nothing then.

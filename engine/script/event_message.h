@@ -1,10 +1,11 @@
 #pragma once
-/// "event, target, command [arguments] [, delay] [, latency=seconds]": what a node tells another when
-/// something happens to it.
+/// "event, target, command [arguments] [, delay] [, latency=seconds]": the command that a node sends to
+/// another node at one of its events.
 ///
-/// Times    the command is due at the event's exact time + delay + latency, and takes effect then, but not
-///          before the frame after the one in which the event was told. A latency of at least a frame's
-///          step therefore fixes the lag: the same at every frame rate up to that step.
+/// Times    the command is due at the event's exact time + delay + latency. It takes effect then, or in the
+///          frame after the event's frame if that is later. If the latency is at least one frame's step, the
+///          command always takes effect when it is due. Then its time is the same at every frame rate with
+///          such steps.
 
 #include "engine/base/diagnostic.h"
 #include "engine/base/time_signature.h"

@@ -17,7 +17,8 @@
 
 namespace stadion::worker {
 
-/// Where a mesh lies in the segment of meshes (shared_meshes.h). The list is the first one that shows it.
+/// The place of a mesh in the segment of meshes (shared_meshes.h). Sent with the first list that shows the
+/// mesh.
 struct MeshPlace {
   MeshId id = kNoMesh;
   std::uint64_t offset = 0, bytes = 0;

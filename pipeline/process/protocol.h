@@ -1,5 +1,5 @@
 #pragma once
-/// The messages between a show and the process that draws one of its walls.
+/// The messages between a show and a process that draws one of its walls, or in the plain look one view.
 ///
 /// The show sends an OrderHead, and the process answers with an AnswerHead and a text. The messages travel
 /// over a pair of sockets that keep them apart (SOCK_SEQPACKET). The first message carries the descriptors of

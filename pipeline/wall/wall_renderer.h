@@ -5,7 +5,7 @@
 /// (process/per_view_process_renderer.h). The three with OpenGL draw the same pixels.
 ///
 /// Threads  a wall's functions on its Draw thread, several walls at a time; destroyed when all walls are
-/// closed.
+///          closed.
 
 #include "pipeline/draw_list/draw_counts.h"
 #include "pipeline/wall/stages.h"

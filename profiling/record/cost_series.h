@@ -1,7 +1,8 @@
 #pragma once
 /// Durations of one kind, kept as a sum and a histogram: bounded, however long a show runs.
 ///
-/// Units    milliseconds. Threads  plain values; one thread at a time.
+/// Units    milliseconds.
+/// Threads  plain values; one thread at a time.
 
 #include <algorithm>
 #include <array>

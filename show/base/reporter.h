@@ -3,7 +3,7 @@
 /// Reporter.
 ///
 /// Threads  say() and report() from any thread at any time; the rest from the thread that plays the show or
-/// waits for it.
+///          waits for it.
 
 #include "engine/base/diagnostic.h"
 

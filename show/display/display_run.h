@@ -16,9 +16,9 @@ namespace stadion {
 
 class DisplayRun {
 public:
-  /// Opens the outputs. Null if one cannot be opened; the findings say which and why. `drawnWithOpenGl`: the
-  /// walls are, so windows may need it too.
-  /// `budget` outlives it; `hud`: it is shown from the start.
+  /// Opens the outputs. Null if one cannot be opened; the findings say which and why.
+  /// `drawnWithOpenGl`: true if the walls are drawn with OpenGL; then the windows may use OpenGL too.
+  /// `budget` must outlive the run. `hud`: true if the frame budget is shown from the start.
   static std::unique_ptr<DisplayRun> open(const ShowOptions& show, bool drawnWithOpenGl, StereoLayout layout,
                                           const WallFile& walls, const LiveBudget& budget, bool hud,
                                           Reporter& reporter, Diagnostics& findings);

@@ -42,8 +42,8 @@ struct SoakCounts {
 
 class SoakRecord {
 public:
-  /// `file`: empty = nowhere. `what` says what is played; a record of something else is refused. `fault`
-  /// learns why the record ends early, if it does.
+  /// Opens the record, or begins one. `file`: empty = nothing is written. `what` describes the soak; a record
+  /// of another soak is refused. `fault` receives the reason if the record ends early.
   static std::unique_ptr<SoakRecord> open(const std::string& file, const std::string& what,
                                           std::function<void(const std::string&)> fault,
                                           Diagnostics& findings);
@@ -56,15 +56,15 @@ public:
   const std::vector<std::string>& failed() const { return failed_; }
   /// Counts this process.
   void begin() { process_ = processes_++; }
-  /// With the counts as they are now.
+  /// Adds a sample with the present counts.
   void add(SoakSample sample);
-  /// The counts as they are now.
+  /// Adds the present counts alone.
   void addCounts();
-  /// Likewise, and what fails, but for what the counts tell.
+  /// Adds the present counts, and the failures that the counts do not show.
   void end(const std::vector<std::string>& failed);
   /// Returns true if that frame of the show had this history of states before; the first time it is noted.
   bool agrees(const std::string& show, std::uint64_t frame, std::uint64_t history);
-  /// Something could not be written.
+  /// Returns true if something could not be written.
   bool incomplete() const { return incomplete_; }
 
 private:

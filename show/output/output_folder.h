@@ -1,8 +1,7 @@
 #pragma once
-/// The folder of `run --out DIR`. A run removes what an earlier run wrote there, and nothing else: a hidden
-/// list,
-/// `.stadion-files`, holds the names of all files written, each noted before it is written, so that a run
-/// that was killed is cleared away as well.
+/// The folder of `run --out DIR`. A run removes what an earlier run wrote there, and nothing else. A hidden
+/// list, `.stadion-files`, holds the names of all files written. A name is added before its file is written,
+/// so the files of a killed run are removed as well.
 ///
 /// Ownership  one run at a time: the list is locked while the run lasts.
 /// Threads    one at a time.

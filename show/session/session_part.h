@@ -64,7 +64,7 @@ struct EndedLoop {
 enum class NextShow { OfGroup, Rejoined };
 
 /// Threads  afterFrame() on the App thread, shown() on the Draw thread that swaps; all others on the
-/// session's thread.
+///          session's thread.
 class SessionPart {
 public:
   virtual ~SessionPart() = default;

@@ -8,7 +8,7 @@
 /// Ownership  owns all parts; the reporter and `stop` are the caller's and must outlive it.
 /// Threads    main.
 /// Errors     reported to the reporter; end() says how the session ended. Throws RunStopped if `stop` is set
-/// while a show is opened.
+///            while a show is opened.
 
 #include "show/base/reporter.h"
 #include "show/session/session_end.h"

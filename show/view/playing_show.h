@@ -2,7 +2,7 @@
 /// A show that plays live on its own threads, from opening it to its last frame.
 ///
 /// Threads  opened and ended by one thread (any); it plays on threads of its own; const functions may be
-/// called meanwhile.
+///          called meanwhile.
 
 #include "engine/display/unfolding.h"
 #include "pipeline/frame/playback.h"

@@ -1,4 +1,4 @@
-/// stadion-wall: draws one wall for a show, in a process that may die.
+/// stadion-wall: draws one wall for a show, or in the plain look one view, in a process that may die.
 ///
 /// Started by stadion with a socket as its standard input; it ends when the show closes that.
 

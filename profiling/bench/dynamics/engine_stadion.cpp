@@ -1,11 +1,10 @@
 /// Stadion's own world behind the cases' interface.
 ///
 /// Frames   the cases have y up, Stadion has z up: (x, y, z) there is (x, -z, y) here, for places,
-/// directions,
-///          the bodies' own axes and the vector part of quaternions. A rotation, so nothing is mirrored.
+///          directions, the bodies' own axes and the vector part of quaternions. A rotation, so nothing is
+///          mirrored.
 /// Time     Stadion's clock counts nanoseconds and a sixtieth of a second is no whole number of them. The
-/// world
-///          advances to the nearest one; what is read is carried on (or back) for the remaining half
+///          world advances to the nearest one; what is read is carried on (or back) for the remaining half
 ///          nanosecond at most by the velocity, which leaves an error below 1e-17 m.
 
 #include "dynamics/world/world.h"

@@ -2,7 +2,7 @@
 /// What the cases are compared with: solutions in long double that share no code with any engine.
 ///
 /// Errors   below 1e-12 in the state, which tests/profiling shows by halving the steps (the tumbling disc:
-/// 1e-9).
+///          1e-9).
 
 #include "profiling/bench/dynamics/engine.h"
 
