@@ -101,7 +101,7 @@ int benchAttribution(const BenchAttributionOptions& o) {
   for (const Show& show : shows) {
     ProfileRunOptions options;
     options.show.script = show.script, options.show.walls = show.walls, options.show.size = show.size;
-    options.show.mode = "sequential";  // so that nothing else of the process is at work meanwhile
+    options.show.mode = Mode::Sequential;  // so that nothing else of the process is at work meanwhile
     options.show.frames = o.frames, options.show.assetRoots = {scripts};
     options.renderer = {RendererChoice::Gl, GlProviderKind::OsMesa};  // it draws single nodes
     if (!options.show.settle(findings)) return tell(findings), kBadInput;

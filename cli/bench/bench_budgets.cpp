@@ -96,7 +96,7 @@ public:
   }
 
   /// Of a replay of what was recorded: over the state hashes of all frames. Nothing if it cannot be played.
-  std::optional<std::uint64_t> replay(const std::string& mode, Diagnostics& findings) {
+  std::optional<std::uint64_t> replay(Mode mode, Diagnostics& findings) {
     ShowOptions show = showOptions();
     show.input = folder_.path("live.input"), show.mode = mode;
     const auto player = Player::create(show, findings, tell);
@@ -231,7 +231,7 @@ int benchBudgets(const BenchBudgetsOptions& o) {
                o.length, o.before, o.before + o.stall);
   const auto played = experiment.play(findings);
   std::vector<std::optional<std::uint64_t>> replays;
-  for (const char* mode : {"sequential", "pipelined"})
+  for (const Mode mode : {Mode::Sequential, Mode::Pipelined})
     if (played) replays.push_back(experiment.replay(mode, findings));
   tell(findings);
   if (!played) return kInternalFault;

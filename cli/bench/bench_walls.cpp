@@ -142,7 +142,7 @@ std::string ignoredIn(const CLI::App& command, const BenchWallsOptions& o) {
         return "--control draws nothing, it only waits for ticks: leave out " + given->get_name();
   if (one.kind == "STRICT" && !one.without.empty())
     return "--without leaves out a trick, and STRICT has none: say --class OPEN or --class SUBMIT";
-  if (one.mode == "sequential" && isGiven("--latency"))
+  if (one.mode == Mode::Sequential && isGiven("--latency"))
     return "--latency is for frames that overlap, and --mode sequential has one under way: leave one of them "
            "out";
   if (const std::size_t nodes = sceneOf(one).nodes(); one.moving > nodes)

@@ -136,7 +136,7 @@ Result<nlohmann::json> measureWalls(const WallsSetting& s, const std::string& fo
   ShowOptions show;
   show.script = folder + "/show.evs", show.walls = folder + "/room.walls",
   show.input = folder + "/show.input";
-  show.mode = s.mode, show.look = "plain";
+  show.mode = s.mode, show.look = Look::Plain;
   show.size = std::to_string(s.width) + "x" + std::to_string(s.height);
   show.frames = s.warm + s.frames + 1;
   Diagnostics findings;
@@ -202,7 +202,7 @@ Result<nlohmann::json> measureWalls(const WallsSetting& s, const std::string& fo
                         {"eyes", 2},
                         {"width", s.width},
                         {"height", s.height},
-                        {"mode", s.mode},
+                        {"mode", nameOf(s.mode)},
                         {"wall_workers", s.workers},
                         {"frames_under_way", s.mostInFlight},
                         {"lp_threads", lp ? lp : "default"},

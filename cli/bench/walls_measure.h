@@ -2,6 +2,7 @@
 /// One setting of `stadion bench walls`, measured in this process.
 
 #include "engine/base/diagnostic.h"
+#include "pipeline/loop/frame_loop.h"
 #include "profiling/bench/walls/wall_scene.h"
 #include "show/player/show_renderer.h"
 
@@ -15,7 +16,7 @@ namespace stadion {
 struct WallsSetting {
   std::string scene = "a";      ///< a, b or c (profiling/bench/walls/wall_scene.h)
   std::string kind = "STRICT";  ///< STRICT: a draw call a node; OPEN: anything that keeps the picture
-  std::string mode = "pipelined";
+  Mode mode = Mode::Pipelined;
   std::size_t mostInFlight = 1;    ///< limit of frames in flight (FrameLoopOptions)
   std::string workers = "thread";  ///< or process
   std::string without;             ///< OPEN, SUBMIT: without this trick, "unseen" or "small"; empty: with all

@@ -29,7 +29,8 @@ constexpr double kQuietShare = 0.5;  ///< threads of others for each processor
 
 struct CalibrateOptions {
   std::vector<std::string> walls{"cave4", "powerwall"};
-  std::string size = "800x600", look = "full";
+  std::string size = "800x600";
+  Look look = Look::Full;
   double seconds = 50;
   bool forget = false, json = false;
   // For the program itself, one setting in a process of its own.

@@ -87,7 +87,7 @@ std::optional<plan::ShowCosts> measure(PlanOptions& o, Diagnostics& findings) {
   plan::ShowCosts costs;
   costs.show = std::filesystem::path(show.script).filename().string();
   costs.size = fmt::format("{}x{}", show.width, show.height);
-  costs.look = show.look;
+  costs.look = nameOf(show.look);
   costs.eyes = o.stereo == "off" ? 1 : 2;
   costs.walls = walls->names();
   costs.walls.resize(o.run.walls);

@@ -45,7 +45,8 @@ struct SoakOptions {
   SharedTypes types = standardNodes();
   std::vector<std::string> shows;
   std::uint64_t frames = 1'000'000, visit = 400'000;
-  std::string record, look = "plain";
+  std::string record;
+  Look look = Look::Plain;
   RendererOptions renderer;
   bool noMemory = false;  ///< what grows is not judged
 };
@@ -114,7 +115,7 @@ bool Soak::visit(const std::string& show, Way way, std::uint64_t frames) try {
   ShowOptions o;
   o.script = show, o.walls = "desktop", o.size = "32x24", o.look = options_.look;
   o.input = "none", o.frames = frames;
-  o.mode = way == Way::Sequential ? "sequential" : "pipelined";
+  o.mode = way == Way::Sequential ? Mode::Sequential : Mode::Pipelined;
   o.assetRoots = {shareFolder() + "/assets"}, o.types = options_.types;
   Diagnostics findings;
   ReusableResources& kept = kept_[show];
@@ -291,7 +292,7 @@ int soak(SoakOptions o) {
   const std::atomic<bool>& stop = catchStopSignals();
   if (o.shows.empty()) o.shows = {shareFolder() + "/scripts/soak/soak.evs"};
   const std::string what =
-      fmt::format("{}, look {}, visits of {} frames", fmt::join(o.shows, ", "), o.look, o.visit);
+      fmt::format("{}, look {}, visits of {} frames", fmt::join(o.shows, ", "), nameOf(o.look), o.visit);
   TerminalReporter terminal;
   const RendererSettings settings = o.renderer.settle(findings);
   const auto record = SoakRecord::open(o.record, what, terminal.faultFunction(), findings);

@@ -1,6 +1,8 @@
 #include "cli/options/command_options.h"
 
 #include "cli/options/option_table.h"
+#include "pipeline/loop/frame_loop.h"
+#include "pipeline/shader/look.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -44,6 +46,12 @@ void assign(const std::string& text, double& value) {
 void assign(const std::string& text, std::optional<double>& value) {
   value = *readDecimal(text);
 }
+void assign(const std::string& text, Mode& value) {
+  value = text == nameOf(Mode::Sequential) ? Mode::Sequential : Mode::Pipelined;
+}
+void assign(const std::string& text, Look& value) {
+  value = text == nameOf(Look::Plain) ? Look::Plain : Look::Full;
+}
 template <std::integral Whole>
 void assign(const std::string& text, Whole& value) {
   value = static_cast<Whole>(*readWhole(text));
@@ -67,6 +75,12 @@ std::string wordFor(bool value) {
 }
 std::string wordFor(const std::optional<double>& value) {
   return value ? fmt::format("{}", *value) : "";
+}
+std::string wordFor(Mode value) {
+  return nameOf(value);
+}
+std::string wordFor(Look value) {
+  return nameOf(value);
 }
 template <class Number>
 std::string wordFor(Number value) {
@@ -171,6 +185,8 @@ BoundOption CommandOptions::addFunction(const char* name,
 
 template BoundOption CommandOptions::add(const char*, std::string&, const OptionLimits&);
 template BoundOption CommandOptions::add(const char*, std::vector<std::string>&, const OptionLimits&);
+template BoundOption CommandOptions::add(const char*, Mode&, const OptionLimits&);
+template BoundOption CommandOptions::add(const char*, Look&, const OptionLimits&);
 template BoundOption CommandOptions::add(const char*, int&, const OptionLimits&);
 template BoundOption CommandOptions::add(const char*, unsigned&, const OptionLimits&);
 template BoundOption CommandOptions::add(const char*, std::uint64_t&, const OptionLimits&);

@@ -76,7 +76,7 @@ void RunOptions::settleDrawing(Diagnostics& findings) {
   SessionSettings& s = settings;
   const RecordSettings& r = s.record;
   const bool display = s.play.display, measures = r.profile || !trace.file.empty();
-  const bool inTurn = s.show.mode == "sequential";
+  const bool inTurn = s.show.mode == Mode::Sequential;
   if (wallWorkers == "process" && (measures || !r.spans.file.empty() || r.countWork))
     findings.error({}, "--profile, --trace, --spans and --count-work look into the drawing, which "
                        "--wall-workers process gives to others: say --wall-workers thread");

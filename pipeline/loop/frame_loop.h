@@ -32,6 +32,11 @@ namespace stadion {
 
 enum class Mode { Sequential, Pipelined };
 
+/// Returns the mode's name on the command line: "sequential", "pipelined".
+constexpr const char* nameOf(Mode mode) {
+  return mode == Mode::Sequential ? "sequential" : "pipelined";
+}
+
 struct FrameLoopOptions {
   Mode mode = Mode::Pipelined;
   Pace pace = Pace::Free;

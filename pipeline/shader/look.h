@@ -14,6 +14,11 @@ enum class Look : std::uint8_t {
   Plain,
 };
 
+/// Returns the look's name on the command line: "full", "plain".
+constexpr const char* nameOf(Look look) {
+  return look == Look::Plain ? "plain" : "full";
+}
+
 struct RenderQuality {
   Look look = Look::Full;
   std::uint32_t samples = 4;  ///< per pixel; 1 = hard edges at about a third of the cost in software

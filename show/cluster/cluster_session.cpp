@@ -44,7 +44,7 @@ cluster::CompatibilityKey compatibilityKeyOf(const ShowOptions& show, StereoLayo
   key.script = hashOfFile(show.script);
   key.input = log.empty() ? 0 : hashOfFile(log);
   key.cluster = cluster::hashOf(file), key.walls = hashOfFile(wallFileOf(file.walls));
-  key.pictures = fmt::format("--look {} --stereo {}{}{}", show.look, stereoLayoutName(layout),
+  key.pictures = fmt::format("--look {} --stereo {}{}{}", nameOf(show.look), stereoLayoutName(layout),
                              show.size.empty() ? "" : " --size ", show.size);
   constexpr std::size_t kMostPlugins = 250;  // bytes; with many plugins, a hash stands for them
   key.plugins = show.types->pluginsInWords();

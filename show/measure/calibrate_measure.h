@@ -5,6 +5,7 @@
 
 #include "engine/base/diagnostic.h"
 #include "pipeline/platform/calibration.h"
+#include "pipeline/shader/look.h"
 
 #include <string>
 
@@ -13,7 +14,8 @@ namespace stadion {
 struct CalibrationRun {
   DrawSetting setting{};
   std::string folder;  ///< folder of the show (writeCalibrationShow)
-  std::string walls = "cave4", size = "800x600", look = "full";
+  std::string walls = "cave4", size = "800x600";
+  Look look = Look::Full;
   double seconds = 1;  ///< measured time, after the frames in which programs are compiled
 };
 

@@ -98,7 +98,7 @@ std::vector<RoomToMeasure> roomsToMeasure(const RoomRequest& wanted, Diagnostics
     const auto walls = loadWalls(name, shareFolder() + "/walls", findings);
     if (!walls || !sides) continue;
     RoomToMeasure room{name, wanted.size};
-    room.room.walls = walls->walls.size(), room.room.look = wanted.look;
+    room.room.walls = walls->walls.size(), room.room.look = nameOf(wanted.look);
     room.room.width = sides->first, room.room.height = sides->second;
     if (!counts.insert(room.room.walls).second)
       findings.error({}, "--walls: another room has as many walls as " + name +

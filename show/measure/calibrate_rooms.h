@@ -5,6 +5,7 @@
 /// Threads  one thread; the machine should have nothing else to do.
 
 #include "pipeline/platform/calibration.h"
+#include "pipeline/shader/look.h"
 
 #include "engine/base/diagnostic.h"
 
@@ -17,7 +18,8 @@ namespace stadion {
 
 struct RoomRequest {
   std::vector<std::string> walls;  ///< wall files
-  std::string size, look;
+  std::string size;
+  Look look = Look::Full;
   double seconds = 50;  ///< for all of them
 };
 

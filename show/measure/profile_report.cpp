@@ -73,7 +73,7 @@ ReportHead reportHead(const ProfileRunOptions& o, const Player& player, const st
   const auto add = [&](const char* what, std::string how) { head.facts.emplace_back(what, std::move(how)); };
   add("walls", wallsText(o, player));
   add("eyes", o.layout == StereoLayout::Off ? "one" : "two");
-  add("mode", o.show.mode);
+  add("mode", nameOf(o.show.mode));
   add("drawn by", rasteriserText(gl));
   add("App threads",
       o.show.appThreads > 0 ? std::to_string(o.show.appThreads) : "as many as processors, 8 at most");

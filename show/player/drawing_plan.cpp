@@ -82,7 +82,8 @@ void DrawingPlan::drawHere(const std::string& why) {
 DrawingPlan::Choice DrawingPlan::choose(const DrawingNeeds& needs, const KnownMachine& machine) {
   if (needs.cpuThreads > 0) return chooseForCpu(needs);
   const DrawWishes& wishes = needs.wishes;
-  const MeasuredRoom* room = machine.measured ? roomFor(*machine.measured, needs.walls, needs.look) : nullptr;
+  const MeasuredRoom* room =
+      machine.measured ? roomFor(*machine.measured, needs.walls, nameOf(needs.look)) : nullptr;
   if (const MeasuredSetting* found = room ? nearestTo(wishes, *room) : nullptr) {
     const DrawSetting setting = asWished(found->setting, wishes);
     std::string why = "calibrated " + machine.measured->when;

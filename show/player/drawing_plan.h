@@ -9,6 +9,7 @@
 /// Threads  to be settled before the first OpenGL context is made.
 
 #include "pipeline/platform/calibration.h"
+#include "pipeline/shader/look.h"
 
 #include <optional>
 #include <string>
@@ -31,7 +32,7 @@ struct DrawingNeeds {
   DrawWishes wishes{};
   std::string here{};  ///< why this program must draw itself; empty: others may
   std::size_t walls = 1;
-  std::string look = "full";
+  Look look = Look::Full;
   /// Threads of the CPU renderer, on all processors that may draw; 0: OpenGL draws.
   std::uint32_t cpuThreads = 0;
 };

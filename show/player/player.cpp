@@ -173,7 +173,7 @@ bool Player::openScene(Diagnostics& findings) {
 
 FrameLoopOptions Player::loopOptions() const {
   FrameLoopOptions l;
-  l.mode = options_.mode == "sequential" ? Mode::Sequential : Mode::Pipelined;
+  l.mode = options_.mode;
   l.rate = rate_;
   l.walls = walls_.walls.size();
   l.frames = frames_;
@@ -206,7 +206,7 @@ ShowParts Player::parts(StereoLayout stereo, InputDevice* instead) {
                   .input = instead ? *instead : input(),
                   .walls = {},
                   .observer = {}};
-  if (options_.look == "plain") parts.quality = RenderQuality::plain();
+  if (options_.look == Look::Plain) parts.quality = RenderQuality::plain();
   for (const WallEntry& entry : walls_.walls) {
     WallViews wall{.name = entry.wall.name, .views = viewsOf(entry.wall, eyeCount(stereo) == 2)};
     wall.depth = walls_.depth;

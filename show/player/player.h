@@ -16,6 +16,7 @@
 #include "pipeline/loop/frame_loop.h"
 #include "pipeline/loop/show_stages.h"
 #include "pipeline/picture/stereo.h"
+#include "pipeline/shader/look.h"
 #include "show/base/standard_nodes.h"
 
 #include <atomic>
@@ -29,8 +30,8 @@ namespace stadion {
 struct ShowOptions {
   std::string script;
   std::string walls = "cave4";
-  std::string mode = "pipelined";
-  std::string look = "full";
+  Mode mode = Mode::Pipelined;
+  Look look = Look::Full;
   std::string size;  ///< empty = as the wall file says, else 800x600
   double rate = 60;
   bool rateGiven = false;    ///< true: `rate` was given; false: a recorded run's own rate counts more

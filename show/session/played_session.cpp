@@ -70,7 +70,7 @@ void OpenSession::fillReport(SessionReport& report, const FrameLoopOutcome& outc
   const SessionSettings& s = state_.settings;
   RunSummary& summary = report.summary;
   addFailure(report, outcome.failure, reporter_);
-  summary.show = s.show.script, summary.walls = s.show.walls, summary.mode = s.show.mode;
+  summary.show = s.show.script, summary.walls = s.show.walls, summary.mode = nameOf(s.show.mode);
   summary.stereo = stereoLayoutName(s.draw.layout);
   summary.width = s.show.width, summary.height = s.show.height, summary.rate = player_->rate();
   summary.frames = outcome.framesShown, summary.framesDrawn = outcome.framesDrawn;

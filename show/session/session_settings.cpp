@@ -7,11 +7,11 @@ DrawingNeeds SessionSettings::drawingNeeds(std::size_t walls) const {
   needs.walls = walls, needs.look = show.look;
   needs.wishes.rasteriserThreads = draw.rasteriserThreads;
   needs.wishes.processes = draw.processes;
-  const bool inTurn = play.display || (show.mode == "sequential" && !draw.processes.value_or(false));
+  const bool inTurn = play.display || (show.mode == Mode::Sequential && !draw.processes.value_or(false));
   if (draw.pinned || inTurn) needs.wishes.pinned = draw.pinned.value_or(false);
   if (draw.processes) return needs;
   if (play.display) needs.here = "--display draws into windows of this program";
-  if (show.mode == "sequential") needs.here = "--mode sequential does everything in one thread";
+  if (show.mode == Mode::Sequential) needs.here = "--mode sequential does everything in one thread";
   if (record.measuresDrawing()) needs.here = "what is measured looks into the drawing";
   return needs;
 }

@@ -57,8 +57,8 @@ void RunJournal::note(const Diagnostics& findings) {
 
 void RunJournal::began(const ShowOptions& show, const Player& player) {
   note(fmt::format("started: stadion {}, process {}, {}, walls {} ({}), {}, {} frames a second", kVersion,
-                   getpid(), show.script, show.walls, fmt::join(player.walls().names(), ", "), show.mode,
-                   player.rate()));
+                   getpid(), show.script, show.walls, fmt::join(player.walls().names(), ", "),
+                   nameOf(show.mode), player.rate()));
   note("machine: " + machineText());
 }
 

@@ -37,7 +37,9 @@ private:
 constexpr const char* kSteadyWalls = STADION_SOURCE_DIR "/scripts/suites/two.walls";
 
 struct Way {
-  const char *workers, *look, *walls;
+  const char* workers;
+  Look look;
+  const char* walls;
   bool everyFrame;
 };
 
@@ -71,7 +73,7 @@ std::optional<Asked> askedIn(const Way& way) {
   const TestFolder folder;
   const CountedChildren children;
   ShowOptions show;
-  show.script = showOf(folder, std::string(way.look) == "full"), show.walls = way.walls, show.size = "64x48";
+  show.script = showOf(folder, way.look == Look::Full), show.walls = way.walls, show.size = "64x48";
   show.look = way.look, show.input = "none", show.assetRoots = {assetFolder()};
   Diagnostics findings;
   const auto player = show.settle(findings) ? Player::create(show, findings) : nullptr;
@@ -119,19 +121,20 @@ TEST_P(ProgramSteadyRun, AsksForNoMemory) {
 }
 
 std::string nameOf(const ::testing::TestParamInfo<Way>& way) {
-  return std::string(way.param.workers) + "_" + way.param.look + (way.param.everyFrame ? "" : "_newest");
+  return std::string(way.param.workers) + "_" + nameOf(way.param.look) +
+         (way.param.everyFrame ? "" : "_newest");
 }
 
 INSTANTIATE_TEST_SUITE_P(Program, ProgramSteadyRun,
-                         ::testing::Values(Way{"process", "plain", kSteadyWalls, true},
-                                           Way{"thread", "plain", kSteadyWalls, true}),
+                         ::testing::Values(Way{"process", Look::Plain, kSteadyWalls, true},
+                                           Way{"thread", Look::Plain, kSteadyWalls, true}),
                          nameOf);
 INSTANTIATE_TEST_SUITE_P(ProgramFull, ProgramSteadyRun,
-                         ::testing::Values(Way{"process", "plain", "cave4", false},
-                                           Way{"thread", "plain", "cave4", true},
-                                           Way{"thread", "full", "desktop", true},
-                                           Way{"process", "full", "desktop", true},
-                                           Way{"process", "full", "desktop", false}),
+                         ::testing::Values(Way{"process", Look::Plain, "cave4", false},
+                                           Way{"thread", Look::Plain, "cave4", true},
+                                           Way{"thread", Look::Full, "desktop", true},
+                                           Way{"process", Look::Full, "desktop", true},
+                                           Way{"process", Look::Full, "desktop", false}),
                          nameOf);
 
 }  // namespace

@@ -65,7 +65,7 @@ struct Watched {
 using Fate = std::function<void(const std::atomic<std::size_t>& shown, Watched& watched)>;
 
 /// Plays the show until `fate` is over.
-std::optional<Watched> watch(const std::string& look, const std::string& walls, const Fate& fate) {
+std::optional<Watched> watch(Look look, const std::string& walls, const Fate& fate) {
   const TestFolder folder;
   ShowOptions show;
   show.script = folder.write("show.evs", "object( name=floor, file=plane.3ds )\n"
@@ -119,7 +119,7 @@ Fate signals(const std::vector<int>& all) {
   };
 }
 
-class ProgramFullWallGaps : public ::testing::TestWithParam<const char*> {};
+class ProgramFullWallGaps : public ::testing::TestWithParam<Look> {};
 
 TEST_P(ProgramFullWallGaps, TheOtherWallsMissNoMoreThanAFrameWhenOneIsKilledOrStopped) {
   constexpr int kMostRuns = 10;
@@ -141,14 +141,14 @@ TEST_P(ProgramFullWallGaps, TheOtherWallsMissNoMoreThanAFrameWhenOneIsKilledOrSt
   FAIL() << "in none of the runs the processors were ours";
 }
 
-INSTANTIATE_TEST_SUITE_P(ProgramFull, ProgramFullWallGaps, ::testing::Values("full", "plain"),
-                         [](const auto& look) { return std::string(look.param); });
+INSTANTIATE_TEST_SUITE_P(ProgramFull, ProgramFullWallGaps, ::testing::Values(Look::Full, Look::Plain),
+                         [](const auto& look) { return std::string(nameOf(look.param)); });
 
-class ProgramWallGaps : public ::testing::TestWithParam<const char*> {};
+class ProgramWallGaps : public ::testing::TestWithParam<Look> {};
 
 TEST_P(ProgramWallGaps, TheOtherWallsGoOnWhileOneThatWasKilledOrStoppedIsReplaced) {
   const std::string walls =
-      GetParam() == std::string("plain") ? "cave4" : STADION_SOURCE_DIR "/scripts/suites/two.walls";
+      GetParam() == Look::Plain ? "cave4" : STADION_SOURCE_DIR "/scripts/suites/two.walls";
   const std::size_t least = walls == "cave4" ? 4 : 2;
   const auto watched = watch(GetParam(), walls, [least](const std::atomic<std::size_t>& shown, Watched&) {
     const auto waitFor = [](const auto& condition) {
@@ -177,8 +177,8 @@ TEST_P(ProgramWallGaps, TheOtherWallsGoOnWhileOneThatWasKilledOrStoppedIsReplace
   EXPECT_GT(watched->inARow, 0U) << "it was hit";
 }
 
-INSTANTIATE_TEST_SUITE_P(Program, ProgramWallGaps, ::testing::Values("full", "plain"),
-                         [](const auto& look) { return std::string(look.param); });
+INSTANTIATE_TEST_SUITE_P(Program, ProgramWallGaps, ::testing::Values(Look::Full, Look::Plain),
+                         [](const auto& look) { return std::string(nameOf(look.param)); });
 
 }  // namespace
 }  // namespace stadion
