@@ -32,7 +32,8 @@ void occupyStandardStreams() {
       ::open("/dev/null", stream == STDIN_FILENO ? O_WRONLY : O_RDONLY);
 }
 
-int obey(int argc, char** argv, const AddCommands& addCommands, std::optional<unsigned> rasteriserThreads) {
+int runCommand(int argc, char** argv, const AddCommands& addCommands,
+               std::optional<unsigned> rasteriserThreads) {
   CLI::App app("Stadion plays immersive shows written in the EVS world description language on stereo walls.",
                "stadion");
   app.footer("Exit codes: 0 ok, 1 a check or comparison failed, 2 bad usage or bad input, 3 internal fault,\n"
@@ -81,7 +82,7 @@ int runProgram(int argc, char** argv, const AddCommands& addCommands) {
       return kBadInput;
     }
     quietOpenAl();
-    const int code = obey(argc, argv, addCommands, rasteriserThreads);
+    const int code = runCommand(argc, argv, addCommands, rasteriserThreads);
     if (std::fflush(stdout) == 0 && !std::ferror(stdout)) return code;
     std::fprintf(stderr, "stadion: the standard output cannot be written: %s\n", std::strerror(errno));
     return code == kOk ? kBadInput : code;

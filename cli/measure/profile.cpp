@@ -81,7 +81,7 @@ int showBlackBox(std::string file, const ProfileOptions& o) {
   return kOk;
 }
 
-/// Says which options are beside --black-box that it could not obey.
+/// Says which options are beside --black-box that it could not apply.
 bool isAlone(const CLI::Option& blackBox, CLI::App& command) {
   Diagnostics findings;
   for (const CLI::Option* other : command.get_options()) {

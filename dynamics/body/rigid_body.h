@@ -28,8 +28,8 @@ struct GuidedMotion {
   double begin = 0;  ///< tau of `start`
   double rate = 0;   ///< 1 / frame length [1/s]
   bool moving = false;
-  ArcTrack way;          ///< in this frame: the known arcs, which replace the straight move
-  std::size_t part = 0;  ///< piece of `way` at the last turn
+  ArcTrack arcs;         ///< in this frame: the known arcs, which replace the straight move
+  std::size_t part = 0;  ///< piece of `arcs` at the last turn
 
   void set(const Pose& from, const Pose& to, double tau, double seconds) {
     start = from, end = to, begin = tau;
@@ -38,41 +38,42 @@ struct GuidedMotion {
     v = moving ? Vec3((to.p - from.p) * rate) : Vec3::Zero();
     omega = moving ? Vec3(from.q * det::logRotation(from.q.conjugate() * to.q) * rate) : Vec3::Zero();
   }
-  /// Follows `way` from tau to `until` instead of the straight move. `origin`: start of the window.
+  /// Follows `arcs` from tau to `until` instead of the straight move. `origin`: start of the window.
   void follow(const Instant& origin, double tau, double until) {
-    if (way.empty()) return;
+    if (arcs.empty()) return;
     rebase(origin);
     part = partAfter(tau + 1e-12);
     moving = false;
-    for (std::size_t i = part; i < way.size() && way[i].tau < until; ++i) moving = moving || !way[i].stands();
-    if (!moving) way.clear(), v.setZero(), omega.setZero();
+    for (std::size_t i = part; i < arcs.size() && arcs[i].tau < until; ++i)
+      moving = moving || !arcs[i].stands();
+    if (!moving) arcs.clear(), v.setZero(), omega.setZero();
   }
   void rebase(const Instant& origin) {
-    for (ArcPiece& p : way) p.tau = p.from.since(origin);
+    for (ArcPiece& p : arcs) p.tau = p.from.since(origin);
   }
-  bool guided() const { return !way.empty(); }
+  bool guided() const { return !arcs.empty(); }
   Kinematics at(double tau) const {
-    if (guided()) return way[partAt(tau)].at(tau);
+    if (guided()) return arcs[partAt(tau)].at(tau);
     const Pose X = moving ? det::interpolate(start, end, (tau - begin) * rate) : end;
     return {X, X.p, v, omega};
   }
-  /// Returns a bound of the motion over times that lie in one piece of the way.
+  /// Returns a bound of the motion over times that lie in one piece of the arcs.
   MotionBound boundOver(double from, double to) const {
-    if (guided()) return way[partAt(from)].boundOver(from, to);
+    if (guided()) return arcs[partAt(from)].boundOver(from, to);
     return {v.norm(), 0, omega.norm(), 0};
   }
   /// Returns the time at which the next piece of the way begins [s]; infinity if there is none.
   double nextTurn() const {
-    return part + 1 < way.size() ? way[part + 1].tau : std::numeric_limits<double>::infinity();
+    return part + 1 < arcs.size() ? arcs[part + 1].tau : std::numeric_limits<double>::infinity();
   }
-  /// Returns the piece of `way` that holds at tau. At a turn, this is the piece that has been reached.
+  /// Returns the piece of `arcs` that holds at tau. At a turn, this is the piece that has been reached.
   std::size_t partAt(double tau) const {
-    if (way[part].tau <= tau && !(tau > nextTurn() + kTurnTolerance)) return part;
+    if (arcs[part].tau <= tau && !(tau > nextTurn() + kTurnTolerance)) return part;
     return partAfter(tau);
   }
   std::size_t partAfter(double tau) const {
-    const auto next = std::ranges::upper_bound(way, tau, {}, &ArcPiece::tau);
-    return next == way.begin() ? 0 : static_cast<std::size_t>(next - way.begin()) - 1;
+    const auto next = std::ranges::upper_bound(arcs, tau, {}, &ArcPiece::tau);
+    return next == arcs.begin() ? 0 : static_cast<std::size_t>(next - arcs.begin()) - 1;
   }
 };
 
@@ -202,7 +203,7 @@ struct BodyTrace {
   bool traced = false;   ///< the path is recorded for other nodes
   bool awaited = false;  ///< the path is recorded because a pair may part
   bool put = false;      ///< the body has been placed from outside
-  ArcTrack way;
+  ArcTrack arcs;
 };
 
 /// The whole state of a body.

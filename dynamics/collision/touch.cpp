@@ -490,10 +490,10 @@ Aabb sweptBox(const Side& side, double from, double to) {
     return box;
   }
   const GuidedMotion& m = *side.motion();
-  for (std::size_t i = m.partAfter(from); i < m.way.size() && (i == 0 || m.way[i].tau <= to); ++i) {
-    const ArcPiece& part = m.way[i];
+  for (std::size_t i = m.partAfter(from); i < m.arcs.size() && (i == 0 || m.arcs[i].tau <= to); ++i) {
+    const ArcPiece& part = m.arcs[i];
     const double start = std::max(from, part.tau),
-                 end = std::max(start, i + 1 < m.way.size() ? std::min(to, m.way[i + 1].tau) : to);
+                 end = std::max(start, i + 1 < m.arcs.size() ? std::min(to, m.arcs[i + 1].tau) : to);
     sweep(part.at(start).pose, part.at(end).pose, part.boundOver(start, end), s.centre.norm(), end - start);
   }
   return box;

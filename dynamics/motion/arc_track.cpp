@@ -35,22 +35,22 @@ bool ArcPiece::straight() const {
   return path.isParabola() && path.c[2].isZero(0) && spin.kind == Spin::Kind::Still;
 }
 
-Pose poseOn(const ArcTrack& way, Nanoseconds time, Limit limit) {
+Pose poseOn(const ArcTrack& arcs, Nanoseconds time, Limit limit) {
   std::size_t i = 0;
-  while (i + 1 < way.size() && way[i + 1].begins() <= time &&
-         !(limit == Limit::Before && way[i + 1].jump && way[i + 1].begins() == time))
+  while (i + 1 < arcs.size() && arcs[i + 1].begins() <= time &&
+         !(limit == Limit::Before && arcs[i + 1].jump && arcs[i + 1].begins() == time))
     ++i;
-  return way[i].poseAfter(std::max(0.0, Instant{time, 0}.since(way[i].from)));
+  return arcs[i].poseAfter(std::max(0.0, Instant{time, 0}.since(arcs[i].from)));
 }
 
-bool jumpsAt(const ArcTrack& way, Nanoseconds time) {
-  return std::ranges::any_of(way, [&](const ArcPiece& p) { return p.jump && p.begins() == time; });
+bool jumpsAt(const ArcTrack& arcs, Nanoseconds time) {
+  return std::ranges::any_of(arcs, [&](const ArcPiece& p) { return p.jump && p.begins() == time; });
 }
 
-void addChords(const ArcTrack& way, Nanoseconds end, PoseTrack& track) {
-  for (std::size_t i = 0; i < way.size(); ++i) {
-    const ArcPiece& part = way[i];
-    const Nanoseconds begins = part.begins(), to = i + 1 < way.size() ? way[i + 1].begins() : end;
+void addChords(const ArcTrack& arcs, Nanoseconds end, PoseTrack& track) {
+  for (std::size_t i = 0; i < arcs.size(); ++i) {
+    const ArcPiece& part = arcs[i];
+    const Nanoseconds begins = part.begins(), to = i + 1 < arcs.size() ? arcs[i + 1].begins() : end;
     const auto at = [&](Nanoseconds t) {
       return part.poseAfter(std::max(0.0, Instant{t, 0}.since(part.from)));
     };

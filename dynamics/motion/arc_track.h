@@ -80,10 +80,10 @@ struct ArcPiece {
 using ArcTrack = std::vector<ArcPiece>;
 
 /// Where it is at that time; before its first part, where that begins. Expects at least one part.
-Pose poseOn(const ArcTrack& way, Nanoseconds time, Limit limit);
+Pose poseOn(const ArcTrack& arcs, Nanoseconds time, Limit limit);
 /// Returns true if the body is placed from outside at exactly `time`.
-bool jumpsAt(const ArcTrack& way, Nanoseconds time);
+bool jumpsAt(const ArcTrack& arcs, Nanoseconds time);
 /// Adds the path as straight chords, up to `end`, for nodes that follow no arcs.
-void addChords(const ArcTrack& way, Nanoseconds end, PoseTrack& track);
+void addChords(const ArcTrack& arcs, Nanoseconds end, PoseTrack& track);
 
 }  // namespace stadion

@@ -19,7 +19,7 @@ struct DynamicsVariation {
   /// May change how a body looks to collisions (its shape) and what it is (fields, drag area). On the
   /// loader's thread; empty: nothing.
   std::function<void(NodeRef body, Appearance&, BodyAttributes&)> body;
-  std::uint32_t fineness = 1;           ///< fineness of all dynamics nodes (World::setFineness)
+  std::uint32_t fineness = 1;           ///< fineness of all dynamics nodes (World::setStepDivider)
   std::optional<ImpactScheme> impacts;  ///< impact scheme of all dynamics nodes; empty: as the script says
 };
 

@@ -46,7 +46,7 @@ CollisionNode::CollisionNode(const NodeType& type, NodeRef self, std::string nam
   for (const std::string& n : attributes_.colliders) colliders_.push_back(part(n));
   for (const std::string& n : attributes_.collidees) collidees_.push_back(part(n));
   world_.setBodiesCollide(attributes_.selfCollide);
-  world_.setFineness(attributes_.fineness);
+  world_.setStepDivider(attributes_.fineness);
   world_.setImpactScheme(attributes_.impacts);
 }
 
@@ -65,7 +65,7 @@ void CollisionNode::onLeave(Scene& scene) {
 }
 
 void CollisionNode::receive(const Message& m, FrameContext& frame) {
-  if (!switch_.obey(m)) return;
+  if (!switch_.apply(m)) return;
   awake_ = true;
   switchings_.push_back({frame.effective(m), switch_.on()});
 }
@@ -103,7 +103,7 @@ void CollisionNode::changeParts(Nanoseconds time, FrameContext& frame) {
     const bool isCollider = part >= colliders_.data() && part < colliders_.data() + colliders_.size();
     if (part->ref.valid() && part->leaveAt <= time) {
       isCollider ? removeCollider(*part, scene) : removeCollidee(*part, scene);
-      part->ref = {}, part->id = 0, part->fit = nullptr, part->track.clear(), part->way.clear();
+      part->ref = {}, part->id = 0, part->fit = nullptr, part->track.clear(), part->arcs.clear();
     }
     if (!part->next.valid() || part->nextAt > time || part->ref.valid()) continue;
     auto* object = dynamic_cast<ObjectNode*>(scene.find(part->next));
@@ -216,11 +216,11 @@ void CollisionNode::addCuts(const PoseTrack& track, std::vector<Nanoseconds>& cu
 }
 
 bool CollisionNode::follow(Part& part, FrameContext& frame, std::vector<Nanoseconds>& cuts) const {
-  part.track.clear(), part.way.clear();
+  part.track.clear(), part.arcs.clear();
   if (!part.ref.valid()) return false;
   followFrom(part, part.pose, frame);
-  if (!part.way.empty()) {
-    for (const ArcPiece& p : part.way)
+  if (!part.arcs.empty()) {
+    for (const ArcPiece& p : part.arcs)
       if (p.jump) cuts.push_back(p.begins());
   } else {
     addCuts(part.track, cuts);
@@ -265,18 +265,18 @@ bool CollisionNode::followBody(Part& part, const Pose& before, const FrameContex
   const bool rides = (begins.p - before.p).norm() <= 1e-9 * (1 + before.p.norm()) &&
                      std::fabs(begins.q.dot(before.q)) >= 1 - 1e-12;
   if (!rides) return false;  // it moves on the body
-  part.way = *way;
+  part.arcs = *way;
   if (part.ref != body->self())
-    for (ArcPiece& p : part.way) p.X_CN = p.X_CN * X_NP;
+    for (ArcPiece& p : part.arcs) p.X_CN = p.X_CN * X_NP;
   return true;
 }
 
 bool CollisionNode::jumps(const Part& part, Nanoseconds time) {
-  return part.way.empty() ? jumpsAt(part.track, time) : jumpsAt(part.way, time);
+  return part.arcs.empty() ? jumpsAt(part.track, time) : jumpsAt(part.arcs, time);
 }
 
 Pose CollisionNode::poseAt(const Part& part, Nanoseconds time, Limit limit) {
-  return part.way.empty() ? poseOn(part.track, time, limit) : poseOn(part.way, time, limit);
+  return part.arcs.empty() ? poseOn(part.track, time, limit) : poseOn(part.arcs, time, limit);
 }
 
 bool CollisionNode::foresee(FrameContext& frame, std::vector<Nanoseconds>& cuts) {
@@ -323,8 +323,8 @@ void CollisionNode::step(FrameContext* frame) {
     for (const Part& part : colliders_) {
       if (!moves(part)) continue;
       const Pose end = poseAt(part, to, Limit::Before);
-      on_ && !part.way.empty() ? world_.moveCollider(part.id, end, part.way)
-                               : world_.moveCollider(part.id, end, !on_);
+      on_ && !part.arcs.empty() ? world_.moveCollider(part.id, end, part.arcs)
+                                : world_.moveCollider(part.id, end, !on_);
     }
     move(from, to, !on_);
     pass(from, to);
@@ -438,7 +438,8 @@ void CollisionNode::move(Nanoseconds, Nanoseconds to, bool jump) {
   for (const Part& part : collidees_) {
     if (!moves(part)) continue;
     const Pose end = poseAt(part, to, Limit::Before);
-    jump || part.way.empty() ? world_.moveHeld(part.id, end, jump) : world_.moveHeld(part.id, end, part.way);
+    jump || part.arcs.empty() ? world_.moveHeld(part.id, end, jump)
+                              : world_.moveHeld(part.id, end, part.arcs);
   }
 }
 
@@ -454,7 +455,7 @@ void CollisionNode::state(StateFields& f) {
     f("collidee", part);
   }
   f.about(0);
-  world_.visit(f);
+  world_.visitState(f);
 }
 
 NodeRef CollisionNode::nodeOf(std::uint32_t part) const {
@@ -477,7 +478,7 @@ bool CollisionNode::resumeParts(Scene& scene) {
       const auto* object = dynamic_cast<const ObjectNode*>(scene.find(part.ref));
       if (!object) return false;
       part.fit = refit(part, *object, scene);
-      if (!part.fit || !world_.giveBack(part.shape, shapeOf(part.fit))) return false;
+      if (!part.fit || !world_.restoreShape(part.shape, shapeOf(part.fit))) return false;
     }
   return true;
 }

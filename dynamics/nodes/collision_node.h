@@ -15,7 +15,7 @@
 #include "dynamics/nodes/shape_store.h"
 #include "dynamics/world/world.h"
 #include "engine/core/shared_rows.h"
-#include "engine/nodes/switched.h"
+#include "engine/nodes/switch_state.h"
 
 #include <limits>
 
@@ -27,7 +27,7 @@ struct CollisionAttributes {
   bool selfCollide = true;
   bool on = true;
   std::vector<SharedFit> fits;  ///< fits of colliders in its file: made by the loader, kept for App to find
-  std::uint32_t fineness = 1;   ///< as in World::setFineness
+  std::uint32_t fineness = 1;   ///< as in World::setStepDivider
   ImpactScheme impacts = {};    ///< as in World::setImpactScheme
 };
 
@@ -75,7 +75,7 @@ protected:
     PlacementId placement = kNoPlacement;
     Pose pose;        ///< at the end of the last step, where the next one begins; the placement is at its end
     PoseTrack track;  ///< in this frame, if something outside moves it
-    ArcTrack way;     ///< path of the part in this frame, if a body of another dynamics node carries it
+    ArcTrack arcs;    ///< path of the part in this frame, if a body of another dynamics node carries it
     /// When it leaves, and which node then has its name.
     Nanoseconds leaveAt = std::numeric_limits<Nanoseconds>::max(), nextAt = 0;
     NodeRef next;
@@ -138,7 +138,7 @@ protected:
   bool follow(Part& part, FrameContext& frame, std::vector<Nanoseconds>& cuts) const;
   void followFrom(Part& part, const Pose& before, FrameContext& frame) const;
   bool followBody(Part& part, const Pose& before, const FrameContext& frame) const;
-  static bool moves(const Part& part) { return !part.way.empty() || !part.track.empty(); }
+  static bool moves(const Part& part) { return !part.arcs.empty() || !part.track.empty(); }
   static bool jumps(const Part& part, Nanoseconds time);
   static Pose poseAt(const Part& part, Nanoseconds time, Limit limit);
   /// Adds the other dynamics node that moves the node or something that carries it.
@@ -162,7 +162,7 @@ private:
   void step(FrameContext* frame);
 
   std::shared_ptr<ShapeStore> shapes_;
-  Switched switch_;
+  SwitchState switch_;
   /// A command that switched it, at its exact time.
   struct Switching {
     Nanoseconds when;

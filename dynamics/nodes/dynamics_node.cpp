@@ -178,7 +178,7 @@ bool DynamicsNode::takeOrders(FrameContext& frame, std::vector<Nanoseconds>& cut
   return any;
 }
 
-void DynamicsNode::obey(const Order& order, FrameContext& frame) {
+void DynamicsNode::apply(const Order& order, FrameContext& frame) {
   using Kind = DynObjectNode::Request::Kind;
   DynObjectNode* node = bodyAt(order.body, frame.scene);
   const auto at = node ? partOf_.find(node->bodyId()) : partOf_.end();
@@ -243,7 +243,7 @@ void DynamicsNode::letGo(const Part& part, Nanoseconds when, Scene& scene) {
   if (source == ThrowSource::Field) hand = {};
   const Vec3 arm = world_.state(body).p - grip->hand.now().p;  // to the centre of mass
   Velocity thrown{hand.v + hand.omega.cross(arm), hand.omega};
-  if (source != ThrowSource::Hand) thrown.v += world_.woundUp(body);
+  if (source != ThrowSource::Hand) thrown.v += world_.accumulatedVelocity(body);
   if (node && node->body().spin != 0 && part.fit)
     thrown.omega += node->body().spin * (world_.pose(body).q * symmetryAxis(node->body().massOf(*part.fit)));
   world_.releaseBody(body, thrown.v, thrown.omega);
@@ -293,7 +293,7 @@ void DynamicsNode::act(Nanoseconds time, FrameContext* frame) {
   const auto later = std::ranges::upper_bound(orders_, time, {}, [](const Order& o) { return o.what.when; });
   const std::vector<Order> due(orders_.begin(), later);
   orders_.erase(orders_.begin(), later);
-  for (const Order& order : due) obey(order, *frame);
+  for (const Order& order : due) apply(order, *frame);
 }
 
 void DynamicsNode::move(Nanoseconds from, Nanoseconds to, bool jump) {
@@ -315,7 +315,7 @@ void DynamicsNode::move(Nanoseconds from, Nanoseconds to, bool jump) {
 void DynamicsNode::hash(StateHash& h) const {
   CollisionNode::hash(h);
   grips_.hash(h);
-  h.add(world_.waysDigest());
+  h.add(world_.recoveryDigest());
 }
 
 void DynamicsNode::state(StateFields& f) {
@@ -344,7 +344,7 @@ bool DynamicsNode::resume(Scene& scene) {
     if (!node) continue;
     node->setSimulation({self(), part.id, &asking_});
     partOf_[part.id] = &part;
-    if (node->body().flight && !world_.giveBack(part.id, node->body().flight)) return false;
+    if (node->body().flight && !world_.restoreFlight(part.id, node->body().flight)) return false;
   }
   return world_.complete();
 }
@@ -356,7 +356,7 @@ void DynamicsNode::tellTrouble(const BodyState& before, DynObjectNode& node, Fra
   if (!out(now) || (out(before) && before.clock == now.clock)) return;
   frame.scene.warn(
       node, fmt::format("is out of the simulation from {:.3f} s on: {}; it stands still until its reset",
-                        toSeconds(now.clock), world_.troubleOf(node.bodyId())));
+                        toSeconds(now.clock), world_.quarantineReason(node.bodyId())));
   node.tell("onquarantine", now.clock, frame);
 }
 

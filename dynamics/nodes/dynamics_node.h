@@ -76,7 +76,7 @@ private:
   FieldId fieldFor(NodeRef ref, Scene& scene);
   bool followFields(FrameContext& frame, std::vector<Nanoseconds>& cuts);
   bool takeOrders(FrameContext& frame, std::vector<Nanoseconds>& cuts);
-  void obey(const Order& order, FrameContext& frame);
+  void apply(const Order& order, FrameContext& frame);
   void grab(const Part& part, const std::string& tracker, Nanoseconds when, FrameContext& frame);
   void letGo(const Part& part, Nanoseconds when, Scene& scene);
   void publishWay(const Part& part, FrameContext& frame);

@@ -72,7 +72,7 @@ void FieldNode::receive(const Message& m, FrameContext& frame) {
   const Nanoseconds when = frame.effective(m);
   expire(when);  // before the command
   const bool before = switch_.on();
-  if (!switch_.obey(m)) return;
+  if (!switch_.apply(m)) return;
   if (switch_.on() != before) raise(before ? Event("disabled") : Event("enabled"), when);
   change(switch_.on(), when, frame);
 }

@@ -14,7 +14,7 @@
 
 #include "dynamics/motion/force_field.h"
 #include "engine/input/axis_track.h"
-#include "engine/nodes/switched.h"
+#include "engine/nodes/switch_state.h"
 #include "engine/scene/placed_node.h"
 
 namespace stadion {
@@ -98,7 +98,7 @@ private:
   std::optional<StrengthAxis> axis_;
   bool centredOnMass_;
   AxisTrack strength_;
-  Switched switch_;
+  SwitchState switch_;
   Nanoseconds since_ = 0;
   std::vector<Change> changes_;
   std::uint64_t changedIn_ = ~std::uint64_t{0};

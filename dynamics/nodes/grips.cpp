@@ -62,7 +62,7 @@ void Grips::hash(StateHash& h) const {
   for (const Grip& g : grips_) {
     h.add(g.body), h.add(std::string_view(g.tracker)), h.add(g.X_TN);
     for (const PoseKnot& k : g.hand.way()) h.add(k.time), h.add(k.X);
-    h.add(world_.woundUp(g.body));
+    h.add(world_.accumulatedVelocity(g.body));
   }
 }
 

@@ -10,7 +10,7 @@ void BodyTraces::trace(RigidBody& b, bool traced, bool awaited, double tau) {
   const bool before = b.trace.traced || b.trace.awaited;
   b.trace.traced = traced, b.trace.awaited = awaited;
   if (before == (traced || awaited)) return;
-  b.trace.way.clear();
+  b.trace.arcs.clear();
   if (before) {
     std::erase(list_, &b);
   } else {
@@ -22,11 +22,11 @@ void BodyTraces::trace(RigidBody& b, bool traced, bool awaited, double tau) {
 void BodyTraces::addPart(RigidBody& b, ArcPiece part) {
   part.jump = std::exchange(b.trace.put, false);
   // What lasts for no time is no part of a way.
-  if (!b.trace.way.empty() && !(b.trace.way.back().from < part.from)) {
-    part.from = b.trace.way.back().from, part.jump = part.jump || b.trace.way.back().jump;
-    b.trace.way.back() = part;
+  if (!b.trace.arcs.empty() && !(b.trace.arcs.back().from < part.from)) {
+    part.from = b.trace.arcs.back().from, part.jump = part.jump || b.trace.arcs.back().jump;
+    b.trace.arcs.back() = part;
   } else {
-    b.trace.way.push_back(part);
+    b.trace.arcs.push_back(part);
   }
 }
 
@@ -49,8 +49,8 @@ void BodyTraces::noteHeld(RigidBody& b, double tau) {
     return addPart(b, ArcPiece::straight(time_.instantAt(tau), k.pose, k.v, k.omega));
   }
   for (std::size_t i = b.grip.held.partAfter(tau);
-       i < b.grip.held.way.size() && b.grip.held.way[i].tau < time_.now(); ++i) {
-    ArcPiece part = b.grip.held.way[i];
+       i < b.grip.held.arcs.size() && b.grip.held.arcs[i].tau < time_.now(); ++i) {
+    ArcPiece part = b.grip.held.arcs[i];
     const double early = tau - part.tau;
     if (early > 0) part.from = time_.instantAt(tau), part.pathAge += early, part.spinAge += early;
     addPart(b, part);
@@ -64,7 +64,7 @@ void BodyTraces::begin(bool continues) {
   find(goesOn);
   if (goesOn) return;
   for (RigidBody* b : list_) {
-    if (!continues) b->trace.way.clear();
+    if (!continues) b->trace.arcs.clear();
     note(*b, time_.from());
   }
 }
@@ -89,14 +89,14 @@ void BodyTraces::find(bool goesOn) {
     for (RigidBody* one : {a, b}) {
       if (!one || one->trace.awaited) continue;
       one->trace.awaited = true;
-      if (one->trace.traced || !one->trace.way.empty()) continue;
+      if (one->trace.traced || !one->trace.arcs.empty()) continue;
       list_.push_back(one);
       if (goesOn) note(*one, time_.from());
     }
   }
   std::erase_if(list_, [](RigidBody* b) {
     if (b->trace.traced || b->trace.awaited) return false;
-    b->trace.way.clear();
+    b->trace.arcs.clear();
     return true;
   });
 }
@@ -105,7 +105,7 @@ void BodyTraces::find(bool goesOn) {
 void BodyTraces::pause(bool continues) {
   stoodStill_ = true;
   for (RigidBody* b : list_) {
-    if (!continues) b->trace.way.clear();
+    if (!continues) b->trace.arcs.clear();
     addPart(*b, ArcPiece::straight(Instant{time_.t1(), 0}, b->pose, Vec3::Zero(), Vec3::Zero()));
   }
 }

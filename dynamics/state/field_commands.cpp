@@ -52,7 +52,7 @@ void FieldCommands::forgetBody(BodyId id) {
   std::erase_if(commands_, [&](const Command& c) { return c.body == id; });
 }
 
-void FieldCommands::obey(double tau) {
+void FieldCommands::apply(double tau) {
   while (!commands_.empty() && time_.tauOf(commands_.front().when) <= tau) {
     const Command c = commands_.front();
     commands_.pop_front();

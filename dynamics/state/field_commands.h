@@ -28,7 +28,7 @@ public:
   /// Posts an event for each time of a command in the present window.
   void postAll() const;
   /// Executes what is due up to tau.
-  void obey(double tau);
+  void apply(double tau);
   /// Bodies that feel a field which differs from the last frame, or changes, are stirred.
   void followFields();
   /// Calls restart(body) for each stirred body, once for all that has changed.

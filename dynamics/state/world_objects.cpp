@@ -89,7 +89,7 @@ bool WorldObjects::mayTouch(const Side& a, const Side& b) const {
   return ignored_.empty() || !ignored_.count(ordered(a.key, b.key));
 }
 
-bool WorldObjects::giveBack(ShapeId id, std::shared_ptr<const Shape> shape) {
+bool WorldObjects::restoreShape(ShapeId id, std::shared_ptr<const Shape> shape) {
   ShapeEntry* entry = shapes_.find(id);
   if (!entry || entry->shape || !shape) return false;
   entry->shape = std::move(shape);
@@ -100,7 +100,7 @@ bool WorldObjects::giveBack(ShapeId id, std::shared_ptr<const Shape> shape) {
   return true;
 }
 
-bool WorldObjects::giveBack(BodyId id, std::shared_ptr<const BodyFlight> flight) {
+bool WorldObjects::restoreFlight(BodyId id, std::shared_ptr<const BodyFlight> flight) {
   RigidBody* b = body(id);
   if (!b || !flight || std::erase(flightless_, id) == 0) return false;
   b->flight = std::move(flight);

@@ -59,8 +59,8 @@ public:
   bool mayTouch(const Side& a, const Side& b) const;
 
   /// A restored state lacks shapes and flights until they are given back.
-  bool giveBack(ShapeId id, std::shared_ptr<const Shape> shape);
-  bool giveBack(BodyId id, std::shared_ptr<const BodyFlight> flight);
+  bool restoreShape(ShapeId id, std::shared_ptr<const Shape> shape);
+  bool restoreFlight(BodyId id, std::shared_ptr<const BodyFlight> flight);
   bool complete() const;
 
   template <class Fields>

@@ -145,7 +145,7 @@ void IslandStep::moveFreely(ContactIsland& s, const std::vector<SolverBody>& gue
   }
 }
 
-/// Velocities after h seconds: forces act in the middle of the step, contact points obey at its end. A first
+/// Velocities after h seconds: forces act in the middle of the step, contact points apply at its end. A first
 /// pass foresees how the bodies turn, a second one counts.
 bool IslandStep::solveStep(ContactIsland& s, double tau, double h, Effort effort) const {
   std::vector<SolverBody> guess = s.start;

@@ -53,16 +53,16 @@ double turningSpeed(const MotionBound& bound, double reach) {
 
 /// Returns true if the side's motion through this frame is known.
 bool isNoted(const Side& s) {
-  return !s.body || !s.body->trace.way.empty() || standsStill(s.body->mode);
+  return !s.body || !s.body->trace.arcs.empty() || standsStill(s.body->mode);
 }
 
 /// A side's motion through the frame so far: a body follows its noted path.
 class PastSide {
 public:
   PastSide(const Side& present, const Instant& start) : side_(present) {
-    if (!present.body || present.body->trace.way.empty()) return;
+    if (!present.body || present.body->trace.arcs.empty()) return;
     thing_.shape = present.shape, thing_.bound = present.bound();
-    thing_.motion.way = present.body->trace.way, thing_.motion.moving = true;
+    thing_.motion.arcs = present.body->trace.arcs, thing_.motion.moving = true;
     thing_.motion.rebase(start);
     side_.body = nullptr, side_.collider = &thing_;
   }
@@ -70,11 +70,11 @@ public:
   PastSide& operator=(const PastSide&) = delete;
 
   /// The time from which on its motion is known.
-  double begins() const { return side_.guided() ? side_.motion()->way.front().tau : -1e300; }
+  double begins() const { return side_.guided() ? side_.motion()->arcs.front().tau : -1e300; }
   /// Where its way goes on otherwise.
   void addTurns(std::vector<double>& turns) const {
     if (side_.guided())
-      for (const ArcPiece& p : side_.motion()->way) turns.push_back(p.tau);
+      for (const ArcPiece& p : side_.motion()->arcs) turns.push_back(p.tau);
   }
   /// The side in a part of its way that `tau` lies in.
   const Side& around(double tau) {
@@ -162,7 +162,7 @@ double ReleaseWatch::wayLength(const Side& s, double from, double tau) const {
     add(s.boundOver(from, tau), tau - from);
     return length;
   }
-  const ArcTrack& way = s.collider ? s.collider->motion.way : s.body->trace.way;
+  const ArcTrack& way = s.collider ? s.collider->motion.arcs : s.body->trace.arcs;
   if (way.empty()) return standsStill(s.body->mode) ? 0 : 1e300;
   if (s.body && way.front().from.since({time_.origin(), 0}) > from) return 1e300;
   for (std::size_t i = 0; i < way.size(); ++i) {

@@ -125,9 +125,9 @@ bool World::moveCollider(ColliderId id, const Pose& end, bool teleport) {
   return true;
 }
 
-bool World::moveCollider(ColliderId id, const Pose& end, const ArcTrack& way) {
+bool World::moveCollider(ColliderId id, const Pose& end, const ArcTrack& arcs) {
   if (!moveCollider(id, end)) return false;
-  core_->objects_.collider(id)->nextArcs = way;
+  core_->objects_.collider(id)->nextArcs = arcs;
   return true;
 }
 
@@ -287,7 +287,7 @@ bool World::carryFields(BodyId id, std::vector<FieldId> fields_) {
   return true;
 }
 
-Vec3 World::woundUp(BodyId id) const {
+Vec3 World::accumulatedVelocity(BodyId id) const {
   const RigidBody* b = core_->objects_.body(id);
   return b && b->mode == BodyMode::Held ? Vec3(b->pose.q * b->grip.wound) : Vec3::Zero();
 }
@@ -311,9 +311,9 @@ bool World::moveHeld(BodyId id, const Pose& end, bool teleport) {
   return true;
 }
 
-bool World::moveHeld(BodyId id, const Pose& end, const ArcTrack& way) {
+bool World::moveHeld(BodyId id, const Pose& end, const ArcTrack& arcs) {
   if (!moveHeld(id, end)) return false;
-  core_->objects_.body(id)->grip.nextArcs = way;
+  core_->objects_.body(id)->grip.nextArcs = arcs;
   return true;
 }
 
@@ -348,7 +348,7 @@ bool World::traceBody(BodyId id, bool on) {
 const ArcTrack& World::arcsOf(BodyId id) const {
   static const ArcTrack none;
   const RigidBody* b = core_->objects_.body(id);
-  return b && b->trace.traced ? b->trace.way : none;
+  return b && b->trace.traced ? b->trace.arcs : none;
 }
 
 const std::vector<BodyId>& World::changed() const {
@@ -397,7 +397,7 @@ BodyState World::state(BodyId id) const {
   return s;
 }
 
-void World::setFineness(std::uint32_t parts) {
+void World::setStepDivider(std::uint32_t parts) {
   core_->grid_.refine(parts);
 }
 
@@ -415,7 +415,7 @@ bool World::moving(BodyId id) const {
   return !standsStill(m);
 }
 
-std::string World::troubleOf(BodyId id) const {
+std::string World::quarantineReason(BodyId id) const {
   const RigidBody* b = core_->objects_.body(id);
   return b ? b->trouble : std::string();
 }
@@ -438,7 +438,7 @@ std::uint64_t World::pairsDigest() const {
   return core_->memory_.digest();
 }
 
-std::uint64_t World::waysDigest() const {
+std::uint64_t World::recoveryDigest() const {
   return core_->recoveries_.digest();
 }
 

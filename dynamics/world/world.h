@@ -62,7 +62,7 @@ public:
   bool moveCollider(ColliderId id, const Pose& end, bool teleport = false);
   /// Moves the collider on a known path from the frame's start to its end, which is `end`. A jump needs a
   /// call of its own at its time.
-  bool moveCollider(ColliderId id, const Pose& end, const ArcTrack& way);
+  bool moveCollider(ColliderId id, const Pose& end, const ArcTrack& arcs);
   /// A collider or body that is off takes part in nothing.
   bool enableCollider(ColliderId id, bool on);
   bool enableBody(BodyId id, bool on);
@@ -72,7 +72,7 @@ public:
   void setBodiesCollide(bool on);
   /// Divides the steps of lasting contact and of pulled balls on faces by 1, 2, 4, 8 or 16. This is more
   /// exact and costs more. Expects that the world has not been advanced.
-  void setFineness(std::uint32_t parts);
+  void setStepDivider(std::uint32_t parts);
   /// Sets how first contacts are found; exactly by default. Expects that the world has not been advanced.
   void setImpactScheme(const ImpactScheme& scheme);
 
@@ -101,13 +101,13 @@ public:
   bool holdBody(BodyId id);
   /// `teleport`: the body is there from the frame's start and gives no impulse for the jump.
   bool moveHeld(BodyId id, const Pose& end, bool teleport = false);
-  bool moveHeld(BodyId id, const Pose& end, const ArcTrack& way);
+  bool moveHeld(BodyId id, const Pose& end, const ArcTrack& arcs);
   bool releaseBody(BodyId id, const Vec3& v, const Vec3& omega);
   /// Sets the fields that the holding hand carries, until the next call or grab. While such a field is
   /// linear, on and hooked to the body, its push adds up instead of moving the body.
   bool carryFields(BodyId id, std::vector<FieldId> fields);
   /// The velocity that has added up since the grab, turned with the hand, in World [m/s].
-  Vec3 woundUp(BodyId id) const;
+  Vec3 accumulatedVelocity(BodyId id) const;
 
   /// Advances the world [ns]. `from` is the end of the last call, or any time in the first call. Returns
   /// false if to < from.
@@ -133,18 +133,18 @@ public:
   Pose poseAhead(BodyId id, Nanoseconds when) const;
   BodyState state(BodyId id) const;  ///< at the end of the last frame
   BodyMode mode(BodyId id) const;
-  bool moving(BodyId id) const;            ///< false if asleep or quarantined: nothing to publish
-  std::string troubleOf(BodyId id) const;  ///< reason of the quarantine; empty if there is none
+  bool moving(BodyId id) const;                   ///< false if asleep or quarantined: nothing to publish
+  std::string quarantineReason(BodyId id) const;  ///< reason of the quarantine; empty if there is none
   double mass(BodyId id) const;
   /// Total energy of motion [J], for reports.
   double kineticEnergy(BodyId id) const;
 
   /// Saves, compares or restores, between two frames, all that the future depends on, except shapes and
   /// flights. These belong to the models. Give them back before any other call.
-  void visit(StateFields& f);
+  void visitState(StateFields& f);
   /// False if no such shape or body lacks one.
-  bool giveBack(ShapeId id, std::shared_ptr<const Shape> shape);
-  bool giveBack(BodyId id, std::shared_ptr<const BodyFlight> flight);
+  bool restoreShape(ShapeId id, std::shared_ptr<const Shape> shape);
+  bool restoreFlight(BodyId id, std::shared_ptr<const BodyFlight> flight);
   /// Returns true if everything has been given back.
   bool complete() const;
 
@@ -153,7 +153,7 @@ public:
   /// Hash of the pairs that touch or await their release: part of the simulated state.
   std::uint64_t pairsDigest() const;
   /// Hash of the last free places of held bodies and of ways out: part of the simulated state.
-  std::uint64_t waysDigest() const;
+  std::uint64_t recoveryDigest() const;
 
   /// Distance between the surfaces of two sides now [m], negative or 0 when they touch.
   double separation(ContactSide a, ContactSide b) const;

@@ -29,7 +29,7 @@ public:
   void restartStirred(double tau);
   void forgetBody(RigidBody& b);
   bool putBody(RigidBody& b, const Pose& X_WN, const Vec3& v, const Vec3& omega);
-  void visit(StateFields& f);
+  void visitState(StateFields& f);
 
   // --- state
   WorldTime time_;

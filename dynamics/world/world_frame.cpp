@@ -82,7 +82,7 @@ void World::Core::beginFrame() {
   held_.dropReleased();
   for (RigidBody* b : held_.list()) {
     b->grip.held.set(b->grip.held.start, b->grip.held.end, time_.from(), seconds);
-    b->grip.held.way.swap(b->grip.nextArcs), b->grip.nextArcs.clear();
+    b->grip.held.arcs.swap(b->grip.nextArcs), b->grip.nextArcs.clear();
     b->grip.held.follow({time_.origin(), 0}, time_.from(), time_.now());
     traces_.noteHeld(*b, time_.from());
     b->trace.put = false;
@@ -94,12 +94,12 @@ void World::Core::beginFrame() {
     if (Collider* c = objects_.collider(id)) {
       c->move(c->now, c->next.value_or(c->now), time_.from(), seconds);
       c->next.reset();
-      c->motion.way.swap(c->nextArcs), c->nextArcs.clear();
+      c->motion.arcs.swap(c->nextArcs), c->nextArcs.clear();
       c->motion.follow({time_.origin(), 0}, time_.from(), time_.now());
       ++c->version;
       boxes_.sweep(*c);
     }
-  commands_.obey(time_.from());
+  commands_.apply(time_.from());
   commands_.followFields();
   restartStirred(time_.from());
   boxes_.sweep(changes_);  // boxes before predictions, so that these see all bodies
@@ -130,7 +130,7 @@ void World::Core::runEvents(double until) {
     }
     boxes_.sortBodiesIfCrowded();
     switch (e.kind) {
-    case EventQueue::Event::Kind::Command: commands_.obey(e.tau), restartStirred(e.tau); break;
+    case EventQueue::Event::Kind::Command: commands_.apply(e.tau), restartStirred(e.tau); break;
     case EventQueue::Event::Kind::Tick:
       if (queue_.isScheduled(e)) islands_.tick(e.tau);
       break;
@@ -178,7 +178,7 @@ void World::Core::sample(RigidBody& b) {
     b.pose = X;
   else
     expel(b);
-  if (b.mode == BodyMode::Held) b.grip.held.start = b.grip.held.end, b.grip.held.way.clear();
+  if (b.mode == BodyMode::Held) b.grip.held.start = b.grip.held.end, b.grip.held.arcs.clear();
   changed_.push_back(b.id);
   b.active = !standsStill(b.mode);
 }
@@ -198,7 +198,7 @@ void World::Core::endFrame() {
   // A collider that has moved stays in the list, so that the next frame notices that it stands.
   changes_.dropColliders([&](ColliderId id) {
     Collider* c = objects_.collider(id);
-    if (c) c->now = c->motion.end, c->motion.way.clear();
+    if (c) c->now = c->motion.end, c->motion.arcs.clear();
     return !c || !c->motion.moving;
   });
 }

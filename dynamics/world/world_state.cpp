@@ -155,7 +155,7 @@ static void fieldsOf(Collider& c, StateFields& f) {
   f("version", c.version), f("swept", c.swept), f("place", c.place);
 }
 
-void World::Core::visit(StateFields& f) {
+void World::Core::visitState(StateFields& f) {
   time_.state(f);
   objects_.state(f), fields_.state(f);
   objects_.stateOfPairs(f), recoveries_.state(f);
@@ -175,16 +175,16 @@ void World::Core::visit(StateFields& f) {
   boxes_.state(f);
 }
 
-void World::visit(StateFields& f) {
-  core_->visit(f);
+void World::visitState(StateFields& f) {
+  core_->visitState(f);
 }
 
-bool World::giveBack(ShapeId id, std::shared_ptr<const Shape> shape) {
-  return core_->objects_.giveBack(id, std::move(shape));
+bool World::restoreShape(ShapeId id, std::shared_ptr<const Shape> shape) {
+  return core_->objects_.restoreShape(id, std::move(shape));
 }
 
-bool World::giveBack(BodyId id, std::shared_ptr<const BodyFlight> flight) {
-  return core_->objects_.giveBack(id, std::move(flight));
+bool World::restoreFlight(BodyId id, std::shared_ptr<const BodyFlight> flight) {
+  return core_->objects_.restoreFlight(id, std::move(flight));
 }
 
 bool World::complete() const {

@@ -31,7 +31,7 @@ void LightNode::onLeave(Scene& scene) {
 
 void LightNode::receive(const Message& m, FrameContext& frame) {
   PlacedNode::receive(m, frame);
-  if (switch_.obey(m)) frame.scene.lights().set(handle_, light_, switch_.on());
+  if (switch_.apply(m)) frame.scene.lights().set(handle_, light_, switch_.on());
 }
 
 void SkyNode::onEnter(Scene& scene) {

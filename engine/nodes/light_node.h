@@ -1,7 +1,7 @@
 #pragma once
 /// Light sources and the sky.
 
-#include "engine/nodes/switched.h"
+#include "engine/nodes/switch_state.h"
 #include "engine/published/records.h"
 #include "engine/scene/placed_node.h"
 
@@ -34,7 +34,7 @@ protected:
 
 private:
   LightRecord light_;
-  Switched switch_;
+  SwitchState switch_;
   std::size_t handle_ = 0;
 };
 

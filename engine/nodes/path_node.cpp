@@ -170,7 +170,7 @@ void PathNode::receive(const Message& m, FrameContext& frame) {
   const bool moved = switch_.on();
   advanceTo(frame.effective(m), frame);
   const bool before = switch_.on();
-  if (switch_.obey(m)) {
+  if (switch_.apply(m)) {
     const bool again = !before && switch_.on() && elapsed_ >= length();
     if (again || m.command == CommandId::Reset) elapsed_ = 0;
   }

@@ -14,7 +14,7 @@
 ///           where its own time has it. Watching nodes see it go straight there within that frame.
 /// Frames    keys are in the coordinates of the target's parent, or of its own parent.
 
-#include "engine/nodes/switched.h"
+#include "engine/nodes/switch_state.h"
 #include "engine/scene/placed_node.h"
 
 #include <optional>
@@ -67,7 +67,7 @@ private:
   NodeRef target_;  ///< invalid = itself
   std::vector<Keyframe> keys_;
   bool loop_, smooth_, bends_;
-  Switched switch_;
+  SwitchState switch_;
   Nanoseconds elapsed_ = 0;
   Nanoseconds since_ = 0;             ///< show time up to which elapsed_ counts
   std::optional<Nanoseconds> putAt_;  ///< time at which the node last placed its target

@@ -27,7 +27,7 @@ void NavigatorNode::receive(const Message& m, FrameContext& frame) {
   const Nanoseconds at = frame.effective(m);
   if (switch_.on()) drive(frame, at);  // what has passed up to the command still counts
   since_ = at;
-  switch_.obey(m);
+  switch_.apply(m);
 }
 
 void NavigatorNode::simulate(FrameContext& frame) {

@@ -3,7 +3,7 @@
 
 #include "engine/input/input_sample.h"
 #include "engine/input/tracker_names.h"
-#include "engine/nodes/switched.h"
+#include "engine/nodes/switch_state.h"
 #include "engine/scene/placed_node.h"
 
 namespace stadion {
@@ -65,7 +65,7 @@ private:
   PoseTrack way(const TrackerSample* t, const FrameContext& frame, const Pose& before, const Pose& now) const;
 
   Attributes attributes_;
-  Switched switch_;
+  SwitchState switch_;
   Nanoseconds since_ = 0;  ///< show time up to which it has driven or was off
   // What the devices said at the end of the last frame it was visited in.
   Nanoseconds ended_ = -1;

@@ -70,7 +70,7 @@ void SoundNode::endPasses(Nanoseconds time) {
 void SoundNode::receive(const Message& m, FrameContext& frame) {
   PlacedNode::receive(m, frame);
   endPasses(frame.effective(m));  // what has passed up to the command still counts
-  if (switch_.obey(m) && switch_.on()) startAt(frame.effective(m), frame.scene);
+  if (switch_.apply(m) && switch_.on()) startAt(frame.effective(m), frame.scene);
 }
 
 void SoundNode::simulate(FrameContext& frame) {

@@ -10,7 +10,7 @@
 ///           placed node. One that is hidden still plays.
 /// It is not visited while it plays.
 
-#include "engine/nodes/switched.h"
+#include "engine/nodes/switch_state.h"
 #include "engine/scene/placed_node.h"
 
 namespace stadion {
@@ -50,7 +50,7 @@ private:
   void tell(Scene& scene) const;
 
   Attributes attributes_;
-  Switched switch_;
+  SwitchState switch_;
   Nanoseconds since_ = 0;  ///< start time
   Nanoseconds due_ = 0;    ///< when its present pass ends
   std::size_t handle_ = 0;

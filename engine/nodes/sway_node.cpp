@@ -230,7 +230,7 @@ void SwayNode::receive(const Message& m, FrameContext& frame) {
   // What has passed up to the command still counts.
   const bool moved = switch_.on();
   advanceTo(frame.effective(m), frame);
-  if (switch_.obey(m) && m.command == CommandId::Reset) elapsed_ = 0;
+  if (switch_.apply(m) && m.command == CommandId::Reset) elapsed_ = 0;
   if (m.command == CommandId::Reset)
     jump(frame.effective(m), frame);
   else if (moved && !switch_.on())

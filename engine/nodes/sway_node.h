@@ -19,7 +19,7 @@
 ///           its own time has them. Watching nodes see them go straight there within that frame.
 /// Frames    displacement and angular velocity are in the coordinates of the target's parent.
 
-#include "engine/nodes/switched.h"
+#include "engine/nodes/switch_state.h"
 #include "engine/scene/placed_node.h"
 
 #include <optional>
@@ -93,7 +93,7 @@ private:
   void jump(Nanoseconds when, FrameContext& frame);
 
   SwayAttributes sway_;
-  Switched switch_;
+  SwitchState switch_;
   Nanoseconds elapsed_ = 0;
   Nanoseconds since_ = 0;             ///< show time up to which elapsed_ counts
   std::optional<Nanoseconds> putAt_;  ///< time at which the node last placed its targets

@@ -9,7 +9,7 @@
 #include "engine/core/node_registry.h"
 #include "engine/core/shared_rows.h"
 #include "engine/core/state_fields.h"
-#include "engine/nodes/switched.h"
+#include "engine/nodes/switch_state.h"
 #include "engine/scene/node.h"
 #include "engine/scene/scene.h"
 
@@ -43,7 +43,7 @@ private:
 
   Nanoseconds period_;  ///< > 0
   bool repeat_;
-  Switched switch_;
+  SwitchState switch_;
   Nanoseconds due_ = 0;
 };
 
@@ -57,7 +57,7 @@ void TimerNode::onEnter(Scene& scene) {
 }
 
 void TimerNode::receive(const Message& m, FrameContext& frame) {
-  if (switch_.obey(m) && switch_.on()) startAt(frame.effective(m), frame.scene);
+  if (switch_.apply(m) && switch_.on()) startAt(frame.effective(m), frame.scene);
 }
 
 void TimerNode::simulate(FrameContext& frame) {

@@ -165,7 +165,7 @@ void TriggerNode::receive(const Message& m, FrameContext& frame) {
   const Nanoseconds at = frame.effective(m);
   const bool before = switch_.on();
   if (before) look(frame, at);  // what has happened up to the command still counts
-  if (switch_.obey(m) && (!before || m.command == CommandId::Reset)) inside_ = looked_ = false, seen_ = at;
+  if (switch_.apply(m) && (!before || m.command == CommandId::Reset)) inside_ = looked_ = false, seen_ = at;
   if (!switch_.on() || !looked_) pressed_ = 0;
 }
 

@@ -12,7 +12,7 @@
 /// Commands  enable, disable, toggle, reset, and those of a placed node.
 
 #include "engine/input/input_sample.h"
-#include "engine/nodes/switched.h"
+#include "engine/nodes/switch_state.h"
 #include "engine/scene/placed_node.h"
 
 namespace stadion {
@@ -75,7 +75,7 @@ private:
 
   Region region_;
   std::string tracker_;  ///< "head" for a usertrigger
-  Switched switch_;
+  SwitchState switch_;
   bool inside_ = false;
   bool looked_ = false;       ///< the members below are valid
   Nanoseconds seen_ = 0;      ///< show time of the last look; while not looked_, from when on to look [ns]

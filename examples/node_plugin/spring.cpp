@@ -10,7 +10,7 @@
 #include <stadion/engine/build/plugin.h>
 #include <stadion/engine/core/shared_rows.h>
 #include <stadion/engine/maths/functions.h>
-#include <stadion/engine/nodes/switched.h>
+#include <stadion/engine/nodes/switch_state.h>
 
 namespace {
 
@@ -38,7 +38,7 @@ protected:
   void receive(const Message& m, FrameContext& frame) override {
     PlacedNode::receive(m, frame);
     if (m.command == commandNamed("kick")) velocity_.z() += 2;
-    if (switch_.obey(m) && m.command == CommandId::Reset) velocity_.setZero();
+    if (switch_.apply(m) && m.command == CommandId::Reset) velocity_.setZero();
   }
 
   void simulate(FrameContext& frame) override {
@@ -58,7 +58,7 @@ protected:
 private:
   NodeRef target_;
   double rate_;  ///< [rad/s]
-  Switched switch_;
+  SwitchState switch_;
   Vec3 velocity_ = Vec3::Zero();  ///< in World [m/s]
 };
 

@@ -70,20 +70,20 @@ std::unique_ptr<Follower> Follower::unconnected(FollowerOptions options, std::ui
 
 // Expects the lock.
 void Follower::announce(Phase phase) {
-  told_ = phase, toldSerial_ = obeyed_;
+  told_ = phase, toldSerial_ = appliedSerial_;
   Presence p{};
   p.node = static_cast<std::uint8_t>(options_.node), p.incarnation = incarnation_, p.count = ++announced_;
   p.cluster = options_.key.cluster, p.session = joined_, p.phase = static_cast<std::uint8_t>(phase);
   if (kept_)
     p.plays = kept_->transfer.session, p.serial = kept_->transfer.serial, p.show = kept_->show;
   else if (plays_ && !differs_)
-    p.plays = joined_, p.serial = obeyed_, p.show = show_;
+    p.plays = joined_, p.serial = appliedSerial_, p.show = show_;
   bus_->tell(p);
 }
 
 // Expects the lock, while no orders come: a new leader must learn which scene is the newest.
 void Follower::announceProgress() {
-  if (plays_ && toldSerial_ != obeyed_) announce(told_);
+  if (plays_ && toldSerial_ != appliedSerial_) announce(told_);
 }
 
 // Expects the lock. Sends on a thread of its own, because a state may be large.
@@ -157,9 +157,9 @@ std::optional<JoinTerms> Follower::joinSession(std::unique_lock<std::mutex>& loc
       std::make_shared<const ResumableScene>(ResumableScene{incoming_.take(), show_, framesShown_});
   kept_ = kept;
   const SceneTransfer& transfer = kept->transfer;
-  obeyed_ = transfer.serial, plays_ = true;
+  appliedSerial_ = transfer.serial, plays_ = true;
   joining.after.frame = transfer.frame, joining.after.time = transfer.time;
-  std::erase_if(orders_, [&](const HeardOrder& o) { return o.numbers.serial <= obeyed_; });
+  std::erase_if(orders_, [&](const HeardOrder& o) { return o.numbers.serial <= appliedSerial_; });
   joining.state = {kept, &transfer.scene.bytes};
   joining.files = transfer.scene.files;
   return joining;
@@ -183,7 +183,7 @@ std::optional<FrameOrder> Follower::next() {
   if (again_ || double_ || leaves() || orders_.empty()) return {};
   HeardOrder heard = std::move(orders_.front());
   orders_.pop_front();
-  if (heard.numbers.serial != obeyed_ + 1) {
+  if (heard.numbers.serial != appliedSerial_ + 1) {
     again_ = true;
     return {};
   }
@@ -191,7 +191,7 @@ std::optional<FrameOrder> Follower::next() {
     again_ = differs_ = true;
     return {};
   }
-  obeyed_ = heard.numbers.serial, frame_ = heard.order.signature.frame;
+  appliedSerial_ = heard.numbers.serial, frame_ = heard.order.signature.frame;
   still_ = heard.order.standsAfter, presentation_ = heard.order.presentation;
   const bool isNew = std::exchange(kept_, nullptr) || !plays_;
   plays_ = true;
@@ -200,7 +200,7 @@ std::optional<FrameOrder> Follower::next() {
   heard.order.drawn = (heard.numbers.members >> options_.node & 1U) != 0;
   // The leader left us out for being late. A node that has caught up is taken back.
   if (!heard.order.drawn && told_ == Phase::Ready && orders_.empty()) announce(Phase::Ready);
-  shows_.emplace_back(obeyed_, heard.order.drawn);
+  shows_.emplace_back(appliedSerial_, heard.order.drawn);
   sample_ = std::move(heard.input), sampled_ = heard.sampled;
   ++stats_.orders;
   return heard.order;
@@ -214,7 +214,7 @@ bool Follower::explain(std::unique_lock<std::mutex>& lock) {
   const auto has = [&] {
     if (std::exchange(received, incoming_.received()) != incoming_.received()) since = Clock::now();
     late = Clock::now() - since > kLongWait;
-    return hasEnded() || late || (incoming_.complete() && incoming_.serial() == obeyed_);
+    return hasEnded() || late || (incoming_.complete() && incoming_.serial() == appliedSerial_);
   };
   if (!await(lock, "the scene of the leader, to compare ours with it", has) || hasEnded() || late)
     return true;
@@ -390,7 +390,7 @@ void Follower::keep(const TimeSignature& last, SavedScene scene) {
   SceneTransfer& transfer = kept.transfer;
   transfer.frame = last.frame, transfer.time = last.time, transfer.scene = std::move(scene);
   const std::lock_guard lock(mutex_);
-  transfer.session = joined_, transfer.serial = obeyed_, kept.show = show_;
+  transfer.session = joined_, transfer.serial = appliedSerial_, kept.show = show_;
   transfer.still = still_, transfer.presentation = presentation_, kept.framesShown = framesShown_;
   kept_ = std::make_shared<const ResumableScene>(std::move(kept));
   giveIfAsked();

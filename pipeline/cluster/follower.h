@@ -139,7 +139,7 @@ private:
   Presentation presentation_{};   ///< how that frame was shown
   std::optional<bool> isMember_;  ///< by the newest order, for any program with our name
   Compare compare_;
-  std::uint64_t obeyed_ = 0, go_ = 0, shown_ = 0;
+  std::uint64_t appliedSerial_ = 0, go_ = 0, shown_ = 0;
   std::uint64_t framesShown_;  ///< one more than the last frame that our walls have shown; 0: none
   std::uint64_t frames_ = 0;   ///< once the show is over: one more than the last frame that any wall has
                                ///< shown

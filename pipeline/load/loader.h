@@ -63,7 +63,7 @@ public:
   /// Returns the loads that are due and have not yet taken effect.
   std::vector<std::uint32_t> overdue() const;
   /// Declares the show a replay: these loads came late. Call it before the first frame.
-  void obey(std::map<std::uint32_t, Nanoseconds> late) { decided_ = std::move(late); }
+  void replay(std::map<std::uint32_t, Nanoseconds> late) { decided_ = std::move(late); }
 
   void request(std::uint32_t number, const std::string& file, NodeRef owner, const Affine& X_WO) override;
   bool takesEffect(std::uint32_t number, Nanoseconds now) override;

@@ -28,7 +28,7 @@ void OperatorControls::beginFrame(std::uint64_t frame) {
 
 void OperatorControls::take(std::uint64_t frame, const OperatorCommand& command) {
   if (command.action == OperatorAction::NextGroup && (pictureAwaited_ || state_.nextGroup)) return;
-  if (!state_.obey(command)) return;
+  if (!state_.apply(command)) return;
   leaving_ = state_.nextGroup;
   if (command.action == OperatorAction::Step)
     playback_.step();

@@ -46,7 +46,7 @@ public:
   /// Applies the coming frame's commands in their order: first those of a log, then those received.
   void beginFrame(std::uint64_t frame);
   /// Sets the orders of a replayed run.
-  void obey(RunOrders orders) { recorded_ = std::move(orders); }
+  void replay(RunOrders orders) { recorded_ = std::move(orders); }
 
   /// Called for each applied command, on the App thread.
   std::function<void(std::uint64_t frame, const OperatorCommand&)> told;

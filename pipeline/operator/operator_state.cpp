@@ -29,7 +29,7 @@ bool setWhole(double& what, double now, double least, double most, const Operato
 
 }  // namespace
 
-bool OperatorState::obey(const OperatorCommand& command) {
+bool OperatorState::apply(const OperatorCommand& command) {
   if (command.value && !std::isfinite(*command.value)) return false;
   switch (command.action) {
   case OperatorAction::Start: waiting = false; return true;

@@ -26,7 +26,7 @@ struct OperatorState {
   bool nextGroup = false, end = false;
 
   /// Applies a command. Returns false, and changes nothing, if its value makes no sense.
-  bool obey(const OperatorCommand& command);
+  bool apply(const OperatorCommand& command);
   /// Returns true if show time stands still, except for single steps.
   bool still() const { return waiting || paused; }
   double eyeSeparation() const {

@@ -124,7 +124,7 @@ void SharedProgress::forget() {
   page_->kept.serial = 0;
 }
 
-void SharedProgress::obeyed(const OperatorState& state) {
+void SharedProgress::setOperatorState(const OperatorState& state) {
   Moment last = newest();
   if (last.clock > 0 && operatorState().still() && !state.still()) {  // the show stood still until now
     last.clock = machineClock();

@@ -74,8 +74,8 @@ public:
   void catchesUpUntil(Nanoseconds clock);
   /// Discards all moments and scenes, because a show begins from its start.
   void forget();
-  /// Reports the operator's decisions.
-  void obeyed(const OperatorState& state);
+  /// Sets the operator's decisions.
+  void setOperatorState(const OperatorState& state);
 
   Moment newest() const;
   std::uint64_t framesShown() const;
@@ -85,7 +85,7 @@ public:
   std::optional<Kept> kept() const;
   /// Returns the scene of kept(); empty if it cannot be read.
   std::vector<std::uint8_t> scene() const;
-  /// Returns the last state passed to obeyed(), otherwise the state at the start of a run.
+  /// Returns the last state passed to setOperatorState(), otherwise the state at the start of a run.
   OperatorState operatorState() const;
   /// Returns the show time that would be reached now without a stop since the newest frame [ns].
   Nanoseconds timeNow() const;

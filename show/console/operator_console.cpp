@@ -66,7 +66,7 @@ void OperatorConsole::beginGroup(Player& player, RunWatch& watch) {
   if (std::exchange(groupIsNew_, false)) controls_->awaitPicture();
   if (trackers_) player.takeInputFrom(trackers_->trackers());
   visitorIsLive_ = player.inputIsLive();
-  controls_->obey(player.decisions().orders);
+  controls_->replay(player.decisions().orders);
   controls_->told = [this, &watch](std::uint64_t frame, const OperatorCommand& command) {
     tell(command, watch.time());
     if (isOfPresentation(command.action)) writeDown(frame, command, watch);

@@ -21,7 +21,7 @@ struct BodyModel {
   std::string shape;                 ///< as the language writes it; empty: as the script says
   std::optional<double> dragArea;    ///< drag area, so that another shape does not change the drag [m2]
   std::vector<std::string> without;  ///< fields that it is not hooked to
-  std::uint32_t fineness = 1;        ///< fineness of the whole show's dynamics (World::setFineness)
+  std::uint32_t fineness = 1;        ///< fineness of the whole show's dynamics (World::setStepDivider)
   /// Impact scheme of the whole show's dynamics; empty: as the script says.
   std::optional<ImpactScheme> impacts;
   bool absent = false;  ///< not simulated at all: what the show costs without it

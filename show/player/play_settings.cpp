@@ -3,7 +3,7 @@
 namespace stadion {
 
 bool PlaySettings::everyFrameCounts(const Player& player) const {
-  return everyFrame || player.obeysLog();
+  return everyFrame || player.replaysLog();
 }
 
 bool PlaySettings::repeats(const Player& player) const {

@@ -151,7 +151,7 @@ std::unique_ptr<Player> Player::prepare(const ShowOptions& options, Diagnostics&
       *p.meshes_, p.state_.arena(), *p.importer_, p.roots_, *p.types_, p.services_,
       onlyNews(std::move(report)), stop, fromSeconds(1 / p.rate_), p.trackers_, p.inputName_, kept,
       options.texts ? options.texts : ScriptTexts::read(options.script, p.roots_, *p.types_)});
-  p.loader_->obey(p.decisions_.loads);
+  p.loader_->replay(p.decisions_.loads);
   p.scene_ = std::make_unique<Scene>(*p.loader_, *p.meshes_, appThreadsOf(options));
   p.options_.texts.reset();  // the loader keeps what is still to be loaded
   return player;

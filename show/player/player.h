@@ -87,7 +87,7 @@ public:
   /// Frames a second: as asked, else as the input log was recorded.
   double rate() const { return rate_; }
   /// Returns true if the input log holds what a clock decided: then every frame is played as it was recorded.
-  bool obeysLog() const { return !decisions_.empty(); }
+  bool replaysLog() const { return !decisions_.empty(); }
   bool inputFound() const { return inputFound_; }
   /// Mode, rate, walls, length, and what the input log decided. Plays every frame, as fast as possible.
   FrameLoopOptions loopOptions() const;

@@ -70,7 +70,7 @@ void RunWatch::recordInput(const std::string& file, bool everyFrame, Diagnostics
                      "is what a run that was killed has left of its record of the input: without its "
                      "last line, which may be half of one, it can be played; else remove it");
   // Where every frame follows the last one at 1/rate there is nothing to record but the input.
-  const bool clockDecides = !everyFrame || player_.obeysLog();
+  const bool clockDecides = !everyFrame || player_.replaysLog();
   recorder_ = std::make_unique<InputRecorder>(file, clockDecides ? player_.rate() : 0);
   if (const auto& why = recorder_->refusal())
     findings.error({}, "--record-input: " + file + " " + why->message);
@@ -124,7 +124,7 @@ void RunWatch::note(const DegradationDecision& d, const Scene& scene) {
 
 /// What a live run decides, its governor tells, with what it cost.
 void RunWatch::addObeyed(RunSummary& s) const {
-  if (!player_.obeysLog()) return;
+  if (!player_.replaysLog()) return;
   s.stress.emplace();
   std::uint64_t aboutNothing = 0;
   for (const auto& [node, o] : givenUp_)

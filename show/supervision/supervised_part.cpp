@@ -55,9 +55,9 @@ void SupervisedPart::restartShow(const Diagnostics& found) {
 void SupervisedPart::goOn(FrameLoopOptions& loop, OperatorConsole& console, RunWatch& watch) {
   if (!keeps_) return;
   step_ = fromSeconds(1 / loop.rate);
-  console.changed = [this](const OperatorState& state) { obeyed(state); };
+  console.changed = [this](const OperatorState& state) { setOperatorState(state); };
   progress_->catchesUpUntil(machineClock());
-  if (std::exchange(wentOn_, true) || progress_->starts() < 2) return obeyed(console.state());
+  if (std::exchange(wentOn_, true) || progress_->starts() < 2) return setOperatorState(console.state());
   state_.reset();
   console.resume(operator_);
   const Nanoseconds at = from_ ? from_->time : 0;

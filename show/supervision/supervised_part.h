@@ -35,7 +35,7 @@ public:
   void enter(SharedProgress::Phase phase) { progress_->enter(phase); }
   /// The next group's show begins.
   void beginGroup() { progress_->forget(); }
-  void obeyed(const OperatorState& state) { progress_->obeyed(state); }
+  void setOperatorState(const OperatorState& state) { progress_->setOperatorState(state); }
   /// `late`: it is still catching up.
   void simulated(const TimeSignature& now, Scene& scene, const RunWatch& watch, bool late);
   void shown() { progress_->shown(); }

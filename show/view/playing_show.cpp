@@ -103,7 +103,7 @@ void PlayingShow::start(const std::optional<ShowPlace>& place) {
   ShowParts show = parts();
   around_.console.beginGroup(*player_, *watch_);
   around_.console.addTo(show, options);
-  if (!player_->obeysLog()) options.decider = recording_->governor();
+  if (!player_->replaysLog()) options.decider = recording_->governor();
   writes_ = watchWrites(around_.settings.play.guard, show, options);
   stages_ = std::make_unique<ShowStages>(std::move(show));
   loop_ = std::make_unique<FrameLoop>(*stages_, options, *around_.stopping, &recording_->probe());

@@ -37,7 +37,7 @@ public:
   }
   void beforeFrames(ShowParts& stages, FrameLoopOptions& loop) override {
     stages.probe = &recording_->probe();
-    if (!session_.player->obeysLog()) loop.decider = recording_->governor();
+    if (!session_.player->replaysLog()) loop.decider = recording_->governor();
   }
   void afterFrame(const TimeSignature&, const InputSample&, const Scene& scene) override {
     recording_->see(scene);

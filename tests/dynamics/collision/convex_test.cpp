@@ -265,7 +265,7 @@ TEST(ThinWall, NothingThatFliesAndTumblesGetsThroughABoxASheetOrAMesh) {
     const BodyId b = w.addBody(def);
     play(w, std::min(3 / v + 0.1, 0.5), 60);
     if (w.state(b).p.x() > 0)
-      ++through, std::printf("  through: case %d, %.0f m/s, %s\n", k, v, w.troubleOf(b).c_str());
+      ++through, std::printf("  through: case %d, %.0f m/s, %s\n", k, v, w.quarantineReason(b).c_str());
     EXPECT_GE(w.separation({true, b}, {false, 1}), -1e-4) << k;
   }
   EXPECT_EQ(through, 0);

@@ -18,7 +18,7 @@ double tilt(const World& w, BodyId b) {
 double tippingTime(double size, std::uint32_t fineness = 1) {
   const double a = std::atan2(0.1, 0.3) + 0.02, step = 1e-4 * std::sqrt(size);
   World w;
-  w.setFineness(fineness);
+  w.setStepDivider(fineness);
   const FieldId g = addGravity(w, Vec3(kG * std::sin(a), 0, -kG * std::cos(a)));
   addFloor(w, 1);
   const BodyId b = addBox(

@@ -157,7 +157,7 @@ TEST(Convergence, ADrivenSpinIsWithinMillionthsOfARadian) {
 /// A ball that rolls, without slipping, in a hollow of the field: pulls from the middles of steps.
 double rollingError(std::uint32_t fineness) {
   World w;
-  w.setFineness(fineness);
+  w.setStepDivider(fineness);
   const FieldId g = addGravity(w);
   ForceField f;
   f.law = SphericalField{-6, 10, SphericalField::Falloff::Linear};
@@ -190,7 +190,7 @@ TEST(Convergence, ABallThatRollsUnderAVaryingPullConvergesAtSecondOrder) {
 /// A box that slides down on one edge's side of the floor while a spherical field pulls: steps of the solver.
 double slidingError(std::uint32_t fineness) {
   World w;
-  w.setFineness(fineness);
+  w.setStepDivider(fineness);
   const FieldId g = addGravity(w);
   ForceField f;
   f.law = SphericalField{-6, 10, SphericalField::Falloff::Linear};

@@ -188,7 +188,7 @@ TEST(Flight, AUndefinedStateIsQuarantinedAndTheNeighbourGoesOn) {
   w.hook(b, bad, fromSeconds(0.1));
   play(w, 0.5);
   EXPECT_EQ(w.mode(b), BodyMode::Quarantined);
-  EXPECT_FALSE(w.troubleOf(b).empty());
+  EXPECT_FALSE(w.quarantineReason(b).empty());
   EXPECT_TRUE(w.pose(b).finite());
   EXPECT_NEAR(w.state(a).p.z(), 5 - 0.5 * kG * 0.25, 1e-12);
 }

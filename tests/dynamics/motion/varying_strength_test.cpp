@@ -150,7 +150,7 @@ TEST(VaryingStrength, ABallIsLiftedOffItsFaceWhereThePullBecomesTooMuch) {
   Vec3 end[2];
   for (const bool fine : {false, true}) {
     World w;
-    if (fine) w.setFineness(16);
+    if (fine) w.setStepDivider(16);
     const FieldId g = addGravity(w);
     ForceField f;
     f.law = SphericalField{-300, 1.0, SphericalField::Falloff::Linear, LinearField::Unit::Acceleration};

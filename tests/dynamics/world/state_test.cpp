@@ -17,7 +17,7 @@ using namespace scenes;
 
 std::vector<std::uint8_t> saved(World& w) {
   SavedState out;
-  w.visit(out);
+  w.visitState(out);
   return out.take();
 }
 
@@ -26,11 +26,11 @@ std::unique_ptr<World> copyOf(World& w, const std::vector<std::uint8_t>& state, 
   auto copy = std::make_unique<World>();
   copy->setImpactScheme(impacts);
   RestoredState in(state);
-  copy->visit(in);
+  copy->visitState(in);
   EXPECT_TRUE(in.complete());
   for (ShapeId id = 1; id < 200; ++id)
     if (const Shape* shape = w.shape(id))
-      copy->giveBack(id, std::shared_ptr<const Shape>(std::shared_ptr<void>(), shape));
+      copy->restoreShape(id, std::shared_ptr<const Shape>(std::shared_ptr<void>(), shape));
   EXPECT_TRUE(copy->complete());
   return copy;
 }
@@ -39,7 +39,7 @@ std::unique_ptr<World> copyOf(World& w, const std::vector<std::uint8_t>& state, 
 std::string differenceOf(World& a, World& b) {
   const std::vector<std::uint8_t> there = saved(b);
   StateDifference d(there);
-  a.visit(d);
+  a.visitState(d);
   return d.first() ? d.first()->name + ": " + d.first()->here + " and " + d.first()->there : "";
 }
 

@@ -20,7 +20,7 @@ struct OscRoom {
   void take(const OscMessage& m) {
     osc.take(m);
     if (const auto command = operatorCommandOf(m))
-      show.obey(*command);
+      show.apply(*command);
     else
       complaintAbout(m);
   }

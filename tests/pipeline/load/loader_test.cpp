@@ -136,7 +136,7 @@ TEST(ThreadsLoader, AWaitForFilesIsReportedAndItsEnd) {
 TEST(ThreadsLoader, AReplayObeysTheDecision) {
   released = true;
   OneTimer show(waitForRelease);
-  show.loader->obey({{1, 25}});
+  show.loader->replay({{1, 25}});
   show.request(1);
   EXPECT_FALSE(show.loader->takesEffect(1, 20));
   EXPECT_TRUE(show.loader->takesEffect(1, 30));

@@ -149,7 +149,7 @@ TEST(ThreadsFrameLoop, WhatTheOperatorSaysOfAFrameTravelsWithIt) {
   };
   for (const Mode mode : {Mode::Sequential, Mode::Pipelined}) {
     OperatorControls controls(false, 0.064);
-    controls.obey({{2, {OperatorAction::Black, 1, false}}, {4, {OperatorAction::Black, 0, false}}});
+    controls.replay({{2, {OperatorAction::Black, 1, false}}, {4, {OperatorAction::Black, 0, false}}});
     NotingStages stages(2, 3);
     FrameLoopOptions o;
     o.mode = mode, o.walls = 2, o.frames = 6, o.controls = &controls, o.playback = &controls.playback();

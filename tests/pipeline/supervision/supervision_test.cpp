@@ -72,7 +72,7 @@ TEST(SharedProgress, WhatAProcessKeptIsThereAfterItWasKilled) {
     if (!there) _exit(1);
     OperatorState desk;
     desk.presentation.black = true, desk.volume = 0.5;
-    there->obeyed(desk);
+    there->setOperatorState(desk);
     there->enter(SharedProgress::Phase::Playing);
     for (std::uint8_t n = 1; n <= 5; ++n) {
       there->simulated({n, n * 1000, 1000, {}}, 0);
@@ -237,12 +237,12 @@ TEST(SharedProgress, AShowThatStandsStillIsNotLate) {
   p.simulated({9, 9000, 1, {}}, 0);
   OperatorState desk;
   desk.paused = true;
-  p.obeyed(desk);
+  p.setOperatorState(desk);
   EXPECT_EQ(p.timeNow(), 9000);
   std::this_thread::sleep_for(std::chrono::milliseconds(50));
   const Nanoseconds before = machineClock();
   desk.paused = false;
-  p.obeyed(desk);
+  p.setOperatorState(desk);
   EXPECT_LE(p.timeNow(), 9000 + machineClock() - before) << "it has gone on since then alone";
 }
 
@@ -255,7 +255,7 @@ TEST(SharedProgress, AShowThatCatchesUpIsDueWhereItWouldBe) {
   EXPECT_GE(p.timeNow(), fromSeconds(7));
   OperatorState desk;
   desk.paused = true;
-  p.obeyed(desk);
+  p.setOperatorState(desk);
   EXPECT_EQ(p.timeNow(), fromSeconds(7));
 }
 

@@ -7,16 +7,16 @@
 
 namespace stadion {
 
-class Switched {
+class SwitchState {
 public:
-  explicit Switched(bool initially) : initially_(initially), on_(initially) {}
+  explicit SwitchState(bool initially) : initially_(initially), on_(initially) {}
 
   bool on() const { return on_; }
   bool initially() const { return initially_; }
   void set(bool on) { on_ = on; }
 
-  /// Obeys m if it is a command for a switch. True if the state may have changed.
-  bool obey(const Message& m) {
+  /// Applies m if it is a command for a switch. Returns true if the state may have changed.
+  bool apply(const Message& m) {
     switch (m.command) {
     case CommandId::Enable: on_ = true; return true;
     case CommandId::Disable: on_ = false; return true;
