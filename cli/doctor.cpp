@@ -22,7 +22,7 @@ struct DoctorOptions {
 int examineMachine(const DoctorOptions& o) {
   Diagnostics findings;
   const auto wanted = MachineNeeds::read(o.wanted, findings);
-  tell(findings);
+  printFindings(findings);
   if (!wanted) return kBadInput;
   const std::vector<DoctorFinding> found = examine(probesOfThisMachine(), wanted->needs());
   std::fputs((o.json ? toJson(found) : toText(found)).c_str(), stdout);

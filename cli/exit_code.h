@@ -22,7 +22,7 @@ inline int exitCodeOf(const Reason& why) {
 }
 
 /// Writes to stderr why the program ends with `code`. Returns `code`.
-inline int complain(const Diagnostic& why, int code) {
+inline int printError(const Diagnostic& why, int code) {
   std::fprintf(stderr, "stadion: %s\n", format(why).c_str());
   return code;
 }

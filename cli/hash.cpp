@@ -35,7 +35,7 @@ int keepState(Scene& scene, const HashOptions& o) {
     else
       findings.add(compared.error());
   }
-  tell(findings);
+  printFindings(findings);
   if (findings.hasErrors()) return kBadInput;
   if (!difference) return kOk;
   std::printf("difference: %s is %s here and %s in %s\n", difference->where.c_str(), difference->here.c_str(),
@@ -49,9 +49,9 @@ int hashShow(const HashOptions& o) {
   const std::vector<NamedFile> files{{"--save-state", o.saveState},
                                      {"--compare-state", o.compareState, false}};
   refuseOverwriting({&options, 1}, files, findings);
-  if (!options.settle(findings) || findings.hasErrors()) return tell(findings), kBadInput;
-  auto player = Player::create(options, findings, tell);
-  tell(findings);
+  if (!options.complete(findings) || findings.hasErrors()) return exitWith(findings, kBadInput);
+  auto player = Player::create(options, findings, printFindings);
+  printFindings(findings);
   if (!player) return kBadInput;
 
   ShowParts parts = player->parts(StereoLayout::Off);

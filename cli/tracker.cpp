@@ -179,7 +179,7 @@ int trackerTool(TrackerToolOptions o) {
   if (o.calibrate && !std::filesystem::exists(open.rig, none)) open.rig.clear();  // a first one
   const auto say = [](const std::string& line) { std::fprintf(stderr, "%s\n", line.c_str()); };
   const auto device = findings.hasErrors() ? nullptr : TrackerDevice::open(open, say, findings);
-  tell(findings);
+  printFindings(findings);
   if (!device) return kBadInput;
   std::fprintf(stderr, "listening to %s\n", device->description().c_str());
   const std::atomic<bool>& stop = catchStopSignals();

@@ -4,7 +4,7 @@
 ///     ShowOptions options;
 ///     options.script = "kick.evs";
 ///     Diagnostics findings;
-///     if (!options.settle(findings)) return 2;  // `findings` has the reason
+///     if (!options.complete(findings)) return 2;  // `findings` has the reason
 ///     const auto player = Player::create(options, findings);
 ///     if (!player) return 2;
 ///     ShowParts parts = player->parts(StereoLayout::Off);

@@ -5,7 +5,7 @@
 ///     SessionSettings settings;
 ///     settings.show.script = "kick.evs";
 ///     Diagnostics findings;
-///     if (!settings.show.settle(findings)) return;
+///     if (!settings.show.complete(findings)) return;
 ///     ShowSession session(settings, reporter, catchStopSignals());  // reporter: your Reporter
 ///     if (session.open()) session.play();
 

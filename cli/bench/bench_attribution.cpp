@@ -90,7 +90,7 @@ int benchAttribution(const BenchAttributionOptions& o) {
   Diagnostics findings;
   if (const auto wrong = writeFile(folder.path("grid.evs"), gridScript())) {
     findings.add(*wrong);
-    return tell(findings), kBadInput;
+    return exitWith(findings, kBadInput);
   }
   const std::string scripts = shareFolder() + "/scripts/";
   const Show shows[] = {{"kick", scripts + "kick.evs", "desktop", "400x300", 0},
@@ -104,11 +104,11 @@ int benchAttribution(const BenchAttributionOptions& o) {
     options.show.mode = Mode::Sequential;  // so that nothing else of the process is at work meanwhile
     options.show.frames = o.frames, options.show.assetRoots = {scripts};
     options.renderer = {RendererChoice::Gl, GlProviderKind::OsMesa};  // it draws single nodes
-    if (!options.show.settle(findings)) return tell(findings), kBadInput;
+    if (!options.show.complete(findings)) return exitWith(findings, kBadInput);
     Failure failure;
     OutputFiles none({}, {});
     const auto figures = profileShow(options, none, terminal, findings, failure);
-    tell(findings);
+    printFindings(findings);
     if (!figures) return stopSignal() ? kStopped + stopSignal() : kBadInput;
     met = tellFigures(*figures, show, o.json) && met;
   }

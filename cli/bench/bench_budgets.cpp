@@ -63,7 +63,7 @@ public:
     const PlaySettings live;
     RecordSettings record;
     record.input = folder_.path("live.input");
-    const auto player = Player::create(show, findings, tell);
+    const auto player = Player::create(show, findings, printFindings);
     if (!player) return {};
     player->playLive();
     auto watch = RunWatch::create(record, live, *player, findings);
@@ -99,7 +99,7 @@ public:
   std::optional<std::uint64_t> replay(Mode mode, Diagnostics& findings) {
     ShowOptions show = showOptions();
     show.input = folder_.path("live.input"), show.mode = mode;
-    const auto player = Player::create(show, findings, tell);
+    const auto player = Player::create(show, findings, printFindings);
     auto watch = player ? RunWatch::create({}, PlaySettings{.everyFrame = true}, *player, findings) : nullptr;
     if (!watch) return {};
     ShowParts parts = player->parts(StereoLayout::Off);
@@ -127,7 +127,7 @@ private:
     options.keep = BlackBoxOptions{folder_.path("frames"), kRate, player.walls().names(), {}, {}};
     GovernorOptions governor;
     governor.rate = kRate, governor.walls = player.walls().names();
-    governor.tell = [this](const std::string& line) { hear(line); };
+    governor.tell = [this](const std::string& line) { record(line); };
     options.govern = std::move(governor);
     return ShowRecording::create(std::move(options), findings);
   }
@@ -136,7 +136,7 @@ private:
     if (const auto box = BlackBox::read(folder_.path("frames"))) played_.kept = box.value().frames;
   }
 
-  void hear(const std::string& line) {
+  void record(const std::string& line) {
     std::fprintf(stderr, "%s\n", line.c_str());
     const std::uint64_t frame = stall_->frame();
     const bool named = line.starts_with("over budget") && line.find("\"game\"") != line.npos;
@@ -233,7 +233,7 @@ int benchBudgets(const BenchBudgetsOptions& o) {
   std::vector<std::optional<std::uint64_t>> replays;
   for (const Mode mode : {Mode::Sequential, Mode::Pipelined})
     if (played) replays.push_back(experiment.replay(mode, findings));
-  tell(findings);
+  printFindings(findings);
   if (!played) return kInternalFault;
   Report report;
   judge(o, *played, report);

@@ -102,7 +102,7 @@ public:
   }
 
 private:
-  bool complain(const std::string& what) {
+  bool printError(const std::string& what) {
     if (!stop_) std::fprintf(stderr, "stadion: %s\n", what.c_str());
     return false;
   }
@@ -112,7 +112,7 @@ private:
   bool calibrateTimes(const PlantedDelay& tried) {
     const MeasuredRounds m =
         measureRounds(case_, "sequential", {program_}, {program_, toText(tried)}, measuring(3));
-    if (!m.fault.empty() || stop_) return complain(m.fault);
+    if (!m.fault.empty() || stop_) return printError(m.fault);
     takePrices(m.rounds);
     std::vector<double> us;
     for (const Round& r : m.rounds)
@@ -134,7 +134,7 @@ private:
   bool calibrateInstructions(const PlantedDelay& tried) {
     const auto [plain, planted] = countBoth(toText(tried));
     if (!plain.fault.empty() || !planted.fault.empty() || stop_)
-      return complain(plain.fault.empty() ? planted.fault : plain.fault);
+      return printError(plain.fault.empty() ? planted.fault : plain.fault);
     plain_ = plain.rows, prices_.stages = stageInstructions(plain.rows);
     const std::string stage = stageOf(tried);
     prices_.iteration = (stageInstructions(planted.rows)[stage] - prices_.stages[stage]) /
@@ -153,7 +153,7 @@ private:
   bool byTimes(TrialResult& result, const std::string& stage) {
     const MeasuredRounds m =
         measureRounds(case_, "sequential", {program_}, {program_, result.planted}, measuring(o_.rounds));
-    if (!m.fault.empty() || stop_) return complain(m.fault);
+    if (!m.fault.empty() || stop_) return printError(m.fault);
     for (const StageShift& s : compareRounds(m.rounds, case_.tolerances.times / 100)) {
       result.seen.push_back(fmt::format("{} {:+.2f} %, p = {:.2g}", s.name, 100 * s.shift, s.probability));
       if (s.slower) result.alarms.push_back(s.culprit);
@@ -166,7 +166,7 @@ private:
   bool byInstructions(TrialResult& result, const std::string& stage) {
     const auto [before, now] = countBoth(result.planted);
     if (!before.fault.empty() || !now.fault.empty())
-      return complain(before.fault.empty() ? now.fault : before.fault);
+      return printError(before.fault.empty() ? now.fault : before.fault);
     for (const InstructionShift& s :
          compareInstructions(instructionCounts(before.rows), now.rows, case_.tolerances.instructions / 100)) {
       result.seen.push_back(fmt::format("{} {:+.3f} % of {:.0f}", s.name, 100 * s.shift(), s.before));

@@ -24,7 +24,7 @@ struct BenchDynamicsOptions {
   std::string out;
 };
 
-void complain(const std::string& what) {
+void printError(const std::string& what) {
   std::fprintf(stderr, "stadion: %s\n", what.c_str());
 }
 
@@ -33,7 +33,7 @@ bool namesAreKnown(const bench::ComparisonOptions& options, const std::vector<be
   for (const bench::ListedCase& c : known) names.push_back(c.name);
   const std::vector<std::string> unknown = bench::unknownCases(options, known);
   for (const std::string& name : unknown)
-    complain("there is no case \"" + name + "\"" + didYouMean(name, names));
+    printError("there is no case \"" + name + "\"" + didYouMean(name, names));
   return unknown.empty();
 }
 
@@ -48,13 +48,13 @@ void reportMissingEngines(const std::vector<bench::EngineProgram>& programs) {
 
 bool write(OutputFolder& folder, const std::string& name, const std::string& content) {
   if (const auto wrong = folder.note(name)) {
-    complain(wrong->message);
+    printError(wrong->message);
     return false;
   }
   std::ofstream file(folder.pathOf(name), std::ios::binary);
   file << content;
   file.close();
-  if (!file) complain("cannot write " + folder.pathOf(name));
+  if (!file) printError("cannot write " + folder.pathOf(name));
   return static_cast<bool>(file);
 }
 
@@ -84,7 +84,7 @@ int benchDynamics(const BenchDynamicsOptions& o) {
   const std::string folder = std::filesystem::canonical("/proc/self/exe").parent_path();
   const auto programs = bench::enginePrograms(folder);
   if (programs.empty() || !programs.front().ours) {
-    complain("stadion-dyn-stadion is missing beside the program; build the target dynamics_programs");
+    printError("stadion-dyn-stadion is missing beside the program; build the target dynamics_programs");
     return kInternalFault;
   }
   if (!namesAreKnown(o.comparison, bench::casesOf(programs.front()))) return kBadInput;
@@ -92,7 +92,7 @@ int benchDynamics(const BenchDynamicsOptions& o) {
   if (!o.out.empty()) {
     auto opened = OutputFolder::open(o.out);
     if (!opened) {
-      complain(opened.error().message);
+      printError(opened.error().message);
       return kBadInput;
     }
     out = std::move(opened.value());

@@ -68,7 +68,7 @@ public:
     PlanRunOptions options;
     options.show.script = script, options.show.walls = "cave6", options.show.size = o_.size;
     options.show.frames = o_.frames;
-    if (!options.show.settle(findings)) return false;
+    if (!options.show.complete(findings)) return false;
     std::vector<Combination> combinations;
     for (const std::size_t walls : o_.walls)
       for (const Mode mode : {Mode::Sequential, Mode::Pipelined}) combinations.push_back({walls, mode});
@@ -86,7 +86,7 @@ public:
       }
       std::fprintf(stderr, "%s: round %zu of %zu\n", script.c_str(), round + 1, o_.rounds);
     }
-    tell(script, options.show.frames, combinations, met, before);
+    print(script, options.show.frames, combinations, met, before);
     return true;
   }
 
@@ -115,8 +115,8 @@ private:
     return true;
   }
 
-  void tell(const std::string& script, std::uint64_t frames, const std::vector<Combination>& combinations,
-            bool& met, double loadBefore) const {
+  void print(const std::string& script, std::uint64_t frames, const std::vector<Combination>& combinations,
+             bool& met, double loadBefore) const {
     if (!o_.json)
       std::printf("%s, %s a wall and eye, %u cores, load %.1f to %.1f, %zu rounds of %llu frames\n"
                   "walls  mode        predicted  measured  error (of rounds)       latency  measured\n",
@@ -166,15 +166,18 @@ int benchPlan(BenchPlanOptions o) {
   if (o.shows.empty())
     o.shows = {shareFolder() + "/scripts/kick.evs", shareFolder() + "/scripts/olympia.evs"};
   Diagnostics findings;
-  const RendererSettings settings = o.renderer.settle(findings);
-  if (findings.hasErrors()) return tell(findings), kBadInput;
+  const RendererSettings settings = o.renderer.settings(findings);
+  if (findings.hasErrors()) return exitWith(findings, kBadInput);
   const auto renderer = ShowRenderer::open(settings);
-  if (!renderer) return findings.add(renderer.error()), tell(findings), kBadInput;
+  if (!renderer) {
+    findings.add(renderer.error());
+    return exitWith(findings, kBadInput);
+  }
   bool met = true;
   Validation validation(o, *renderer.value());
   for (const std::string& show : o.shows)
     if (!validation.run(show, findings, met)) {
-      tell(findings);
+      printFindings(findings);
       return catchStopSignals() ? kStopped + stopSignal() : kBadInput;
     }
   if (!o.json) std::printf("%s\n", met ? "ok" : "FAILED");

@@ -138,7 +138,7 @@ int benchPrediction(const BenchPredictionOptions& o) {
   std::vector<HeadPath> paths{walkOfBenchWalls()};
   for (const std::string& file : o.logs)
     if (auto path = pathOf(file, findings)) paths.push_back(std::move(*path));
-  stadion::tell(findings);
+  stadion::printFindings(findings);
   if (findings.hasErrors()) return kBadInput;
   if (!o.json)
     std::printf(

@@ -85,7 +85,7 @@ public:
                                              bool recorded, ProcessorTurns& turns, std::size_t turn,
                                              Diagnostics& findings) {
     std::unique_ptr<TurningShow> made(new TurningShow(turns, turn));
-    made->player_ = Player::create(options, findings, tell);
+    made->player_ = Player::create(options, findings, printFindings);
     if (!made->player_) return nullptr;
     RecordingOptions everything;
     everything.keep = unaskedLastFrames(made->player_->walls().names());
@@ -196,14 +196,14 @@ int benchRecording(const BenchRecordingOptions& o) {
   ShowOptions show;
   show.script = folder.path("grid.evs"), show.walls = "desktop", show.size = o.size, show.input = "none";
   show.frames = o.frames + kFramesBefore, show.assetRoots = {shareFolder() + "/scripts"};
-  const auto renderer = ShowRenderer::open(o.renderer.settle(findings));
+  const auto renderer = ShowRenderer::open(o.renderer.settings(findings));
   if (!renderer) findings.add(renderer.error());
-  if (findings.hasErrors() || !show.settle(findings)) return tell(findings), kBadInput;
+  if (findings.hasErrors() || !show.complete(findings)) return exitWith(findings, kBadInput);
   std::vector<double> ratios;
   double ms = 0;
   for (std::size_t round = 0; round < o.rounds; ++round) {
     const auto measured = measureRound(show, *renderer.value(), round % 2, findings);
-    tell(findings);
+    printFindings(findings);
     if (!measured) return kBadInput;
     ratios.push_back(measured->ratio), ms = measured->ms;
     std::fprintf(stderr, "round %zu of %zu: %+.2f %%\n", round + 1, o.rounds, 100 * (measured->ratio - 1));
@@ -211,7 +211,7 @@ int benchRecording(const BenchRecordingOptions& o) {
   const double more = medianOfRounds(ratios) - 1;
   std::optional<double> executed;
   if (!o.noInstructions && !(executed = moreInstructions(show, o.renderer, folder, findings)))
-    return tell(findings), kBadInput;
+    return exitWith(findings, kBadInput);
   const bool ok = more <= o.most / 100 && executed.value_or(0) <= o.most / 100;
   if (o.json)
     std::printf("%s\n", nlohmann::json{{"bench", "recording"},

@@ -112,8 +112,11 @@ std::optional<Figures> measure(const BenchScaleOptions& o) {
   Figures f;
   const double before = bytesInUse(), peakBefore = peakBytes();
   const Clock::time_point began = Clock::now();
-  const auto player = show.settle(findings) ? Player::create(show, findings, tell) : nullptr;
-  if (!player) return tell(findings), std::nullopt;
+  const auto player = show.complete(findings) ? Player::create(show, findings, printFindings) : nullptr;
+  if (!player) {
+    printFindings(findings);
+    return std::nullopt;
+  }
   f.loadSeconds = 1e-3 * millisecondsSince(began);
   const auto chunk = static_cast<double>(player->parts(StereoLayout::Pair).state.arena().bytesInUse());
   f.bytesANode = (bytesInUse() - before + chunk) / nodes;

@@ -47,11 +47,11 @@ int measureOne(WallsSetting s, const std::string& out, bool control) {
       bench::writeWallScene(folder.path(""), sceneOf(s), s.walls, !s.flat, s.warm + s.frames + 1);
   if (!wrong.empty()) return std::fprintf(stderr, "stadion: %s\n", wrong.c_str()), kBadInput;
   const auto row = measureWalls(s, folder.path(""));
-  if (!row) return complain(row.error(), kInternalFault);
+  if (!row) return printError(row.error(), kInternalFault);
   const std::string line = row.value().dump() + "\n";
   std::fputs(line.c_str(), stdout);
   if (const auto unwritten = out.empty() ? std::nullopt : writeFile(out + "/rows.jsonl", line))
-    return complain(*unwritten, kBadInput);
+    return printError(*unwritten, kBadInput);
   return kOk;
 }
 
@@ -98,7 +98,7 @@ int benchTable(const BenchWallsOptions& o) {
   std::unique_ptr<OutputFolder> out;
   if (!o.out.empty()) {
     auto opened = OutputFolder::open(o.out);
-    if (!opened) return complain(opened.error(), kBadInput);
+    if (!opened) return printError(opened.error(), kBadInput);
     out = std::move(opened.value());
     out->clear();
   }
@@ -109,11 +109,11 @@ int benchTable(const BenchWallsOptions& o) {
   if (o.json)
     how.row = [](const nlohmann::json& row) { std::printf("%s\n", row.dump().c_str()), std::fflush(stdout); };
   const auto outcome = playRounds(o.scaling ? scalingCases(choice) : tableCases(choice), programs, how);
-  if (!outcome) return complain(outcome.error(), kBadInput);
+  if (!outcome) return printError(outcome.error(), kBadInput);
   const int code = report(outcome.value(), o);
   if (out)
     if (const auto wrong = writeAll(*out, outcome.value().results, o.scaling))
-      return complain(*wrong, kBadInput);
+      return printError(*wrong, kBadInput);
   return code;
 }
 
@@ -161,8 +161,8 @@ int benchWalls(const CLI::App& command, const BenchWallsOptions& o) {
   one.flat = o.layout == "flat";
   if (!o.workers.empty()) one.workers = o.workers;
   Diagnostics findings;
-  one.renderer = o.renderer.settle(findings);
-  if (findings.hasErrors()) return tell(findings), kBadInput;
+  one.renderer = o.renderer.settings(findings);
+  if (findings.hasErrors()) return exitWith(findings, kBadInput);
   return measureOne(std::move(one), o.out, o.control);
 }
 

@@ -141,13 +141,13 @@ Result<nlohmann::json> measureWalls(const WallsSetting& s, const std::string& fo
   show.frames = s.warm + s.frames + 1;
   Diagnostics findings;
   const auto wrong = [&](const std::string& what) {
-    tell(findings);
+    printFindings(findings);
     return Diagnostic{Severity::Error, {folder, 0, 0}, what, {}};
   };
-  if (!show.settle(findings)) return wrong("bad settings");
+  if (!show.complete(findings)) return wrong("bad settings");
   const auto renderer = ShowRenderer::open(s.renderer);
   if (!renderer) return renderer.error();
-  const auto player = Player::create(show, findings, tell);
+  const auto player = Player::create(show, findings, printFindings);
   if (!player) return wrong("the show cannot be played");
   LastPictures pictures(s, player->walls().names());
   CompletedFrames completed;

@@ -44,8 +44,8 @@ int measureOne(const CalibrateOptions& o) {
   Diagnostics findings;
   const auto figures =
       measureSetting({*setting, o.folder, o.walls.front(), o.size, o.look, o.window}, findings);
-  tell(findings);
-  if (!figures) return complain(figures.error(), kInternalFault);
+  printFindings(findings);
+  if (!figures) return printError(figures.error(), kInternalFault);
   std::printf("%s\n", nlohmann::json{{"frames_per_second", figures.value().framesPerSecond},
                                      {"cpu_ms_per_frame", figures.value().cpuMs},
                                      {"rasteriser", figures.value().rasteriser}}
@@ -87,7 +87,7 @@ int remember(const std::string& file, Calibration known, MachineCalibration meas
              const CalibrateOptions& o) {
   const MachineCalibration shown = measured;
   known.add(std::move(measured));
-  if (const auto wrong = writeCalibration(file, known)) return complain(*wrong, kBadInput);
+  if (const auto wrong = writeCalibration(file, known)) return printError(*wrong, kBadInput);
   if (o.json) {
     std::printf("%s", toJson({{shown}}).c_str());
     return kOk;
@@ -117,11 +117,11 @@ int calibrate(const CalibrateOptions& o) {
            kBadInput;
   if (o.forget) return forget(file);
   const Result<Calibration> known = readCalibration(file);
-  if (!known) return complain(known.error(), kBadInput);
+  if (!known) return printError(known.error(), kBadInput);
   Diagnostics findings;
   const std::atomic<bool>& stop = catchStopSignals();
   auto rooms = roomsToMeasure({o.walls, o.size, o.look, o.seconds}, findings);
-  tell(findings);
+  printFindings(findings);
   if (findings.hasErrors()) return kBadInput;
   warnIfBusy(loadNow());
   const TemporaryFolder folder;
@@ -134,7 +134,7 @@ int calibrate(const CalibrateOptions& o) {
                                    [](const std::string& text) { std::fputs(text.c_str(), stderr); });
     if (stop)
       return std::fprintf(stderr, "stadion: stopped; nothing is remembered\n"), kStopped + stopSignal();
-    if (!found) return complain(found.error(), kCheckFailed);
+    if (!found) return printError(found.error(), kCheckFailed);
     measured.rooms.push_back(found.value().room);
     measured.machine.rasteriser = found.value().rasteriser;
   }

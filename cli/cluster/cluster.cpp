@@ -38,7 +38,7 @@ struct ClusterOptions {
 /// the others. Reports the first errors and returns false, or reports the warnings and returns true.
 bool canBePlayed(const ClusterOptions& o, const std::vector<std::vector<std::string>>& arguments) {
   const auto isWell = [](const Diagnostics& findings) {
-    if (findings.hasErrors()) tell(findings);
+    if (findings.hasErrors()) printFindings(findings);
     return !findings.hasErrors();
   };
   Diagnostics findings;
@@ -50,7 +50,7 @@ bool canBePlayed(const ClusterOptions& o, const std::vector<std::vector<std::str
   if (!isWell(checkScripts(o.run.settings.show.script, o.run.settings.show.assetRoots,
                            o.run.settings.show.types)))
     return false;
-  tell(findings);
+  printFindings(findings);
   return true;
 }
 
@@ -111,18 +111,18 @@ std::vector<std::string> programOf(const std::vector<std::string>& arguments,
 int playCluster(const ClusterOptions& o, const CLI::App& command) {
   Diagnostics findings;
   const auto cluster = loadCluster(o.file, findings);
-  if (!cluster) return tell(findings), kBadInput;
+  if (!cluster) return exitWith(findings, kBadInput);
   if (command.get_option("--walls")->count() > 0)
     findings.error({}, "--walls is not for clusters: " + o.file + " says which walls there are");
-  if (findings.hasErrors()) return tell(findings), kBadInput;
+  if (findings.hasErrors()) return exitWith(findings, kBadInput);
   std::vector<std::vector<std::string>> arguments;
   for (std::size_t i = 0; i < cluster->nodes.size(); ++i)
     arguments.push_back(argumentsOfHost(command, o.run, *cluster, i));
   if (!canBePlayed(o, arguments)) return kBadInput;
-  if (!makeFolders(o.run.settings.record.out, *cluster, findings)) return tell(findings), kBadInput;
+  if (!makeFolders(o.run.settings.record.out, *cluster, findings)) return exitWith(findings, kBadInput);
   auto progress = SharedProgress::create();
   if (!progress) findings.add(progress.error());
-  if (findings.hasErrors()) return tell(findings), kBadInput;
+  if (findings.hasErrors()) return exitWith(findings, kBadInput);
   TerminalReporter terminal;
   ClusterNodes nodes(*cluster, o.once, terminal);
   if (!o.run.settings.record.out.empty()) nodes.needAll();
@@ -134,7 +134,7 @@ int playCluster(const ClusterOptions& o, const CLI::App& command) {
   nodes.watchLead(
       std::move(progress.value()),
       fromSeconds(o.run.settings.supervision.hangAfter + cluster::ClusterLeader::kStuck * cluster->deadline));
-  if (findings.hasErrors()) return tell(findings), kBadInput;
+  if (findings.hasErrors()) return exitWith(findings, kBadInput);
   const int code = nodes.play();
   const bool written = writeSummaries(*cluster, o.run.settings.record.out);
   const bool merged = written && (code != kOk || mergeTracesOf(*cluster, o.run.trace.file));
@@ -155,7 +155,7 @@ also receives it, as summaries.json.
 
 docs/cluster.md has the file's format, and what happens when a machine or the network fails.)";
 
-/// What clusters refuse (RunOptions::settle() says why) is not in the help.
+/// What clusters refuse (RunOptions::complete() says why) is not in the help.
 const char* groupOf(const RunOptions& run, const std::string& option) {
   if (option == "--help" || option == "--out" || option == "--json") return "Options";
   for (const char* refused :

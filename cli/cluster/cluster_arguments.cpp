@@ -92,7 +92,7 @@ void checkArgumentsOfHost(std::vector<std::string> arguments, Diagnostics& findi
   addRunOptions(run, o);
   std::ranges::reverse(arguments);  // as CLI takes them
   run.parse(std::move(arguments));
-  if (!o.settle(findings)) return;
+  if (!o.complete(findings)) return;
   refuseUnwritable(o.namedFiles(), findings);
   SessionSettings& s = o.settings;
   ClusterSession::create(

@@ -25,7 +25,7 @@ int mergeFiles(const MergeOptions& o) {
   std::vector<NamedFile> named{{"--trace", o.trace}};
   for (const std::string& file : o.files) named.push_back({"TRACE", file, false});
   refuseSameFiles(named, findings);
-  if (findings.hasErrors()) return tell(findings), kBadInput;
+  if (findings.hasErrors()) return exitWith(findings, kBadInput);
   return writeMergedTrace(tracesOf(o.files), o.trace) ? kOk : kBadInput;
 }
 
@@ -41,12 +41,16 @@ by the ends of their swaps. `stadion cluster --trace FILE` does this by itself.
 bool writeMergedTrace(const std::vector<TraceOfHost>& traces, const std::string& file) {
   const auto merged = mergeTraces(traces, file);
   Diagnostics findings;
-  if (!merged) return findings.add(merged.error()), tell(findings), false;
+  if (!merged) {
+    findings.add(merged.error());
+    printFindings(findings);
+    return false;
+  }
   for (const AlignedHost& host : merged.value())
     if (host.commonFrames == 0)
       findings.warning({file, 0, 0}, "no frame of " + host.host + " was shown by " +
                                          merged.value().front().host + ", too: its clock is not aligned");
-  tell(findings);
+  printFindings(findings);
   return true;
 }
 

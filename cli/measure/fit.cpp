@@ -201,7 +201,7 @@ bool keepsWhatIsRead(const FitOptions& o) {
   files.push_back({"--out's " + std::filesystem::path(tableFileOf(o)).filename().string(), tableFileOf(o)});
   Diagnostics findings;
   refuseSameFiles(files, findings);
-  tell(findings);
+  printFindings(findings);
   return !findings.hasErrors();
 }
 

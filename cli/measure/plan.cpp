@@ -70,10 +70,10 @@ std::optional<plan::ShowCosts> measure(PlanOptions& o, Diagnostics& findings) {
   if (show.frames == 0 && show.seconds == 0) show.frames = kFramesMeasured;
   if (show.frames == 0)
     show.frames = static_cast<std::uint64_t>(std::ceil(show.seconds * show.rate)), show.seconds = 0;
-  if (!show.settle(findings)) return {};
+  if (!show.complete(findings)) return {};
   const auto walls = loadWalls(show.walls, shareFolder() + "/walls", findings);
   if (!walls) return {};
-  const RendererSettings settings = o.renderer.settle(findings);
+  const RendererSettings settings = o.renderer.settings(findings);
   if (findings.hasErrors()) return {};
   auto renderer = ShowRenderer::open(settings);
   if (!renderer) return findings.add(renderer.error()), std::nullopt;
@@ -154,10 +154,10 @@ int planShow(PlanOptions o, const CLI::App& command) {
                                " says how stages overlap, which those of --mode sequential do not: leave one "
                                "of them out");
   if (!o.from.empty() && !o.count && command.count("--walls") > 0) countWallsOf(o, findings);
-  if (findings.hasErrors()) return tell(findings), kBadInput;
-  if (!files.open(findings)) return tell(findings), kBadInput;  // before anything is measured
+  if (findings.hasErrors()) return exitWith(findings, kBadInput);
+  if (!files.open(findings)) return exitWith(findings, kBadInput);  // before anything is measured
   const auto costs = o.from.empty() ? measure(o, findings) : readFrom(o.from, findings);
-  tell(findings);
+  printFindings(findings);
   if (!costs) return stopSignal() ? kStopped + stopSignal() : kBadInput;
   const plan::Question question = questionOf(o, *costs);
   const std::string json = reportJson(*costs, question) + "\n";
@@ -170,7 +170,7 @@ int planShow(PlanOptions o, const CLI::App& command) {
   files.write("plan.json", json);
   findings = {};
   const bool written = files.commit(findings);
-  return tell(findings), written ? kOk : kBadInput;
+  return exitWith(findings, written ? kOk : kBadInput);
 }
 
 constexpr const char* kPlanFooter =

@@ -75,7 +75,7 @@ int showBlackBox(std::string file, const ProfileOptions& o) {
     files.write("last-frames.json", json);
     files.commit(findings);
   }
-  tell(findings);
+  printFindings(findings);
   if (findings.hasErrors()) return kBadInput;
   std::fputs((o.json ? json : lastFramesText(content.value())).c_str(), stdout);
   return kOk;
@@ -91,7 +91,7 @@ bool isAlone(const CLI::Option& blackBox, CLI::App& command) {
                              " is for a show that is played now; --black-box explains a past run: it takes "
                              "--out DIR and --json");
   }
-  tell(findings);
+  printFindings(findings);
   return !findings.hasErrors();
 }
 
@@ -99,20 +99,21 @@ int profileFrames(ProfileOptions o) {
   ProfileRunOptions& options = o.run;
   options.show = o.fidelity.show;
   options.layout = *stereoLayout(options.stereo);
-  options.fidelity = o.fidelity, options.fidelity.report = tell, options.fidelityAsked = o.fidelityAsked;
+  options.fidelity = o.fidelity, options.fidelity.report = printFindings,
+  options.fidelityAsked = o.fidelityAsked;
   options.fidelity.tolerance = 1e-3 * o.millimetres;
   Diagnostics findings;
   OutputFiles files = profileFiles(o.out, o.fidelityAsked);
   std::vector<NamedFile> named = files.named();
   named.push_back({"--trace", o.trace.file});
   refuseOverwriting({&options.show, 1}, named, findings);
-  options.trace = o.trace.settle(findings);
-  options.renderer = o.renderer.settle(findings);
-  const bool settled = options.show.settle(findings) && !findings.hasErrors();
+  options.trace = o.trace.options(findings);
+  options.renderer = o.renderer.settings(findings);
+  const bool settled = options.show.complete(findings) && !findings.hasErrors();
   TerminalReporter terminal;
   Failure failure;
   const auto figures = settled ? profileShow(options, files, terminal, findings, failure) : std::nullopt;
-  tell(findings);
+  printFindings(findings);
   if (!figures) return failure ? exitCodeOf(*failure) : kBadInput;
   std::printf("%s", o.json  ? (toJson(*figures) + "\n").c_str()
                     : o.csv ? toCsv(*figures).c_str()
@@ -128,24 +129,24 @@ bool asksForRecord(const CLI::App& command) {
       findings.error({}, std::string(option) +
                              " tells of frames, which --fidelity does not record: leave one "
                              "of them out, or add --out DIR, whose page has both");
-  tell(findings);
+  printFindings(findings);
   return findings.hasErrors();
 }
 
 int profileModels(ProfileOptions o) {
   FidelityOptions& options = o.fidelity;
   options.tolerance = 1e-3 * o.millimetres;
-  options.report = tell;
+  options.report = printFindings;
   options.show.walls = "desktop";
   Diagnostics findings;
-  if (!options.show.settle(findings)) return tell(findings), kBadInput;
+  if (!options.show.complete(findings)) return exitWith(findings, kBadInput);
   const bool watched = isatty(2) == 1;
   const auto progress = [watched](const std::string& what) {
     if (watched) std::fprintf(stderr, "\r\x1b[Kplaying %s", what.c_str());
   };
   const auto measured = measureFidelity(options, findings, progress);
   if (watched) std::fprintf(stderr, "\r\x1b[K");
-  tell(findings);
+  printFindings(findings);
   if (!measured) return kBadInput;
   std::printf("%s", o.json ? (fidelityJson(*measured) + "\n").c_str() : fidelityTable(*measured).c_str());
   return kOk;

@@ -120,10 +120,11 @@ bool Soak::visit(const std::string& show, Way way, std::uint64_t frames) try {
   Diagnostics findings;
   ReusableResources& kept = kept_[show];
   kept.models.store().collect(~std::uint64_t{0});  // no frame shows it any more
-  const auto player = o.settle(findings) ? Player::create(o, findings, tell, &stop_, &kept.models) : nullptr;
+  const auto player =
+      o.complete(findings) ? Player::create(o, findings, printFindings, &stop_, &kept.models) : nullptr;
   const auto watch =
       player ? RunWatch::create({}, PlaySettings{.everyFrame = true}, *player, findings) : nullptr;
-  tell(findings);
+  printFindings(findings);
   if (!watch) return false;
   RecordingOptions recording;
   recording.profile = false, recording.log.shares = true;
@@ -294,9 +295,9 @@ int soak(SoakOptions o) {
   const std::string what =
       fmt::format("{}, look {}, visits of {} frames", fmt::join(o.shows, ", "), nameOf(o.look), o.visit);
   TerminalReporter terminal;
-  const RendererSettings settings = o.renderer.settle(findings);
+  const RendererSettings settings = o.renderer.settings(findings);
   const auto record = SoakRecord::open(o.record, what, terminal.faultFunction(), findings);
-  tell(findings);
+  printFindings(findings);
   if (!record || findings.hasErrors()) return kBadInput;
   if (record->counts.frames >= o.frames) {
     std::fprintf(stderr, "soak: it is finished, by the record: nothing is played\n");

@@ -13,7 +13,7 @@ void RendererOptions::addTo(CLI::App& command, bool mayDrawNothing) {
   options.add("--draw-threads", threads);
 }
 
-RendererSettings RendererOptions::settle(Diagnostics& findings) const {
+RendererSettings RendererOptions::settings(Diagnostics& findings) const {
   RendererSettings settings;
   settings.threads = threads;
   if (rendererGiven && drawsNothing())

@@ -26,7 +26,7 @@ struct RendererOptions {
   /// These options as words for another command line; none if they were not given.
   std::vector<std::string> words() const;
   /// The findings receive contradictions.
-  RendererSettings settle(Diagnostics& findings) const;
+  RendererSettings settings(Diagnostics& findings) const;
 };
 
 }  // namespace stadion

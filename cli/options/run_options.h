@@ -18,7 +18,7 @@ class App;
 
 namespace stadion {
 
-/// The words of the command line that settle() turns into settings, and what the program itself needs of
+/// The words of the command line that complete() turns into settings, and what the program itself needs of
 /// them.
 struct RunOptions {
   SessionSettings settings;
@@ -34,21 +34,21 @@ struct RunOptions {
 
   /// Completes the settings. False, with the reason in the findings, if options are wrong or contradict each
   /// other.
-  bool settle(Diagnostics& findings);
+  bool complete(Diagnostics& findings);
   /// The files that options name one by one, also those that were not asked for.
   std::vector<NamedFile> namedFiles() const;
   /// No output may be another one, or a file that the show is played from.
-  void settleFiles(Diagnostics& findings) const;
+  void completeFiles(Diagnostics& findings) const;
 
 private:
   /// Whether the options ask for a run that does not follow the clock.
   bool asksForEveryFrame() const;
   bool hasEnd() const;
-  void settleDrawing(Diagnostics& findings);
-  void settleMeasuring(Diagnostics& findings) const;
-  void settleUndrawn(Diagnostics& findings) const;
-  void settleLive(Diagnostics& findings);
-  void settleHead(Diagnostics& findings);
+  void completeDrawing(Diagnostics& findings);
+  void completeMeasuring(Diagnostics& findings) const;
+  void completeUndrawn(Diagnostics& findings) const;
+  void completeLive(Diagnostics& findings);
+  void completeHead(Diagnostics& findings);
   void refuseInCluster(Diagnostics& findings) const;
   void refuseInSupervision(Diagnostics& findings) const;
 };

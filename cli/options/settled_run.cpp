@@ -57,7 +57,7 @@ void RunOptions::refuseInSupervision(Diagnostics& findings) const {
 }
 
 /// Without a rasteriser, tables and records are written, but no pictures.
-void RunOptions::settleUndrawn(Diagnostics& findings) const {
+void RunOptions::completeUndrawn(Diagnostics& findings) const {
   if (!renderer.drawsNothing()) return;
   const RecordSettings& r = settings.record;
   if (settings.play.display) findings.error({}, "--gl none draws nothing that --display could show");
@@ -72,7 +72,7 @@ void RunOptions::settleUndrawn(Diagnostics& findings) const {
 }
 
 /// Options of drawing that exclude each other.
-void RunOptions::settleDrawing(Diagnostics& findings) {
+void RunOptions::completeDrawing(Diagnostics& findings) {
   SessionSettings& s = settings;
   const RecordSettings& r = s.record;
   const bool display = s.play.display, measures = r.profile || !trace.file.empty();
@@ -93,14 +93,14 @@ void RunOptions::settleDrawing(Diagnostics& findings) {
                    "--pin on is for walls that are drawn beside each other: leave out --display, and --mode "
                    "sequential without --wall-workers process");
   s.draw.layout = display && !stereoGiven ? StereoLayout::Off : *stereoLayout(stereo);
-  s.draw.renderer = renderer.settle(findings);
+  s.draw.renderer = renderer.settings(findings);
   s.draw.processes = wish(wallWorkers, "process");
   s.draw.pinned = wish(pin, "on");
   s.play.drawBeginsEarly = cullDraw == "overlap";
 }
 
 /// Options that measure, and exclude each other.
-void RunOptions::settleMeasuring(Diagnostics& findings) const {
+void RunOptions::completeMeasuring(Diagnostics& findings) const {
   const RecordSettings& r = settings.record;
   const bool measures = r.profile || !trace.file.empty(), spans = !r.spans.file.empty();
   if (spans && !asksForEveryFrame())
@@ -117,7 +117,7 @@ void RunOptions::settleMeasuring(Diagnostics& findings) const {
                    "--profile and --trace time the nodes, as --spans does; leave the one or the other out");
 }
 
-bool RunOptions::settle(Diagnostics& findings) {
+bool RunOptions::complete(Diagnostics& findings) {
   SessionSettings& s = settings;
   RecordSettings& r = s.record;
   r.pictures = *PictureChoice::parse(pictures);
@@ -126,22 +126,22 @@ bool RunOptions::settle(Diagnostics& findings) {
         {}, "--display plays live, and --out writes every frame that is asked for; leave one of them out");
   if (s.play.hud && !s.play.display)
     findings.error({}, "--hud shows the frame budget on a display: add --display, or use stadion view");
-  settleUndrawn(findings);
-  settleMeasuring(findings);
-  settleDrawing(findings);
-  r.trace = trace.settle(findings);
+  completeUndrawn(findings);
+  completeMeasuring(findings);
+  completeDrawing(findings);
+  r.trace = trace.options(findings);
   if (!r.nodes.empty() && r.out.empty())
     findings.error({}, "--track needs --out DIR to know where the table goes");
   if (r.video && r.out.empty()) findings.error({}, "--video needs --out DIR to know where the video goes");
   if (s.play.stress.low > s.play.stress.high)
     findings.error({}, "--stress-low must not be greater than --stress-high: between them stress stays");
-  settleLive(findings);
+  completeLive(findings);
   refuseInCluster(findings);
-  settleFiles(findings);
-  settleHead(findings);
+  completeFiles(findings);
+  completeHead(findings);
   refuseInSupervision(findings);
   s.cluster.isChecked = endsWith >= 0;  // `stadion cluster` has warned for all its nodes
-  return s.show.settle(findings) && !findings.hasErrors();
+  return s.show.complete(findings) && !findings.hasErrors();
 }
 
 std::vector<NamedFile> RunOptions::namedFiles() const {
@@ -154,7 +154,7 @@ std::vector<NamedFile> RunOptions::namedFiles() const {
           {"--journal", settings.supervision.journal}};
 }
 
-void RunOptions::settleFiles(Diagnostics& findings) const {
+void RunOptions::completeFiles(Diagnostics& findings) const {
   std::vector<NamedFile> files = namedFiles();
   const std::string& out = settings.record.out;
   if (!out.empty())
@@ -164,7 +164,7 @@ void RunOptions::settleFiles(Diagnostics& findings) const {
 }
 
 /// Options that need the clock, an operator or a tracker.
-void RunOptions::settleLive(Diagnostics& findings) {
+void RunOptions::completeLive(Diagnostics& findings) {
   SessionSettings& s = settings;
   const auto refuse = [&](const char* option) {
     findings.error({}, std::string(option) +
@@ -185,7 +185,7 @@ void RunOptions::settleLive(Diagnostics& findings) {
 }
 
 /// Pictures that depend on the moment at which they are drawn need a head that moves meanwhile.
-void RunOptions::settleHead(Diagnostics& findings) {
+void RunOptions::completeHead(Diagnostics& findings) {
   std::optional<Nanoseconds>& ahead = settings.draw.ahead;
   if (predict == "auto")
     ahead = HeadTiming::kToSwap;

@@ -6,7 +6,7 @@
 
 namespace stadion {
 
-std::optional<TraceOptions> TraceRequest::settle(Diagnostics& findings) const {
+std::optional<TraceOptions> TraceRequest::options(Diagnostics& findings) const {
   if (file.empty()) {
     if (!frames.empty()) findings.error({}, "--trace-frames: no trace is asked for that could be cut");
     return {};

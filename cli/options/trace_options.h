@@ -14,7 +14,7 @@ struct TraceRequest {
   double megabytes = 100;
 
   /// Returns the options of the trace; nothing if no trace is requested. Adds errors to the findings.
-  std::optional<TraceOptions> settle(Diagnostics& findings) const;
+  std::optional<TraceOptions> options(Diagnostics& findings) const;
 };
 
 }  // namespace stadion

@@ -59,7 +59,7 @@ void tellGone(const std::vector<std::string>& gone, const RegressOptions& o) {
     findings.note({o.baseline, 0, 0},
                   o.update ? name + " is removed: the suite has no such case"
                            : "has a case " + name + ", which the suite has not; --update removes it");
-  tell(findings);
+  printFindings(findings);
 }
 
 /// What the results follow from: the suite, what it names, and what it is compared with. (Files that shows
@@ -118,7 +118,7 @@ int regress(RegressOptions o) {
   Diagnostics findings;
   RegressReference with;
   std::optional<regression::Suite> suite;
-  if (o.settle(findings)) {
+  if (o.complete(findings)) {
     suite = regression::loadSuite(o.suite, findings);
     refuseOverwriting(o, suite ? suite->cases : std::vector<regression::SuiteCase>(), findings);
   }
@@ -127,7 +127,7 @@ int regress(RegressOptions o) {
   if (ready && with.baseline) gone = regression::othersThan(*suite, *with.baseline);
   const bool chosen = ready && o.choose(*suite, findings);
   Output baseline(chosen && o.update, o.baseline, findings);
-  tell(findings);
+  printFindings(findings);
   if (!chosen || findings.hasErrors()) return kBadInput;
   if (!o.update) tellGone(gone, o);
 

@@ -21,7 +21,7 @@ namespace {
 constexpr const char *kProgress = "progress.jsonl", *kHistory = "history.jsonl";
 constexpr const char *kPage = "report.html", *kResults = "results.json", *kJunit = "junit.xml";
 
-void complain(const std::string& path, const std::string& why) {
+void printError(const std::string& path, const std::string& why) {
   std::fprintf(stderr, "%s: error: %s\n", path.c_str(), why.c_str());
 }
 
@@ -85,7 +85,7 @@ bool RegressFolder::openOutputs() {
   bool well = true;
   for (const char* name : {kPage, kResults, kJunit}) {
     const auto [at, isNew] = outputs_.try_emplace(name, pathOf(name));
-    if (const auto& wrong = at->second.error()) complain(wrong->where.file, wrong->message), well = false;
+    if (const auto& wrong = at->second.error()) printError(wrong->where.file, wrong->message), well = false;
   }
   return well && append(kHistory, "");
 }
@@ -106,7 +106,7 @@ bool RegressFolder::finish(const regression::SuiteResult& result) {
   for (const auto& [name, text] : all) {
     AtomicFile& file = outputs_.at(name);
     file.write(text);
-    if (const auto wrong = file.commit()) complain(wrong->where.file, wrong->message), well = false;
+    if (const auto wrong = file.commit()) printError(wrong->where.file, wrong->message), well = false;
   }
   return well && append(kHistory, regression::toJsonLine(history.back()));
 }
@@ -123,13 +123,13 @@ bool RegressFolder::append(const std::string& name, const std::string& text) {
   std::ofstream file(path, std::ios::binary | std::ios::app);
   file << (half ? "\n" : "") << text;
   file.close();
-  if (!file) complain(path, "cannot be written");
+  if (!file) printError(path, "cannot be written");
   return static_cast<bool>(file);
 }
 
 bool RegressFolder::write(const std::string& name, const std::string& text) {
   const auto wrong = writeFile(pathOf(name), text);
-  if (wrong) complain(wrong->where.file, wrong->message);
+  if (wrong) printError(wrong->where.file, wrong->message);
   return !wrong;
 }
 

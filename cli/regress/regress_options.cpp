@@ -81,7 +81,7 @@ void RegressOptions::addTo(CLI::App& command) {
   command.footer(kRegressFooter);
 }
 
-bool RegressOptions::settle(Diagnostics& findings) {
+bool RegressOptions::complete(Diagnostics& findings) {
   if (program.empty()) program = ownPath();
   checkProgram(program, "--stadion", findings);
   if (!against.empty()) checkProgram(against, "--against", findings);
@@ -91,7 +91,7 @@ bool RegressOptions::settle(Diagnostics& findings) {
                    "one of them out");
   if (resume && (out.empty() || update))
     findings.error({}, "--resume needs the --out DIR of the run that was interrupted, and no --update");
-  renderer.settle(findings);
+  renderer.settings(findings);
   baselineGiven = !baseline.empty();
   if (baseline.empty()) baseline = regression::baselineBeside(suite);
   return !findings.hasErrors();

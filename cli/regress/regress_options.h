@@ -32,7 +32,7 @@ struct RegressOptions {
   /// Expects that this object stays where it is until the command line has been read.
   void addTo(CLI::App& command);
   /// Completes what depends on other options. Says what is wrong.
-  bool settle(Diagnostics& findings);
+  bool complete(Diagnostics& findings);
   RegressSettings settings() const { return {program, std::chrono::seconds(limit), instructions, asked()}; }
   /// What --compare leaves of what a suite may compare.
   regression::Metrics asked() const;

@@ -104,9 +104,12 @@ int playShow(const RunOptions& o, Reporter& terminal, Diagnostics findings) {
 
 int runShow(RunOptions o) try {
   Diagnostics findings;
-  if (!o.settle(findings)) return tell(findings), kBadInput;
+  if (!o.complete(findings)) return exitWith(findings, kBadInput);
   TerminalReporter terminal;
-  if (o.supervise) return tell(findings), superviseShow(o, terminal);
+  if (o.supervise) {
+    printFindings(findings);
+    return superviseShow(o, terminal);
+  }
   return playShow(o, terminal, std::move(findings));
 } catch (const RunStopped&) {
   std::fprintf(stderr, "stadion: stopped by %s before the show was loaded\n", stopSignalName());

@@ -29,8 +29,9 @@ int viewShow(ViewOptions options) try {
   const std::atomic<bool>& stop = catchStopSignals();
   TerminalReporter terminal;
   std::unique_ptr<ViewSession> session;
-  if (options.settle(findings)) session = ViewSession::open(std::move(options.settings), terminal, findings);
-  tell(findings);
+  if (options.complete(findings))
+    session = ViewSession::open(std::move(options.settings), terminal, findings);
+  printFindings(findings);
   if (!session) return kBadInput;
   const SessionEnd end = session->run(stop);
   print(session->report());

@@ -36,20 +36,20 @@ void ViewOptions::addTo(CLI::App& command) {
              "the script has errors the old show goes on.\nExample:  ./stadion view scripts/kick.evs");
 }
 
-bool ViewOptions::settle(Diagnostics& findings) {
+bool ViewOptions::complete(Diagnostics& findings) {
   SessionSettings& session = settings.session = run.settings;
   settings.stereo = windowStereo(*stereoLayout(stereo));
   session.draw.layout = settings.stereo == WindowStereo::Mono ? StereoLayout::Off : StereoLayout::Pair;
   session.play.windows = true;
   session.play.drawBeginsEarly = run.cullDraw == "overlap";
   settings.oneWindow = windows == "one";
-  session.draw.renderer = renderer.settle(findings);
+  session.draw.renderer = renderer.settings(findings);
   std::tie(settings.width, settings.height) = *parseSize(window);
   if (session.show.input.empty())
     session.show.input = "none";  // the viewer is the visitor, not the log beside the script
   run.settings.show.input = session.show.input;
-  run.settleFiles(findings);
-  return session.show.settle(findings) && !findings.hasErrors();
+  run.completeFiles(findings);
+  return session.show.complete(findings) && !findings.hasErrors();
 }
 
 }  // namespace stadion

@@ -18,7 +18,7 @@ struct ViewOptions {
   /// Expects that this object stays where it is until the command line has been read.
   void addTo(CLI::App& command);
   /// Completes the settings. False, with the reason in the findings, if an option is wrong.
-  bool settle(Diagnostics& findings);
+  bool complete(Diagnostics& findings);
 };
 
 }  // namespace stadion

@@ -53,7 +53,7 @@ int showPattern(const WallFile& walls, const PatternOptions& options, const std:
   Diagnostics findings;
   const auto displays = WallDisplays::open(walls, windowSurface(false, options.windowStereo),
                                            options.windowStereo, options.width, options.height, findings);
-  tell(findings);
+  printFindings(findings);
   if (!displays) return kBadInput;
   std::vector<EyePictures> pictures(walls.walls.size());
   std::fprintf(stderr, "the test pattern stays until Escape or Ctrl-C\n");

@@ -41,7 +41,7 @@ struct WallsOptions {
                    "is for\nwalls whose pixels neither the file nor the output states.");
   }
 
-  bool settle(Diagnostics& findings) {
+  bool complete(Diagnostics& findings) {
     std::tie(shown.width, shown.height) = *parseSize(size);
     if (!out.empty() && !pattern) findings.error({}, "--out needs --pattern: the floor plan is printed");
     shown.out = out;
@@ -60,15 +60,15 @@ ThreadCount threadsHere(std::size_t walls, std::size_t processors, Diagnostics& 
 
 int lookAtWalls(WallsOptions o) {
   Diagnostics findings;
-  const bool settled = o.settle(findings);
+  const bool settled = o.complete(findings);
   const auto walls = settled ? loadWalls(o.file, shareFolder() + "/walls", findings) : std::nullopt;
-  tell(findings);
+  printFindings(findings);
   if (!walls) return kBadInput;
   if (o.pattern) return showPattern(*walls, o.shown, catchStopSignals());
   Diagnostics ofMachine;
   const std::size_t processors = std::max<std::size_t>(1, processorsOfThisThread().size());
   const ThreadCount threads = threadsHere(walls->walls.size(), processors, ofMachine);
-  tell(ofMachine);
+  printFindings(ofMachine);
   std::printf("%s\n%s", floorPlan(*walls).c_str(), textOf(threads, processors, o.file).c_str());
   return kOk;
 }

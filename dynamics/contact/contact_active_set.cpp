@@ -385,7 +385,7 @@ bool ContactActiveSet::mendArea(std::size_t k) {
   return false;
 }
 
-bool ContactActiveSet::settle(double& work) {
+bool ContactActiveSet::solve(double& work) {
   // Points that contradict each other have no solution, and what came of it would explode.
   const std::vector<SolverBody> solverBodies = m_;
   const std::vector<SolverContact> contacts = c_;

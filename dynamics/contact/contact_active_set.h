@@ -12,8 +12,8 @@ public:
                    const std::vector<ContactRow>& rows);
 
   /// Reads the choice off the present impulses, solves for it and mends it until every point agrees. False if
-  /// it does not settle within so many multiplications; everything is then as it was.
-  bool settle(double& work);
+  /// it does not converge within so many multiplications; everything is then as it was.
+  bool solve(double& work);
 
 private:
   bool attempt(double& work);

@@ -146,7 +146,7 @@ bool solveContacts(std::vector<SolverBody>& solverBodies, std::vector<SolverCont
   double work = atRest ? kWorkAtRest : kWork * std::max(1.0, static_cast<double>(contacts.size()) / kUsual);
   for (int round = 0; round < (atRest ? kRoundsAtRest : kRounds) && work > 0; ++round) {
     if (sweeps.conjugate(round == 0 ? 3 : 16, kExactly)) return true;
-    if (choice.settle(work)) return true;
+    if (choice.solve(work)) return true;
   }
   double each = 0;  // sweep, in points
   for (const SolverContact& c : contacts) each += c.area ? kArea : 1;

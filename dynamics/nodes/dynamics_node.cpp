@@ -357,7 +357,7 @@ void DynamicsNode::tellTrouble(const BodyState& before, DynObjectNode& node, Fra
   frame.scene.warn(
       node, fmt::format("is out of the simulation from {:.3f} s on: {}; it stands still until its reset",
                         toSeconds(now.clock), world_.quarantineReason(node.bodyId())));
-  node.tell("onquarantine", now.clock, frame);
+  node.raiseNow("onquarantine", now.clock, frame);
 }
 
 void DynamicsNode::tellCounts(FrameProbe& probe) const {

@@ -11,9 +11,9 @@ constexpr double kTouchesAtLoad = 1e-5;  ///< nearer than this when they appear,
 
 }  // namespace
 
-void Arrivals::settle() {
+void Arrivals::placeAll() {
   const std::vector<ContactSide> arrived = arrivals();
-  settleFresh(arrived);
+  placeFresh(arrived);
   if (active_.size() < objects_.bodies().size())  // some body sleeps
     for (const ContactSide p : arrived) wakeWithin(p);
 }
@@ -45,12 +45,12 @@ void Arrivals::wakeWithin(ContactSide arrived) {
 }
 
 /// Pairs that touch when one of them appears are in contact and fire nothing.
-void Arrivals::settleFresh(const std::vector<ContactSide>& arrived) {
-  struct Settler {
+void Arrivals::placeFresh(const std::vector<ContactSide>& arrived) {
+  struct Arrival {
     RigidBody* body;
     std::vector<std::pair<Side, Gap>> touching;
   };
-  std::vector<Settler> settlers;
+  std::vector<Arrival> placed;
   const auto look = [&](const Side& self, const Side& other, std::vector<std::pair<Side, Gap>>* touching) {
     if (!objects_.mayTouch(self, other)) return;
     const Gap g = gapBetween(self, other, time_.from(), {0.01});
@@ -68,27 +68,27 @@ void Arrivals::settleFresh(const std::vector<ContactSide>& arrived) {
       continue;
     }
     RigidBody& b = *objects_.body(p.id);
-    settlers.push_back({&b, {}});
-    auto& touching = settlers.back().touching;
+    placed.push_back({&b, {}});
+    auto& touching = placed.back().touching;
     boxes_.eachCollider(b.swept, [&](Collider& c) { look(Side::of(b), Side::of(c), &touching); });
     boxes_.eachBody(b.swept, [&](RigidBody& o) {
       if (&o != &b) look(Side::of(b), Side::of(o), &touching);
     });
   }
-  for (const Settler& s : settlers) s.body->fresh = false;
-  for (const Settler& s : settlers) {
+  for (const Arrival& s : placed) s.body->fresh = false;
+  for (const Arrival& s : placed) {
     recoveries_.find(*s.body);
     for (const PenetrationRecovery& w : s.body->grip.recoveries)
       memory_.setTouching(ContactMemory::keyOf({false, w.of}, {true, s.body->id}), true);
     if (!s.body->grip.recoveries.empty())
       waking_.enterContact(*s.body, time_.from());
     else if (!s.touching.empty())
-      settle(*s.body, s.touching);
+      place(*s.body, s.touching);
   }
 }
 
 /// A body that appeared touching these: what it does next.
-void Arrivals::settle(RigidBody& b, const std::vector<std::pair<Side, Gap>>& touching) {
+void Arrivals::place(RigidBody& b, const std::vector<std::pair<Side, Gap>>& touching) {
   if (b.mode != BodyMode::Flight) return;
   const double tau = time_.from();
   const Kinematics k = b.at(tau);

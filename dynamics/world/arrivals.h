@@ -17,13 +17,13 @@ public:
       : time_(time), objects_(objects), fields_(fields), memory_(memory), active_(active), changes_(changes),
         boxes_(boxes), arcs_(arcs), waking_(waking), recoveries_(waysOut) {}
 
-  /// Settles all that has arrived since the last frame, and wakes the bodies that it was put into.
-  void settle();
+  /// Places all that has arrived since the last frame, and wakes the bodies that it was put into.
+  void placeAll();
 
 private:
   std::vector<ContactSide> arrivals() const;
-  void settleFresh(const std::vector<ContactSide>& arrived);
-  void settle(RigidBody& b, const std::vector<std::pair<Side, Gap>>& touching);
+  void placeFresh(const std::vector<ContactSide>& arrived);
+  void place(RigidBody& b, const std::vector<std::pair<Side, Gap>>& touching);
   void wakeWithin(ContactSide arrived);
 
   const WorldTime& time_;

@@ -103,7 +103,7 @@ void World::Core::beginFrame() {
   commands_.followFields();
   restartStirred(time_.from());
   boxes_.sweep(changes_);  // boxes before predictions, so that these see all bodies
-  arrivals_.settle();
+  arrivals_.placeAll();
   for (const RigidBody* b : held_.list())
     if (b->grip.held.moving) waking_.wakeOnto({true, b->id}, time_.from());
   for (const ColliderId id : changes_.colliders())

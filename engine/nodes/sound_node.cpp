@@ -38,7 +38,7 @@ void SoundNode::startAt(Nanoseconds when, Scene& scene) {
 
 void SoundNode::publish(Scene& scene) {
   heard_ = switch_.on();
-  tell(scene);
+  setSource(scene);
 }
 
 bool SoundNode::resume(Scene& scene) {
@@ -47,11 +47,11 @@ bool SoundNode::resume(Scene& scene) {
   const bool repeats = switch_.on() && attributes_.loop;
   if (since_ < 0 || due_ < 0) return false;
   if (repeats && (scene.now() - due_) / attributes_.length > kMostPasses) return false;
-  tell(scene);
+  setSource(scene);
   return true;
 }
 
-void SoundNode::tell(Scene& scene) const {
+void SoundNode::setSource(Scene& scene) const {
   scene.sounds().set(handle_, heard_,
                      {self(), attributes_.file, Vec3::Zero(), attributes_.gain, attributes_.range,
                       attributes_.loop, since_});

@@ -47,7 +47,7 @@ private:
   /// Lets the passes that end up to `time` count.
   void endPasses(Nanoseconds time);
   void publish(Scene& scene);
-  void tell(Scene& scene) const;
+  void setSource(Scene& scene) const;
 
   Attributes attributes_;
   SwitchState switch_;

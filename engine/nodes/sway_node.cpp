@@ -28,9 +28,9 @@ Mat3 uprightAxes(double along, double across, double up) {
 }  // namespace
 
 // Targets stand in its own file or in one around it: they stay as long as it does.
-void SwayNode::settleTargets(Scene& scene) {
-  if (settled_) return;
-  settled_ = true;
+void SwayNode::prepareTargets(Scene& scene) {
+  if (prepared_) return;
+  prepared_ = true;
   findTargets(scene);
   fleet_ = scene.placements().addFleet(*this, placements_);
 }
@@ -38,7 +38,7 @@ void SwayNode::settleTargets(Scene& scene) {
 bool SwayNode::resume(Scene& scene) {
   const Nanoseconds now = scene.now();
   if (since_ < 0 || since_ > now || elapsed_ < 0 || elapsed_ > now) return false;
-  if (!settled_) return true;
+  if (!prepared_) return true;
   findTargets(scene);
   return scene.placements().resumeFleet(fleet_, *this, placements_.size());
 }
@@ -48,15 +48,15 @@ void SwayNode::findTargets(Scene& scene) {
   const std::size_t count = sway_.targets.size();
   nodes_.resize(count), placements_.resize(count, kNoPlacement), swings_.resize(count);
   axes_.resize(count, Mat3::Identity());
-  for (std::size_t k = 0; k < count; ++k) settleTarget(k, scene);
+  for (std::size_t k = 0; k < count; ++k) prepareTarget(k, scene);
   const auto standsUpright = [&](const Swing& s) {
     return axes_[static_cast<std::size_t>(&s - swings_.data())] == uprightAxes(s.along, s.across, s.up);
   };
   if (sway_.angularVelocity.head<2>().isZero(0) && std::ranges::all_of(swings_, standsUpright)) axes_ = {};
-  settlePhases();
+  preparePhases();
 }
 
-void SwayNode::settleTarget(std::size_t k, Scene& scene) {
+void SwayNode::prepareTarget(std::size_t k, Scene& scene) {
   Node* node = scene.find(sway_.targets[k]);
   PlacedNode* placed = node ? node->placed() : nullptr;
   nodes_[k] = placed;
@@ -72,7 +72,7 @@ void SwayNode::settleTarget(std::size_t k, Scene& scene) {
   swings_[k].widens = sphereScale(X_PN);
 }
 
-void SwayNode::settlePhases() {
+void SwayNode::preparePhases() {
   const auto anglesAt = [](const Vec3& angle) {
     Angles a;
     for (int i = 0; i < 3; ++i) {
@@ -137,7 +137,7 @@ inline void SwayNode::put(std::size_t k, const Mat3& turn, const Angles& block, 
 }
 
 void SwayNode::putTargets(Scene& scene) {
-  settleTargets(scene);
+  prepareTargets(scene);
   moment_ = momentAt(elapsed_);
   scene.placements().moveFleet(fleet_);
   putAt_ = since_;
@@ -152,7 +152,7 @@ void SwayNode::leaveTargets(Scene& scene) {
 
 /// Reports the targets' motion from since_ on to the nodes that watch them.
 void SwayNode::trace(Nanoseconds to, FrameContext& frame) {
-  settleTargets(frame.scene);
+  prepareTargets(frame.scene);
   if (to <= since_) return;
   // In its first frame it reports always: watchers may not have registered yet.
   const Placements& placements = frame.scene.placements();
@@ -185,7 +185,7 @@ void SwayNode::traceOne(std::size_t k, Nanoseconds to, FrameContext& frame) cons
 
 /// They are put where t = 0 has them.
 void SwayNode::jump(Nanoseconds when, FrameContext& frame) {
-  settleTargets(frame.scene);
+  prepareTargets(frame.scene);
   const Placements& placements = frame.scene.placements();
   const auto pose = [&](std::size_t k) { return poseOf(placements.world(placements_[k])); };
   std::vector<std::pair<std::size_t, PoseTrack*>> watched;
@@ -248,7 +248,7 @@ template <class Self, class Fields>
 void SwayNode::fields(Self& self, Fields& f) {
   PlacedNode::fields(self, f);
   f("switch", self.switch_), f("elapsed", self.elapsed_), f("since", self.since_);
-  f.kept("put", self.putAt_), f.kept("settled", self.settled_), f.kept("fleet", self.fleet_);
+  f.kept("put", self.putAt_), f.kept("settled", self.prepared_), f.kept("fleet", self.fleet_);
   f.kept("sin", self.moment_.first.sin), f.kept("cos", self.moment_.first.cos);
   f.kept("turn", self.moment_.turn);
 }

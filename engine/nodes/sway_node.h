@@ -77,10 +77,10 @@ private:
   };
 
   void putMembers(std::size_t first, std::span<MemberPlace> places) const override;
-  void settleTargets(Scene& scene);
+  void prepareTargets(Scene& scene);
   void findTargets(Scene& scene);
-  void settleTarget(std::size_t k, Scene& scene);
-  void settlePhases();
+  void prepareTarget(std::size_t k, Scene& scene);
+  void preparePhases();
   Moment momentAt(Nanoseconds elapsed) const;
   void putAll(const Moment& m, std::size_t first, std::span<MemberPlace> places) const;
   void put(std::size_t k, const Mat3& turn, const Angles& block, MemberPlace& place) const;
@@ -101,7 +101,7 @@ private:
   Moment moment_{};  ///< shared values at `putAt_`
 
   // By target; found in its first cycle, when all of them are there.
-  bool settled_ = false;
+  bool prepared_ = false;
   FleetId fleet_ = kNoFleet;
   std::vector<PlacedNode*> nodes_;  ///< null: has no place
   std::vector<PlacementId> placements_;

@@ -91,7 +91,7 @@ std::uint32_t TriggerNode::heldBefore(const TrackerSample& t, Nanoseconds time,
   return held;
 }
 
-void TriggerNode::look(FrameContext& frame, Nanoseconds until) {
+void TriggerNode::followVisitor(FrameContext& frame, Nanoseconds until) {
   const PoseTrack& way = wayInRig(frame);
   const TrackerSample* t = kind() == "wandtrigger" ? frame.input.find(tracker_) : nullptr;
   if (way.empty()) {
@@ -164,14 +164,14 @@ void TriggerNode::receive(const Message& m, FrameContext& frame) {
   PlacedNode::receive(m, frame);
   const Nanoseconds at = frame.effective(m);
   const bool before = switch_.on();
-  if (before) look(frame, at);  // what has happened up to the command still counts
+  if (before) followVisitor(frame, at);  // what has happened up to the command still counts
   if (switch_.apply(m) && (!before || m.command == CommandId::Reset)) inside_ = looked_ = false, seen_ = at;
   if (!switch_.on() || !looked_) pressed_ = 0;
 }
 
 void TriggerNode::simulate(FrameContext& frame) {
   PlacedNode::simulate(frame);
-  if (switch_.on()) look(frame, frame.now.time);
+  if (switch_.on()) followVisitor(frame, frame.now.time);
 }
 
 void TriggerNode::watchButtons(const TrackerSample& t, Nanoseconds time, bool atEnd) {
@@ -181,14 +181,14 @@ void TriggerNode::watchButtons(const TrackerSample& t, Nanoseconds time, bool at
     for (const ControlKnot& c : t.controls)
       if (c.time <= time) now = c.buttons;
   }
-  tellReleases(now, time);
+  raiseReleases(now, time);
   constexpr Event press[] = {Event("button1"), Event("button2"), Event("button3"), Event("button4")};
   for (std::uint32_t b = 0; b < 4; ++b)
     if (inside_ && (now & ~buttons_ & (1U << b))) raise(press[b], time), pressed_ |= 1U << b;
   buttons_ = now;
 }
 
-void TriggerNode::tellReleases(std::uint32_t down, Nanoseconds time) {
+void TriggerNode::raiseReleases(std::uint32_t down, Nanoseconds time) {
   constexpr Event release[] = {Event("button1up"), Event("button2up"), Event("button3up"),
                                Event("button4up")};
   for (std::uint32_t b = 0; b < 4; ++b)
@@ -198,8 +198,8 @@ void TriggerNode::tellReleases(std::uint32_t down, Nanoseconds time) {
 
 void TriggerNode::watchLost(const TrackerSample& t, const FrameContext& frame, Nanoseconds until) {
   for (const ControlKnot& c : t.controls)
-    if (c.time > seen_ && c.time <= until) tellReleases(c.buttons, c.time);
-  if (until == frame.now.time) tellReleases(t.buttons, until);
+    if (c.time > seen_ && c.time <= until) raiseReleases(c.buttons, c.time);
+  if (until == frame.now.time) raiseReleases(t.buttons, until);
 }
 
 template <class Self, class Fields>

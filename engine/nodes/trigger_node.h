@@ -64,14 +64,14 @@ private:
   /// a visitor.
   const PoseTrack& wayInRig(const FrameContext& frame);
   /// Follows the visitor up to `until`, which lies in this frame.
-  void look(FrameContext& frame, Nanoseconds until);
+  void followVisitor(FrameContext& frame, Nanoseconds until);
   void goTo(const Vec3& p, bool jumped, Nanoseconds time);
   /// The buttons that were down when it began to look.
   std::uint32_t heldBefore(const TrackerSample& t, Nanoseconds time, const FrameContext& frame) const;
   void watchButtons(const TrackerSample& t, Nanoseconds time, bool atEnd);
   /// A device that is lost goes nowhere and presses nothing, but what it held down is let go.
   void watchLost(const TrackerSample& t, const FrameContext& frame, Nanoseconds until);
-  void tellReleases(std::uint32_t down, Nanoseconds time);
+  void raiseReleases(std::uint32_t down, Nanoseconds time);
 
   Region region_;
   std::string tracker_;  ///< "head" for a usertrigger
@@ -85,7 +85,7 @@ private:
   std::uint32_t buttons_ = 0;
   std::uint32_t pressed_ = 0;       ///< buttons of `buttons_` whose press was reported
   PoseTrack way_;                   ///< wayInRig()'s answer
-  std::vector<Nanoseconds> stops_;  ///< look()'s own
+  std::vector<Nanoseconds> stops_;  ///< followVisitor()'s own
 };
 
 }  // namespace stadion

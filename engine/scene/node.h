@@ -103,7 +103,7 @@ public:
   /// Reports the results to the scene and dispatches notifications.
   void conclude(FrameContext& frame, FrameProbe* probe);
   /// Raises and dispatches an event of this node that another node has detected.
-  void tell(Event event, Nanoseconds when, FrameContext& frame) {
+  void raiseNow(Event event, Nanoseconds when, FrameContext& frame) {
     raise(event, when);
     dispatch(frame);
   }

@@ -4,7 +4,7 @@
 /// The hash is a sum with one term a node. A changed term replaces the old one. Each term contains the node's
 /// load number and position, so exchanged states do not cancel out.
 ///
-/// Ownership  borrows the nodes that are touched, until settle() or forget().
+/// Ownership  borrows the nodes that are touched, until rehash() or forget().
 /// Threads    App only.
 /// Errors     none.
 
@@ -20,7 +20,7 @@ namespace stadion {
 
 class NodeHashes {
 public:
-  /// Marks a node whose state changed outside its own cycle; settle() hashes it again.
+  /// Marks a node whose state changed outside its own cycle; rehash() hashes it again.
   void touch(Node& node) {
     if (std::exchange(node.scheduleState().touched, true)) return;
     touched_.push_back(&node);
@@ -38,7 +38,7 @@ public:
     std::erase_if(touched_, [&](const Node* node) { return node->self().load == load; });
   }
   /// Hashes all marked nodes again.
-  void settle(FrameProbe* probe) {
+  void rehash(FrameProbe* probe) {
     for (Node* node : touched_) {
       if (!node->scheduleState().touched) continue;  // its own cycle came after the touch
       const SpanScope span(probe, Span::Settle, node->self());

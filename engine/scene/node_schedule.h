@@ -70,9 +70,9 @@ public:
 
   /// Notes whether the node is busy.
   void update(Node& node) { queue_.setBusy(node, node.busy()); }
-  /// The node leaves; settle() before it is destroyed.
+  /// The node leaves; updateBusy() before it is destroyed.
   void remove(Node& node) { queue_.setBusy(node, false); }
-  void settle() { queue_.settle(); }
+  void updateBusy() { queue_.updateBusy(); }
   /// Drops the alarms of a load's nodes.
   void forget(std::uint32_t load) {
     std::erase_if(alarms_, [&](const Alarm& a) { return a.node.load == load; });

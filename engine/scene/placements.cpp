@@ -106,7 +106,7 @@ void Placements::rejoin(PlacementId id, const Affine& X_WP) {
 }
 
 Affine Placements::local(PlacementId id) const {
-  settle(id);
+  updateLocal(id);
   const Entry& e = entries_[id];
   if (e.held == Held::Nothing) return X_PN_[id];
   return e.parent == kWorldPlacement ? world(id) : Affine(world(e.parent).inverse() * world(id));
@@ -144,7 +144,7 @@ const Affine& Placements::world(PlacementId id) const {
     if (e.held == Held::All) return &X_WH_[at];
     return standsInWorld(e) ? &X_PN_[at] : nullptr;
   };
-  if (const Affine* X_WN = given(id)) return settle(id), *X_WN;
+  if (const Affine* X_WN = given(id)) return updateLocal(id), *X_WN;
   if (!entries_[id].stale) return X_WN_[id];
   chain_.clear();
   for (PlacementId at = id; entries_[at].stale && !given(at); at = entries_[at].parent) chain_.push_back(at);
@@ -213,7 +213,7 @@ void Placements::removeFleet(FleetId id) {
 }
 
 /// Writes its local matrix, if its fleet has moved since.
-void Placements::settle(PlacementId id) const {
+void Placements::updateLocal(PlacementId id) const {
   Entry& e = entries_[id];
   if (e.fleet == kNoFleet) return;
   const Fleet& fleet = fleets_[e.fleet];
@@ -236,7 +236,7 @@ std::optional<MemberPlace> Placements::inFleet(PlacementId id) const {
 /// The placement stays where it is. It is marked even if the fleet stands still. From now on its published
 /// records follow from its matrix alone, as for a restored placement.
 void Placements::leaveFleet(PlacementId id) {
-  settle(id);
+  updateLocal(id);
   Entry& e = entries_[id];
   Fleet& fleet = fleets_[std::exchange(e.fleet, kNoFleet)];
   fleet.members[e.member] = kNoPlacement;

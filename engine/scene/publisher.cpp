@@ -37,12 +37,12 @@ void Publisher::publish(const TimeSignature& now, const InputSample& input, Chan
   instances_.publishMarked(degradation_, changes);
   if (lights_.due()) lights_.publish(feed_.rigPose() * feed_.headInRig(input).p, changes);
   changes.sky = lights_.skyRecord();
-  look(input, changes);
+  updateViewer(input, changes);
   changes.viewer.poseTime = input.time;
   changes.viewer.stress = degradation_.stress();
 }
 
-void Publisher::look(const InputSample& input, ChangeSet& changes) const {
+void Publisher::updateViewer(const InputSample& input, ChangeSet& changes) const {
   changes.viewer.set(feed_.rigPose(), feed_.headInRig(input));
   ShadowPlaces rings = shadows_;
   changes.shadows = rings.follow(changes.viewer.headInWorld());

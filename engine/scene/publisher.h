@@ -35,7 +35,7 @@ public:
   /// Fills `changes` with all changes since the last call.
   void publish(const TimeSignature& now, const InputSample& input, ChangeSet& changes);
   /// Sets the viewer and the shadow rings alone.
-  void look(const InputSample& input, ChangeSet& changes) const;
+  void updateViewer(const InputSample& input, ChangeSet& changes) const;
   /// Moves the shadow rings that the head at p_WH left behind.
   void follow(const Vec3& p_WH) { shadows_.follow(p_WH); }
 

@@ -54,7 +54,7 @@ void Scene::advance(const TimeSignature& now, const InputSample& input, ChangeSe
     const SpanScope span(probe, Span::Input);
     feed_.endFrame(input);
   }
-  hashes_.settle(probe);
+  hashes_.rehash(probe);
   const SpanScope span(probe, Span::Publish);
   if (events_.size() > 1) std::ranges::stable_sort(events_, {}, &EventRecord::when);  // it takes memory
   publish(now, input, changes);
@@ -70,10 +70,10 @@ void Scene::publishAsItStands(const TimeSignature& now, ChangeSet& changes) {
   publish(now, feed_.lastInput(), changes);
 }
 
-void Scene::listen(const InputSample& input, SoundScape& out) const {
+void Scene::collectSounds(const InputSample& input, SoundScape& out) const {
   out.time = time_.now;
   out.X_WH = feed_.rigPose() * feed_.headInRig(input);
-  sounds_.listen(out.sounds);
+  sounds_.collect(out.sounds);
 }
 
 // Visiting.
@@ -327,7 +327,7 @@ void Scene::remove(std::uint32_t number, std::uint64_t frame) {
   for (auto n = inner.rbegin(); n != inner.rend(); ++n) remove(*n, frame);
   requests_.drop(number);
   for (auto p = load->enterOrder.rbegin(); p != load->enterOrder.rend(); ++p) leaveNode(*load->nodes[*p]);
-  schedule_.settle();
+  schedule_.updateBusy();
   hashes_.forget(number);
   publisher_.hideChunk(*load);
   std::unique_ptr<LoadedScene> gone = tree_.remove(number);

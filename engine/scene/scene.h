@@ -75,9 +75,11 @@ public:
   void publishAsItStands(const TimeSignature& now, ChangeSet& changes);
   /// Sets only the viewer and the shadow rings: the visitor looks around while the show is paused. The state
   /// does not change.
-  void look(const InputSample& input, ChangeSet& changes) const { publisher_.look(input, changes); }
+  void updateViewer(const InputSample& input, ChangeSet& changes) const {
+    publisher_.updateViewer(input, changes);
+  }
   /// Fills `out` with what is heard at the end of the last frame.
-  void listen(const InputSample& input, SoundScape& out) const;
+  void collectSounds(const InputSample& input, SoundScape& out) const;
   /// Posts a command from outside the show; it is delivered in the next frame. False if the target is
   /// unknown.
   bool command(const std::string& target, CommandId command, std::vector<std::string> arguments,

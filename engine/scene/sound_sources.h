@@ -37,7 +37,7 @@ public:
   }
 
   /// Fills `out` with the sounds that play, at their places in World.
-  void listen(std::vector<SoundRecord>& out) const {
+  void collect(std::vector<SoundRecord>& out) const {
     out.clear();
     for (const Source& s : sources_) {
       if (!s.on) continue;

@@ -26,7 +26,7 @@ void VisitQueue::setBusy(Node& node, bool busy) {
     left_ = true;
 }
 
-void VisitQueue::settle() {
+void VisitQueue::updateBusy() {
   if (!joining_.empty()) {
     busy_.insert(busy_.end(), joining_.begin(), joining_.end());
     joining_.clear();
@@ -37,13 +37,13 @@ void VisitQueue::settle() {
 }
 
 void VisitQueue::reorder() {
-  settle();
+  updateBusy();
   for (Entry& e : busy_) e.visit = Visit::of(*e.node);
   sortOut(busy_);
 }
 
 void VisitQueue::begin() {
-  settle();
+  updateBusy();
   round_ = busy_;
   at_ = 0;
   later_.clear();

@@ -5,7 +5,7 @@
 /// A round begins with the busy nodes. Other nodes are called to it, also while it runs. A node that waits is
 /// visited once, however often it was called. Memory is used again from frame to frame.
 ///
-/// Ownership  borrows the nodes; settle() forgets those that are no longer busy.
+/// Ownership  borrows the nodes; updateBusy() forgets those that are no longer busy.
 /// Threads    App only.
 /// Errors     none.
 
@@ -38,7 +38,7 @@ public:
   /// Sets whether the node is visited in every round from now on.
   void setBusy(Node& node, bool busy);
   /// Forgets nodes that are no longer busy. Call it before nodes are destroyed.
-  void settle();
+  void updateBusy();
   /// Sorts the busy nodes again after levels changed. Call it between rounds.
   void reorder();
 

@@ -44,7 +44,7 @@ int main(int argc, char** argv) {
   options.input = "none";
   options.frames = kFrames;
   Diagnostics findings;
-  const bool usable = options.settle(findings);
+  const bool usable = options.complete(findings);
   const std::unique_ptr<Player> player = usable ? Player::create(options, findings) : nullptr;
   for (const Diagnostic& d : findings.all()) std::fprintf(stderr, "%s\n", format(d).c_str());
   if (!player) return fail("the show cannot be played");

@@ -83,7 +83,7 @@ void Bus::take(dds_entity_t reader, void* of) {
         const std::lock_guard lock(bus.speakersMutex_);
         bus.speakers_[infos[i].publication_handle] = {sample.node, sample.incarnation};
       }
-      bus.listener_->hear(sample);
+      bus.listener_->receive(sample);
     }
     dds_return_loan(reader, samples.data(), count);
   }
@@ -167,29 +167,29 @@ void Bus::close() {
   if (domain_ > 0) dds_delete(std::exchange(domain_, 0));
 }
 
-void Bus::tell(const Session& session) {
+void Bus::send(const Session& session) {
   write(writers_[kSession], &session);
 }
-void Bus::tell(const Presence& presence) {
+void Bus::send(const Presence& presence) {
   write(writers_[kPresence], &presence);
 }
-void Bus::tell(const Order& order) {
+void Bus::send(const Order& order) {
   write(writers_[kOrder], &order);
 }
-void Bus::tell(const Drawn& drawn) {
+void Bus::send(const Drawn& drawn) {
   write(writers_[kDrawn], &drawn);
 }
-void Bus::tell(const Go& go) {
+void Bus::send(const Go& go) {
   write(writers_[kGo], &go);
 }
-void Bus::tell(const SceneHash& hash) {
+void Bus::send(const SceneHash& hash) {
   write(writers_[kSceneHash], &hash);
 }
-void Bus::tell(const Difference& difference) {
+void Bus::send(const Difference& difference) {
   write(writers_[kDifference], &difference);
 }
 // A reader that acknowledges a large state slowly delays its parts, each by a second.
-bool Bus::tell(const StatePart& part) {
+bool Bus::send(const StatePart& part) {
   constexpr int kMostTries = 10;
   for (int tries = 0; tries < kMostTries; ++tries) {
     const dds_return_t told = dds_write(writers_[kStatePart], &part);

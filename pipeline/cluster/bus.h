@@ -5,8 +5,8 @@
 /// that connect later. A host does not receive its own samples.
 ///
 /// Ownership  owns the participant; the listener must outlive it.
-/// Threads    tell() from any. The network's own threads call the listener, several at a time for several
-///            topics. The listener may call tell(), and should return soon.
+/// Threads    send() from any. The network's own threads call the listener, several at a time for several
+///            topics. The listener may call send(), and should return soon.
 /// Errors     open() says why there is no network. A sample that cannot be delivered for a second is dropped,
 ///            since its reader has stopped. The caller watches which hosts are present.
 
@@ -47,14 +47,14 @@ constexpr std::uint8_t kNoNode = 255;
 class BusListener {
 public:
   virtual ~BusListener() = default;
-  virtual void hear(const Session&) {}
-  virtual void hear(const Presence&) {}
-  virtual void hear(const Order&) {}
-  virtual void hear(const Drawn&) {}
-  virtual void hear(const Go&) {}
-  virtual void hear(const SceneHash&) {}
-  virtual void hear(const Difference&) {}
-  virtual void hear(const StatePart&) {}
+  virtual void receive(const Session&) {}
+  virtual void receive(const Presence&) {}
+  virtual void receive(const Order&) {}
+  virtual void receive(const Drawn&) {}
+  virtual void receive(const Go&) {}
+  virtual void receive(const SceneHash&) {}
+  virtual void receive(const Difference&) {}
+  virtual void receive(const StatePart&) {}
   /// The node's incarnation was silent for the deadline, or it said good-bye.
   virtual void left(std::uint8_t node, std::uint64_t incarnation) { (void)node, (void)incarnation; }
 };
@@ -69,15 +69,15 @@ public:
   Bus(const Bus&) = delete;
   Bus& operator=(const Bus&) = delete;
 
-  void tell(const Session& session);
-  void tell(const Presence& presence);
-  void tell(const Order& order);
-  void tell(const Drawn& drawn);
-  void tell(const Go& go);
-  void tell(const SceneHash& hash);
-  void tell(const Difference& difference);
+  void send(const Session& session);
+  void send(const Presence& presence);
+  void send(const Order& order);
+  void send(const Drawn& drawn);
+  void send(const Go& go);
+  void send(const SceneHash& hash);
+  void send(const Difference& difference);
   /// May take long. Returns false if the part cannot be delivered.
-  bool tell(const StatePart& part);
+  bool send(const StatePart& part);
   /// Waits until every reader has received everything; a second at most.
   void flush();
   /// Waits until each connected host reads all our topics; a second at most. A new host is discovered topic

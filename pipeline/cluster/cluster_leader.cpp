@@ -122,7 +122,7 @@ std::optional<ShowUnderWay> ClusterLeader::takeOver() {
     untried &= ~bit(*node);
     const Follower& f = followers_[*node];
     session_.resumes = f.plays, session_.giver = static_cast<std::uint8_t>(*node);
-    bus_->tell(session_);
+    bus_->send(session_);
     wait(Clock::now() + kGiving, [&] { return incoming_.complete() || f.plays == 0; });
     if (!incoming_.complete()) continue;
     SceneTransfer transfer = incoming_.take();
@@ -176,7 +176,7 @@ bool ClusterLeader::begin(double rate, const OperatorDecision& operators) {
   std::unique_lock lock(mutex_);
   if (double_) return true;
   session_.rate = rate;
-  bus_->tell(session_);
+  bus_->send(session_);
   const auto start = Clock::now();
   const std::chrono::seconds patience = session_.resumes != 0 ? kReturn : options_.patience;
   for (bool told = false; !missing().empty() && Clock::now() < start + patience && waits();) {
@@ -198,7 +198,7 @@ bool ClusterLeader::begin(double rate, const OperatorDecision& operators) {
     options_.tell(fmt::format("the show {} without {}", session_.resumes != 0 ? "goes on" : "begins",
                               fmt::join(names, ", ")));
   session_.begun = true;
-  bus_->tell(session_);
+  bus_->send(session_);
   return true;
 }
 
@@ -220,7 +220,7 @@ void ClusterLeader::send(const InputSample* input) {
   for (std::size_t i = 0; i < followers_.size(); ++i)
     if (followers_[i].member) members |= bit(i);
   epochs_.push_back({++serial_, pending_.signature.frame, members, {}});
-  bus_->tell(
+  bus_->send(
       written_.write({session_.number, serial_, members, std::exchange(explain_, 0)}, pending_, input));
   const std::uint64_t bytes = written_.bytes();
   ++stats_.orders, stats_.orderBytes += bytes;
@@ -307,17 +307,17 @@ void ClusterLeader::release() {
     released = true;
   }
   if (!released) return;
-  bus_->tell(Go{session_.number, go_, latest_});
+  bus_->send(Go{session_.number, go_, latest_});
   changed_.notify_all();
 }
 
-void ClusterLeader::hear(const Session& other) {
+void ClusterLeader::receive(const Session& other) {
   {
     const std::lock_guard lock(mutex_);
     if (other.over || other.number == session_.number || double_) return;
     if (!supersedes(other, session_)) {
       // Our followers may have heard the other leader last. If our show is over, they are the other's.
-      if (session_.rate > 0 && !session_.over) bus_->tell(session_);
+      if (session_.rate > 0 && !session_.over) bus_->send(session_);
       return;
     }
     double_ = true;
@@ -334,7 +334,7 @@ bool ClusterLeader::hasDouble() const {
   return double_;
 }
 
-void ClusterLeader::hear(const Presence& p) {
+void ClusterLeader::receive(const Presence& p) {
   std::unique_lock lock(mutex_);
   if (p.node >= followers_.size() || p.node == options_.cluster.lead) return;
   if (p.cluster != options_.key.cluster) return;  // another check tells it that its cluster file differs
@@ -366,12 +366,12 @@ void ClusterLeader::hear(const Presence& p) {
   changed_.notify_all();
 }
 
-void ClusterLeader::hear(const Drawn& d) {
+void ClusterLeader::receive(const Drawn& d) {
   const std::lock_guard lock(mutex_);
   if (d.session != session_.number || d.node >= followers_.size()) return;
   const auto at = std::ranges::find(epochs_, d.serial, &OrderEpoch::serial);
   if (at == epochs_.end()) {
-    if (d.serial <= go_) bus_->tell(Go{session_.number, go_, latest_});  // it has not received permission yet
+    if (d.serial <= go_) bus_->send(Go{session_.number, go_, latest_});  // it has not received permission yet
     return;
   }
   at->awaited &= ~bit(d.node);
@@ -379,7 +379,7 @@ void ClusterLeader::hear(const Drawn& d) {
   release();
 }
 
-void ClusterLeader::hear(const StatePart& part) {
+void ClusterLeader::receive(const StatePart& part) {
   {
     const std::lock_guard lock(mutex_);
     if (part.to == session_.number) incoming_.add(part);
@@ -422,7 +422,7 @@ void ClusterLeader::simulated(std::uint64_t frame, std::uint64_t digest) {
   std::erase_if(early_, [&](const SceneHash& h) { return h.frame <= frame; });
 }
 
-void ClusterLeader::hear(const SceneHash& h) {
+void ClusterLeader::receive(const SceneHash& h) {
   const std::lock_guard lock(mutex_);
   if (h.session != session_.number || h.node >= followers_.size()) return;
   const auto ours = std::ranges::find(hashes_, h.frame, &std::pair<std::uint64_t, std::uint64_t>::first);
@@ -445,7 +445,7 @@ void ClusterLeader::compare(std::size_t node, std::uint64_t frame, std::uint64_t
                   nameOf(node), frame, hash, ours->second));
 }
 
-void ClusterLeader::hear(const Difference& d) {
+void ClusterLeader::receive(const Difference& d) {
   const std::lock_guard lock(mutex_);
   if (d.session != session_.number || d.node >= followers_.size()) return;
   if (d.found)
@@ -471,7 +471,7 @@ void ClusterLeader::finish(bool over) {
     }
     if (!over || double_) return;
     session_.over = true;
-    bus_->tell(session_);
+    bus_->send(session_);
   }
   bus_->flush();
 }

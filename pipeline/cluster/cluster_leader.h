@@ -67,7 +67,7 @@ public:
   static constexpr double kStuck = 10;
 
   static Result<std::unique_ptr<ClusterLeader>> open(LeaderOptions options);
-  /// Returns a leader without a network, which receives only what hear() is given and sends no scene.
+  /// Returns a leader without a network, which receives only what receive() is given and sends no scene.
   static std::unique_ptr<ClusterLeader> unconnected(LeaderOptions options, std::uint64_t session);
   ~ClusterLeader() override;
 
@@ -102,13 +102,13 @@ public:
   std::optional<FrameOrder> next() override { return {}; }
   bool mayShow(const TimeSignature& now) override;
 
-  using BusListener::hear;
-  void hear(const Session& session) override;
-  void hear(const Presence& presence) override;
-  void hear(const Drawn& drawn) override;
-  void hear(const SceneHash& hash) override;
-  void hear(const Difference& difference) override;
-  void hear(const StatePart& part) override;
+  using BusListener::receive;
+  void receive(const Session& session) override;
+  void receive(const Presence& presence) override;
+  void receive(const Drawn& drawn) override;
+  void receive(const SceneHash& hash) override;
+  void receive(const Difference& difference) override;
+  void receive(const StatePart& part) override;
   void left(std::uint8_t node, std::uint64_t incarnation) override;
 
 private:

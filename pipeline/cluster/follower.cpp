@@ -78,7 +78,7 @@ void Follower::announce(Phase phase) {
     p.plays = kept_->transfer.session, p.serial = kept_->transfer.serial, p.show = kept_->show;
   else if (plays_ && !differs_)
     p.plays = joined_, p.serial = appliedSerial_, p.show = show_;
-  bus_->tell(p);
+  bus_->send(p);
 }
 
 // Expects the lock, while no orders come: a new leader must learn which scene is the newest.
@@ -225,7 +225,7 @@ bool Follower::explain(std::unique_lock<std::mutex>& lock) {
   told.found = differs.has_value();
   Differs d = differs.value_or(Differs{});
   told.where = d.where.data(), told.here = d.here.data(), told.there = d.there.data();
-  bus_->tell(told);
+  bus_->send(told);
   if (!differs) return false;
   const bool goesOn = options_.cluster.stopOnDifference;  // to the last order, which follows
   options_.tell(fmt::format("our scene differs from that of {} after frame {}: {} is {} here and {} there",
@@ -243,13 +243,13 @@ bool Follower::mayShow(const TimeSignature& now) {
   shown_ = serial;
   if (!member) return true;
   const Drawn told{static_cast<std::uint8_t>(options_.node), joined_, serial};
-  bus_->tell(told);
+  bus_->send(told);
   const auto drawn = Clock::now();
   // Repeated after a while: a host that has just connected does not use all topics at once, in either
   // direction.
   while (go_ < serial && !hasEnded() && !options_.stop())
     if (changed_.wait_for(lock, kPollInterval) == std::cv_status::timeout)
-      bus_->tell(told), announceProgress();
+      bus_->send(told), announceProgress();
   if (go_ == serial && latest_ == options_.node)
     stats_.barrier.add(std::chrono::duration<double, std::milli>(Clock::now() - drawn).count());
   if (go_ < serial) return false;
@@ -261,7 +261,7 @@ void Follower::simulated(std::uint64_t frame, std::uint64_t digest) {
   const ScopedRealtimePriority prompt;  // others wait while it holds the lock
   const std::lock_guard lock(mutex_);
   ++stats_.compared;
-  bus_->tell(SceneHash{static_cast<std::uint8_t>(options_.node), joined_, frame, digest});
+  bus_->send(SceneHash{static_cast<std::uint8_t>(options_.node), joined_, frame, digest});
 }
 
 ClusterStats Follower::stats() const {
@@ -306,7 +306,7 @@ bool Follower::isOurs(const Session& session) const {
   return options_.played != 0 && (session.number == options_.played || session.resumes == options_.played);
 }
 
-void Follower::hear(const Session& session) {
+void Follower::receive(const Session& session) {
   {
     const std::lock_guard lock(mutex_);
     // A leader that looks for a show under way does not know its rate yet.
@@ -330,7 +330,7 @@ void Follower::hear(const Session& session) {
 
 // If two programs are the same node, the one without a scene ends. If both or neither have one, the later
 // program ends.
-void Follower::hear(const Presence& other) {
+void Follower::receive(const Presence& other) {
   {
     const std::lock_guard lock(mutex_);
     if (other.node != options_.node || other.incarnation == incarnation_ || double_) return;
@@ -346,7 +346,7 @@ void Follower::hear(const Presence& other) {
   changed_.notify_all();
 }
 
-void Follower::hear(const Order& order) {
+void Follower::receive(const Order& order) {
   {
     const std::lock_guard lock(mutex_);
     if (joined_ != 0 && order.session != joined_) return;
@@ -357,7 +357,7 @@ void Follower::hear(const Order& order) {
   changed_.notify_all();
 }
 
-void Follower::hear(const Go& go) {
+void Follower::receive(const Go& go) {
   {
     const std::lock_guard lock(mutex_);
     if (go.session != joined_) return;
@@ -366,7 +366,7 @@ void Follower::hear(const Go& go) {
   changed_.notify_all();
 }
 
-void Follower::hear(const StatePart& part) {
+void Follower::receive(const StatePart& part) {
   {
     const std::lock_guard lock(mutex_);
     if (part.to == incarnation_ && (joined_ == 0 || part.session == joined_)) incoming_.add(part);

@@ -56,7 +56,7 @@ struct JoinTerms {
 class Follower final : public FrameOrders, public BusListener {
 public:
   static Result<std::unique_ptr<Follower>> open(FollowerOptions options);
-  /// Returns a follower without a network, which receives only what hear() is given.
+  /// Returns a follower without a network, which receives only what receive() is given.
   static std::unique_ptr<Follower> unconnected(FollowerOptions options, std::uint64_t incarnation);
   ~Follower() override;
 
@@ -102,12 +102,12 @@ public:
   std::optional<FrameOrder> next() override;
   bool mayShow(const TimeSignature& now) override;
 
-  using BusListener::hear;
-  void hear(const Session& session) override;
-  void hear(const Presence& presence) override;
-  void hear(const Order& order) override;
-  void hear(const Go& go) override;
-  void hear(const StatePart& part) override;
+  using BusListener::receive;
+  void receive(const Session& session) override;
+  void receive(const Presence& presence) override;
+  void receive(const Order& order) override;
+  void receive(const Go& go) override;
+  void receive(const StatePart& part) override;
 
 private:
   class OrderedInput;

@@ -27,7 +27,7 @@ void send(Bus& bus, const SceneTransfer& transfer) {
     part.bytes._buffer = const_cast<std::uint8_t*>(bytes.data()) + part.offset;
     part.bytes._release = false;
     part.bytes._length = part.bytes._maximum = static_cast<std::uint32_t>(size);
-    if (!bus.tell(part)) return;
+    if (!bus.send(part)) return;
     part.offset += size;
   } while (part.offset < bytes.size());
 }

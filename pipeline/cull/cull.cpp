@@ -150,7 +150,7 @@ void WallCull::fill(const SlotView& state, const CullOptions& options, DrawList&
     const SpanScope span(probe, Span::Fill);
     write(out);
   }
-  if (probe) tell(state, seen, options.eyes, out);
+  if (probe) reportCounts(state, seen, options.eyes, out);
 }
 
 void WallCull::lookThrough(const SlotView& state, const VisibleSet& seen, DrawList& out) const {
@@ -162,7 +162,7 @@ void WallCull::lookThrough(const SlotView& state, const VisibleSet& seen, DrawLi
 
 /// What is drawn of the records that may be seen, by which views, at which level.
 void WallCull::choose(const SlotView& state, const VisibleSet& seen, const DrawList& out) {
-  if (levels_) levels_->look(*state.viewer);
+  if (levels_) levels_->setViewer(*state.viewer);
   const WallViews& wall = parts_.room.wall(wall_);
   const bool eyesMove = wall.reach.metres > 0 || wall.reach.radians > 0;  // before they draw
   const std::uint32_t all = (1U << out.viewCount) - 1;
@@ -211,8 +211,8 @@ void WallCull::addCasters(const SlotView& state, DrawList& out) const {
 }
 
 /// Reports the counts, and the nodes that the work was for.
-void WallCull::tell(const SlotView& state, const VisibleSet& seen, const EyeChoice& choice,
-                    const DrawList& out) const {
+void WallCull::reportCounts(const SlotView& state, const VisibleSet& seen, const EyeChoice& choice,
+                            const DrawList& out) const {
   FrameProbe& probe = *parts_.probe;
   std::size_t casters = 0;
   if (out.shadows.light >= 0)

@@ -43,8 +43,8 @@ private:
   void choose(const SlotView& state, const VisibleSet& seen, const DrawList& out);
   void addCasters(const SlotView& state, DrawList& out) const;
   void write(DrawList& out) const;
-  void tell(const SlotView& state, const VisibleSet& seen, const EyeChoice& choice,
-            const DrawList& out) const;
+  void reportCounts(const SlotView& state, const VisibleSet& seen, const EyeChoice& choice,
+                    const DrawList& out) const;
 
   CullParts parts_;
   std::uint32_t wall_;

@@ -17,7 +17,7 @@ double leastScale(const Mat3& m, double most) {
 
 }  // namespace
 
-void LevelChoice::look(const ViewerRecord& viewer) {
+void LevelChoice::setViewer(const ViewerRecord& viewer) {
   viewer_ = &viewer;
   walls_.clear(), known_.clear();
 }

@@ -39,8 +39,8 @@ public:
       : wallPixels_(walls), meshes_(meshes) {}
 
   /// From here, in the frame that follows.
-  void look(const ViewerRecord& viewer);
-  /// 0 = the full surface; else it is Mesh::levels[that - 1]. Expects that look() has been called.
+  void setViewer(const ViewerRecord& viewer);
+  /// 0 = the full surface; else it is Mesh::levels[that - 1]. Expects that setViewer() has been called.
   std::uint32_t levelOf(const InstanceRecord& record);
 
 private:

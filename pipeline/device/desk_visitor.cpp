@@ -45,7 +45,7 @@ TrackerSample tracker(const char* name, const Pose& X_RT, Nanoseconds time) {
 DeskVisitor::DeskVisitor(double eyeHeight)
     : eyeHeight_(eyeHeight), wantedHand_(kHandAtRest), hand_(handWanted()) {}
 
-void DeskVisitor::look(double right, double up) {
+void DeskVisitor::turn(double right, double up) {
   const std::lock_guard lock(mutex_);
   constexpr double kWhole = 2 * 3.14159265358979323846;
   yaw_ -= std::clamp(orZero(right), -kWhole, kWhole);

@@ -27,7 +27,7 @@ public:
   // The user's input.
 
   /// Turns the head: to the right, and up [rad].
-  void look(double right, double up);
+  void turn(double right, double up);
   /// Moves the hand, relative to the direction of the head: right, forward, up [m].
   void moveHand(const Vec3& by);
   /// Walks on the rig until it is set to zero: right, forward, up, from -1 to 1.

@@ -111,7 +111,7 @@ Result<std::unique_ptr<OscServer>> OscServer::open(std::uint16_t port, Handler h
   return std::unique_ptr<OscServer>(new OscServer(std::move(socket)));
 }
 
-void OscServer::hear(std::span<const std::uint8_t> packet) {
+void OscServer::decode(std::span<const std::uint8_t> packet) {
   std::vector<std::uint8_t> bytes(packet.begin(), packet.end());  // liblo swaps bytes in place
   if (lo_server_dispatch_data(socket_->server, bytes.data(), bytes.size()) < 0) ++socket_->malformed;
 }

@@ -39,7 +39,7 @@ public:
   OscServer& operator=(const OscServer&) = delete;
 
   /// Handles a packet as if it came over the network, but on the caller's thread.
-  void hear(std::span<const std::uint8_t> packet);
+  void decode(std::span<const std::uint8_t> packet);
 
   std::uint16_t port() const;
   /// Returns the number of packets that were no OSC messages.

@@ -30,7 +30,7 @@ bool hasGlExtension(const GlTable& gl, const char* name) {
   return false;
 }
 
-ClipDepth settleClipDepth(const GlTable& gl) {
+ClipDepth setClipDepth(const GlTable& gl) {
   if (!gl.ClipControl || !hasGlExtension(gl, "GL_ARB_clip_control")) return ClipDepth::MinusOneToOne;
   gl.ClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
   return ClipDepth::ZeroToOne;

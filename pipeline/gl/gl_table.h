@@ -136,7 +136,7 @@ enum class ClipDepth { ZeroToOne, MinusOneToOne };
 
 /// Makes the current context take z / w as the depth, if it can, and returns its mode. Depths of single
 /// precision are then exact near 0; otherwise they are correct, but coarser far away.
-ClipDepth settleClipDepth(const GlTable& gl);
+ClipDepth setClipDepth(const GlTable& gl);
 
 /// Returns true if the current context draws on the processor.
 bool isSoftware(const GlTable& gl);

@@ -31,8 +31,8 @@ Result<std::unique_ptr<GlRenderer>> GlRenderer::create(const GlTable& gl, std::m
 
 GlRenderer::GlRenderer(const GlTable& gl, std::mutex& turns, const MeshStore& meshes, std::uint32_t width,
                        std::uint32_t height, RenderQuality quality)
-    : gl_(gl), turns_(turns), takesTurns_(isSoftware(gl)), look_(quality.look),
-      clipDepth_(settleClipDepth(gl)), scene_(gl, meshes, quality, !GlassLayers::isSupported(gl), problems_),
+    : gl_(gl), turns_(turns), takesTurns_(isSoftware(gl)), look_(quality.look), clipDepth_(setClipDepth(gl)),
+      scene_(gl, meshes, quality, !GlassLayers::isSupported(gl), problems_),
       buffers_(gl, width, height, quality),
       pieces_(gl, scene_, quality.mostAtOnce), context_{gl, scene_, buffers_, pieces_, stop_, width, height},
       surfaces_(context_), shadows_(context_, clipDepth_, problems_), small_(context_, quality),

@@ -91,7 +91,7 @@ void ShowStages::app(const TimeSignature& now, std::size_t slot) {
   if (whole) tellPublished();
   if (parts_.sounds) {
     const SpanScope span(parts_.probe, Span::Sound);
-    hear(input, false);
+    playSounds(input, false);
   }
   if (!parts_.observer) return;
   const SpanScope span(parts_.probe, Span::Watching);
@@ -126,10 +126,10 @@ void ShowStages::latch(std::size_t wall, DrawList& list) {
     latch_->latch(parts_.walls[wall], list.ticket.began + std::chrono::nanoseconds(aimedAt()), list);
 }
 
-void ShowStages::hear(const InputSample& input, bool still) {
+void ShowStages::playSounds(const InputSample& input, bool still) {
   if (!parts_.sounds) return;
-  parts_.scene.listen(input, heard_);
-  parts_.sounds->hear(heard_, {parts_.controls ? parts_.controls->state().volume : 1, still});
+  parts_.scene.collectSounds(input, heard_);
+  parts_.sounds->play(heard_, {parts_.controls ? parts_.controls->state().volume : 1, still});
 }
 
 // Signature, sky and viewer of the last frame stay in the change set, except that the visitor may look
@@ -144,9 +144,9 @@ void ShowStages::still(const TimeSignature& now, std::size_t slot) {
   if (parts_.controls) parts_.input.freezeHead(parts_.controls->state().headFrozen);
   if (parts_.head.predict) parts_.input.aimHead(aimedAt());
   InputSample input;
-  if (parts_.input.sampleNow(input)) parts_.scene.look(input, changes_);
+  if (parts_.input.sampleNow(input)) parts_.scene.updateViewer(input, changes_);
   noteMeasured(input);
-  hear(parts_.scene.feed().lastInput(), true);
+  playSounds(parts_.scene.feed().lastInput(), true);
   parts_.state.publish(slot, changes_);
 }
 

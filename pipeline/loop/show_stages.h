@@ -138,7 +138,7 @@ private:
   };
 
   void tellPublished();
-  void hear(const InputSample& input, bool still);
+  void playSounds(const InputSample& input, bool still);
   void noteMeasured(const InputSample& input);
   Failure readPictures(std::size_t wall);
 

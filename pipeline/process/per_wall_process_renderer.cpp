@@ -76,7 +76,7 @@ PerWallProcessRenderer::PerWallProcessRenderer(PerWallProcessParts parts)
 
 PerWallProcessRenderer::~PerWallProcessRenderer() = default;
 
-void PerWallProcessRenderer::tell(const Wall& wall, const std::string& what) const {
+void PerWallProcessRenderer::report(const Wall& wall, const std::string& what) const {
   if (parts_.tell) parts_.tell("wall " + wall.name + ": " + what);
 }
 
@@ -98,11 +98,11 @@ void PerWallProcessRenderer::died(Wall& wall, const std::string& how) {
   using worker::Restarts;
   switch (wall.restarts.died(Clock::now())) {
   case Restarts::Death::First:
-    tell(wall, "the process that draws it " + how + "; another one is started");
+    report(wall, "the process that draws it " + how + "; another one is started");
     break;
   case Restarts::Death::Second:
-    tell(wall, "the process that draws it " + how + " again; further ones are started" +
-                   (parts_.everyFrame ? "" : " after growing pauses") + ", and not told of");
+    report(wall, "the process that draws it " + how + " again; further ones are started" +
+                     (parts_.everyFrame ? "" : " after growing pauses") + ", and not told of");
     break;
   case Restarts::Death::Further: break;
   }
@@ -114,7 +114,7 @@ bool PerWallProcessRenderer::await(Wall& wall, milliseconds atMost) {
   for (;;) {
     if (wall.process.state() == State::Idle) return true;
     const auto left = std::chrono::ceil<milliseconds>(deadline - Clock::now());
-    if (wall.process.hear(std::clamp(left, milliseconds(0), kLookEvery))) return true;
+    if (wall.process.receive(std::clamp(left, milliseconds(0), kLookEvery))) return true;
     if (wall.process.state() == State::Down || left <= milliseconds(0)) return false;
     if (parts_.giveUp && parts_.giveUp()) throw RunStopped();
     if (hangs(wall)) return false;
@@ -221,7 +221,7 @@ Failure PerWallProcessRenderer::drawEvery(Wall& wall, const DrawList& list, bool
 Failure PerWallProcessRenderer::lookAfter(Wall& wall) {
   const State was = wall.process.state();
   if (was == State::Opening || was == State::Busy) {
-    if (wall.process.hear(milliseconds(0))) {
+    if (wall.process.receive(milliseconds(0))) {
       if (was == State::Busy) return answered(wall);
       if (wall.process.answer().failed)
         died(wall, "could not begin (" + wall.process.text() + ")");
@@ -282,8 +282,8 @@ void PerWallProcessRenderer::drewInTime(Wall& wall) {
   const std::size_t deaths = wall.restarts.deaths();
   if (!wall.restarts.drew()) return;
   const double seconds = std::chrono::duration<double>(Clock::now() - wall.lost).count();
-  tell(wall, deaths == 1 ? "draws again, after " + std::to_string(std::lround(1000 * seconds)) + " ms"
-                         : "draws again, after " + std::to_string(deaths) + " processes that died");
+  report(wall, deaths == 1 ? "draws again, after " + std::to_string(std::lround(1000 * seconds)) + " ms"
+                           : "draws again, after " + std::to_string(deaths) + " processes that died");
 }
 
 Failure PerWallProcessRenderer::read(std::size_t index, std::uint32_t view, std::span<std::uint8_t> rgba) {

@@ -75,7 +75,7 @@ private:
   Failure start(Wall& wall);
   void died(Wall& wall, const std::string& how);
   Failure answered(Wall& wall);
-  void tell(const Wall& wall, const std::string& what) const;
+  void report(const Wall& wall, const std::string& what) const;
 
   PerWallProcessParts parts_;
   worker::SharedMeshes sharedMeshes_;

@@ -199,11 +199,11 @@ void WallWorker::forgetFreed(ListNews& news) {
   if (!news.gone.empty()) known_ = {};  // what stands still may name them
 }
 
-bool WallWorker::hear(std::chrono::milliseconds atMost) {
+bool WallWorker::receive(std::chrono::milliseconds atMost) {
   if (state_ == State::Down || state_ == State::Idle) return false;
   pollfd one{socket_.get(), POLLIN, 0};
   const int ready = ::poll(&one, 1, static_cast<int>(atMost.count()));
-  if (ready <= 0) return look(), false;
+  if (ready <= 0) return updateStatus(), false;
   char bytes[sizeof(AnswerHead) + kLongestText];
   const ssize_t got = ::recv(socket_.get(), bytes, sizeof bytes, MSG_DONTWAIT);
   if (got < 0 && (errno == EINTR || errno == EAGAIN)) return false;
@@ -224,7 +224,7 @@ bool WallWorker::hear(std::chrono::milliseconds atMost) {
 }
 
 /// Whether it lives: the thread that draws is dead long before the last one, where processors are busy.
-void WallWorker::look() {
+void WallWorker::updateStatus() {
   status_ = statusOf(pid());
   if (status_.state != 'Z') return;
   isGone(sentenceOf(WIFSIGNALED(status_.end) ? 128 + WTERMSIG(status_.end) : WEXITSTATUS(status_.end)));

@@ -75,7 +75,7 @@ public:
   /// If it has exited, its state is Down and end() tells how it ended. That is noticed when its socket ends,
   /// or at the end of the time. (A rasteriser's threads, of lowest priority, may keep the socket open for
   /// seconds.)
-  bool hear(std::chrono::milliseconds atMost);
+  bool receive(std::chrono::milliseconds atMost);
 
   const AnswerHead& answer() const { return answer_; }
   const std::string& text() const { return text_; }  ///< text of the answer
@@ -100,7 +100,7 @@ private:
   ListNews newsFor(const DrawList& list);
   void add(MeshId id, ListNews& news);
   void forgetFreed(ListNews& news);
-  void look();
+  void updateStatus();
   void isGone(const std::string& how);
 
   WorkerSetting setting_;

@@ -81,7 +81,7 @@ void SmallObjectRasterizer::begin(const DrawView& eye, const SceneBlock& scene,
   }
   by_.lights = lights_.data(), by_.lightCount = static_cast<unsigned>(lights_.size());
   std::copy_n(scene.ambient.begin(), 3, by_.ambient);
-  culler_.look(eye);
+  culler_.setView(eye);
 }
 
 bool SmallObjectRasterizer::place(const CullerMesh& mesh, const MeshShading& shading,

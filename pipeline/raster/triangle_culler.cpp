@@ -40,7 +40,7 @@ TriangleCuller::TriangleCuller(std::uint32_t width, std::uint32_t height, const 
     : kernels_(kernels), halfWidth_(0.5 * width), halfHeight_(0.5 * height), oddX_(width % 2 == 0 ? 0 : 0.5),
       oddY_(height % 2 == 0 ? 0 : 0.5), width_(width), height_(height) {}
 
-void TriangleCuller::look(const DrawView& eye) {
+void TriangleCuller::setView(const DrawView& eye) {
   eye_ = eye;
   clip_ = eye.projection * eye.view;
   seen_ = {};

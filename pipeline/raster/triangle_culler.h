@@ -43,7 +43,7 @@ public:
   /// Forgets the kept triangles.
   void clear() { used_ = 0; }
   /// Through whose eye things are seen from now on.
-  void look(const DrawView& eye);
+  void setView(const DrawView& eye);
   /// Removes from now on triangles behind a picture drawn earlier for this eye. `depths`: 1 at the near
   /// plane, 0 at the far one (height x width), rows from the bottom.
   void hideBehind(std::span<const float> depths);

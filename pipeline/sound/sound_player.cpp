@@ -40,7 +40,7 @@ SoundPlayer::~SoundPlayer() {
   thread_.join();
 }
 
-void SoundPlayer::hear(SoundScape& scape, const SoundMix& mix) {
+void SoundPlayer::play(SoundScape& scape, const SoundMix& mix) {
   if (scape.sounds.empty() && silent_) return;
   silent_ = scape.sounds.empty();
   const std::lock_guard lock(mutex_);
@@ -50,7 +50,7 @@ void SoundPlayer::hear(SoundScape& scape, const SoundMix& mix) {
   changed_.notify_all();
 }
 
-void SoundPlayer::settle() {
+void SoundPlayer::waitUntilPlayed() {
   std::unique_lock lock(mutex_);
   changed_.wait(lock, [&] { return !fresh_ && !busy_; });
 }

@@ -6,7 +6,7 @@
 ///
 /// A sound's volume falls to zero at its range R: with d its distance from the head, it is (1 - d/R)^2.
 ///
-/// Threads    one of its own, which reads files and waits for the device; hear() is App's and only hands
+/// Threads    one of its own, which reads files and waits for the device; play() is App's and only hands
 ///            over.
 /// Ownership  borrows the roots, which must outlive it.
 /// Errors     without a device it says so once, and is silent.
@@ -47,9 +47,9 @@ public:
   SoundPlayer& operator=(const SoundPlayer&) = delete;
 
   /// Sets the sounds from now on. Takes the scape's content, and returns memory to fill.
-  void hear(SoundScape& scape, const SoundMix& mix);
+  void play(SoundScape& scape, const SoundMix& mix);
   /// Waits until all sounds handed over have reached the device.
-  void settle();
+  void waitUntilPlayed();
 
 private:
   struct Playing {

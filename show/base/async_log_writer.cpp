@@ -21,7 +21,7 @@ AsyncLogWriter::~AsyncLogWriter() {
   thread_.join();
 }
 
-void AsyncLogWriter::tell(std::string line) {
+void AsyncLogWriter::write(std::string line) {
   {
     const std::lock_guard lock(mutex_);
     if (lines_.size() < kMostLines) lines_.push_back(std::move(line));

@@ -21,7 +21,7 @@ public:
   AsyncLogWriter& operator=(const AsyncLogWriter&) = delete;
 
   /// While lines cannot be written, no more than the first thousand are kept.
-  void tell(std::string line);
+  void write(std::string line);
 
 private:
   void work();

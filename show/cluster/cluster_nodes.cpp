@@ -80,7 +80,7 @@ int ClusterNodes::play() {
     if (!begin(node)) return kFailed;
   for (bool forwarded = false; anyLeft(); std::this_thread::sleep_for(kLookEvery)) {
     if (stop && !std::exchange(forwarded, true)) ask(stopSignal());
-    for (Node& node : nodes_) look(node);
+    for (Node& node : nodes_) poll(node);
     killHangingLead();
     endLeadOfEndedShow();
     endWithLead();
@@ -89,7 +89,7 @@ int ClusterNodes::play() {
   return code();
 }
 
-void ClusterNodes::look(Node& node) {
+void ClusterNodes::poll(Node& node) {
   if (node.state == State::Plays) {
     if (const auto status = node.child.wait(std::chrono::milliseconds(0))) ended(node, *status);
   } else if (node.state == State::Pauses) {

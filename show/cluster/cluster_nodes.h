@@ -77,7 +77,7 @@ private:
   void say(const std::string& what) { reporter_.hint("cluster: " + what); }
   void sayOf(const Node& node, const std::string& what);
   bool begin(Node& node);
-  void look(Node& node);
+  void poll(Node& node);
   void ended(Node& node, int status);
   bool isStop(const Node& node) const;
   bool isDeath(const Node& node) const;

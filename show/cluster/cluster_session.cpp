@@ -88,14 +88,14 @@ std::unique_ptr<ClusterSession> ClusterSession::create(const ClusterSettings& o,
   return part;
 }
 
-void ClusterSession::tell(const std::string& what) {
-  teller_.tell(fmt::format("cluster, {}: {}", file_.nodes[node_].name, what));
+void ClusterSession::report(const std::string& what) {
+  log_.write(fmt::format("cluster, {}: {}", file_.nodes[node_].name, what));
 }
 
 // What the terms are is looked up each time: a script may have been saved since the show before.
 bool ClusterSession::openLead(Diagnostics& findings) {
   cluster::LeaderOptions options{file_, compatibilityKeyOf(show_, layout_, file_), kPatience,
-                                 [this](const std::string& what) { tell(what); }, isGivenUp};
+                                 [this](const std::string& what) { report(what); }, isGivenUp};
   if (lead_) options.above = lead_->session(), options.expected = lead_->played();
   lead_.reset();
   auto opened = cluster::ClusterLeader::open(std::move(options));
@@ -124,7 +124,7 @@ bool ClusterSession::follow(ShowOptions& show, Diagnostics& findings) {
   const std::uint64_t played = follower_ ? follower_->session() : 0;
   follower_.reset();
   auto opened = cluster::Follower::open({file_, node_, compatibilityKeyOf(show_, layout_, file_),
-                                         [this](const std::string& what) { tell(what); }, isGivenUp,
+                                         [this](const std::string& what) { report(what); }, isGivenUp,
                                          [] { return stopSignal() != 0; }, std::move(kept_), played});
   if (!opened) return findings.add(opened.error()), false;
   follower_ = std::move(opened.value());
@@ -151,8 +151,8 @@ void ClusterSession::refuseFiles(Diagnostics& findings) {
 
 bool ClusterSession::restartShow(const Diagnostics& found, Diagnostics& findings) {
   const auto why = std::ranges::find(found.all(), Severity::Error, &Diagnostic::severity);
-  tell("the scripts or models of the others' show differ from ours: the show restarts" +
-       (why == found.all().end() ? "" : " (" + why->message + ")"));
+  report("the scripts or models of the others' show differ from ours: the show restarts" +
+         (why == found.all().end() ? "" : " (" + why->message + ")"));
   after_.reset(), operator_.reset(), goesOn_ = false;
   return openLead(findings);
 }

@@ -77,8 +77,8 @@ public:
 private:
   ClusterSession(const ShowOptions& show, StereoLayout layout, ClusterFile file, std::size_t node,
                  std::function<void(const std::string&)> say)
-      : show_(show), layout_(layout), file_(std::move(file)), node_(node), teller_(std::move(say)) {}
-  void tell(const std::string& what);
+      : show_(show), layout_(layout), file_(std::move(file)), node_(node), log_(std::move(say)) {}
+  void report(const std::string& what);
   bool openLead(Diagnostics& findings);
   bool follow(ShowOptions& show, Diagnostics& findings);
 
@@ -90,7 +90,7 @@ private:
   StereoLayout layout_;
   ClusterFile file_;
   std::size_t node_;
-  AsyncLogWriter teller_;
+  AsyncLogWriter log_;
   std::optional<std::uint64_t>
       planted_;  ///< the frame after which a bit is changed, to see whether that is found
   Player* player_ = nullptr;

@@ -68,7 +68,7 @@ void OperatorConsole::beginGroup(Player& player, RunWatch& watch) {
   visitorIsLive_ = player.inputIsLive();
   controls_->replay(player.decisions().orders);
   controls_->told = [this, &watch](std::uint64_t frame, const OperatorCommand& command) {
-    tell(command, watch.time());
+    report(command, watch.time());
     if (isOfPresentation(command.action)) writeDown(frame, command, watch);
     if (changed) changed(controls_->state());
   };
@@ -126,8 +126,8 @@ void OperatorConsole::endGroup(const RunWatch& watch) {
 void OperatorConsole::silence() {
   if (!sounds_) return;
   SoundScape nothing;
-  sounds_->hear(nothing, {});
-  sounds_->settle();
+  sounds_->play(nothing, {});
+  sounds_->waitUntilPlayed();
 }
 
 std::string OperatorConsole::fileOfGroup(const std::string& file) const {
@@ -152,7 +152,7 @@ double OperatorConsole::uptime() const {
   return seconds(Clock::now() - opened_);
 }
 
-void OperatorConsole::tell(const OperatorCommand& command, Nanoseconds showTime) const {
+void OperatorConsole::report(const OperatorCommand& command, Nanoseconds showTime) const {
   const OperatorState& s = controls_->state();
   const Nanoseconds stands = std::max(showTime, controls_->playback().standsFrom());
   const auto onOff = [](bool on) { return on ? " on" : " off"; };

@@ -66,7 +66,7 @@ private:
       : settings_(settings), reporter_(reporter), live_(!settings.play.everyFrame) {}
   void say(const std::string& line) const { reporter_.say(line); }
   void writeDown(std::uint64_t frame, const OperatorCommand& command, RunWatch& watch) const;
-  void tell(const OperatorCommand& command, Nanoseconds showTime) const;
+  void report(const OperatorCommand& command, Nanoseconds showTime) const;
 
   using Clock = std::chrono::steady_clock;
 

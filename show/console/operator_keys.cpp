@@ -66,14 +66,14 @@ std::unique_ptr<OperatorKeys> OperatorKeys::open(int file, OperatorQueue& queue,
 }
 
 OperatorKeys::OperatorKeys(std::unique_ptr<RawTerminal> terminal, OperatorQueue& queue, Say say)
-    : terminal_(std::move(terminal)), queue_(queue), say_(std::move(say)), thread_([this] { listen(); }) {}
+    : terminal_(std::move(terminal)), queue_(queue), say_(std::move(say)), thread_([this] { readKeys(); }) {}
 
 OperatorKeys::~OperatorKeys() {
   ending_ = true;
   thread_.join();
 }
 
-void OperatorKeys::listen() {
+void OperatorKeys::readKeys() {
   const std::string lost = "out of memory: the key was not taken";
   while (!ending_) {
     // A process in the background is stopped if it reads the terminal.

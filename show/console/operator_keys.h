@@ -39,7 +39,7 @@ public:
 
 private:
   OperatorKeys(std::unique_ptr<RawTerminal> terminal, OperatorQueue& queue, Say say);
-  void listen();
+  void readKeys();
 
   std::unique_ptr<RawTerminal> terminal_;
   OperatorQueue& queue_;

@@ -61,7 +61,7 @@ Result<CalibrationFigures> measureSetting(const CalibrationRun& run, Diagnostics
   setRasteriserThreads(run.setting.rasteriserThreads);
   ShowOptions show = showOf(run);
   const auto failed = [](const std::string& what) { return Measured::failure(what); };
-  if (!show.settle(findings)) return failed("bad settings");
+  if (!show.complete(findings)) return failed("bad settings");
   auto provider = openGlProvider(GlProviderKind::OsMesa);
   if (!provider) return provider.error();
   const auto player = Player::create(show, findings);

@@ -12,7 +12,7 @@
 namespace stadion {
 
 struct PlanRunOptions {
-  ShowOptions show;  ///< settled; `frames` says how many are looked at
+  ShowOptions show;  ///< complete; `frames` says how many are looked at
   StereoLayout layout = StereoLayout::Pair;
   std::size_t walls = 1;  ///< the first ones of the wall file
 };

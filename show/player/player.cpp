@@ -65,7 +65,7 @@ AssetRoots ShowOptions::roots() const {
   return all;
 }
 
-bool ShowOptions::settle(Diagnostics& findings) {
+bool ShowOptions::complete(Diagnostics& findings) {
   const auto sides = parseSize(size.empty() ? "800x600" : size);
   const auto fits = [](std::uint32_t side) { return side >= 1 && side <= 16384; };
   if (sides && fits(sides->first) && fits(sides->second))
@@ -102,7 +102,7 @@ bool Player::openInput(Diagnostics& findings) {
 }
 
 // As asked for, else to the end of the input, else until stopped.
-void Player::settleLength() {
+void Player::computeLength() {
   const auto framesTo = [&](double seconds) {
     return static_cast<std::uint64_t>(std::ceil(seconds * rate_)) + 1;
   };
@@ -133,7 +133,7 @@ std::unique_ptr<Player> Player::prepare(const ShowOptions& options, Diagnostics&
   if (!walls) return nullptr;
   p.takeWalls(std::move(*walls));
   if (!p.openInput(findings)) return nullptr;
-  p.settleLength();
+  p.computeLength();
 
   p.roots_ = AssetRoots::ofScript(options.script);
   AssetRoots forImporter = AssetRoots::ofScript(options.script);

@@ -55,7 +55,7 @@ struct ShowOptions {
   /// The folders of the show's files: the script's own, and those of `assetRoots` that exist.
   AssetRoots roots() const;
   /// Completes the members that depend on others. False, with the reason in the findings, if one is wrong.
-  bool settle(Diagnostics& findings);
+  bool complete(Diagnostics& findings);
 };
 
 /// Everything of a show but its drawing.
@@ -120,7 +120,7 @@ public:
 private:
   Player();
   bool openInput(Diagnostics& findings);
-  void settleLength();
+  void computeLength();
   void takeWalls(WallFile room);
   PixelSize pixelsOf(const WallEntry& entry) const;
 

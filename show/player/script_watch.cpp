@@ -19,10 +19,10 @@ AssetRoots rootsOf(const std::string& script, const std::vector<std::string>& fu
 
 ScriptWatch::ScriptWatch(std::string script, std::vector<std::string> assetRoots, SharedTypes types)
     : script_(std::move(script)), assetRoots_(std::move(assetRoots)), types_(std::move(types)) {
-  settle();
+  reset();
 }
 
-ScriptWatch::Stamps ScriptWatch::look() const {
+ScriptWatch::Stamps ScriptWatch::readStamps() const {
   Stamps stamps;
   const auto note = [&](const std::string& name, const std::string& path) {
     std::error_code gone;
@@ -52,16 +52,16 @@ std::string ScriptWatch::whatChanged() const {
 }
 
 std::optional<std::string> ScriptWatch::changed() {
-  Stamps now = look();
+  Stamps now = readStamps();
   stayedFor_ = now == seen_ ? stayedFor_ + 1 : 0;
   seen_ = std::move(now);
   if (seen_ == known_ || stayedFor_ < (somethingIsGone() ? kGoneFor : 1)) return {};
   return whatChanged();
 }
 
-void ScriptWatch::settle() {
+void ScriptWatch::reset() {
   parts_ = ScriptTexts::read(script_, rootsOf(script_, assetRoots_), *types_)->parts();
-  known_ = seen_ = look();
+  known_ = seen_ = readStamps();
   stayedFor_ = 0;
 }
 

@@ -24,7 +24,7 @@ public:
   /// after kGoneFor more calls: an editor may put another in its place.
   std::optional<std::string> changed();
   /// Takes the present files as known.
-  void settle();
+  void reset();
 
   static constexpr int kGoneFor = 4;
 
@@ -37,7 +37,7 @@ private:
   };
   using Stamps = std::map<std::string, Stamp>;  ///< by name; of files that are there
 
-  Stamps look() const;
+  Stamps readStamps() const;
   bool somethingIsGone() const;
   std::string whatChanged() const;
 

@@ -218,9 +218,9 @@ void lookAtCollisions(const std::string& file, const std::vector<std::string>& r
   options.input = "none";
   options.assetRoots = roots;
   Diagnostics told;
-  auto player = options.settle(told) ? Player::create(
-                                           options, told, [](const Diagnostics&) {}, giveUp)
-                                     : nullptr;
+  auto player = options.complete(told) ? Player::create(
+                                             options, told, [](const Diagnostics&) {}, giveUp)
+                                       : nullptr;
   if (!player) return;
   ChangeSet changes;
   player->scene().advance(signatureAt(0, player->rate()), {}, changes, nullptr);

@@ -72,7 +72,7 @@ void ViewControls::moved(double x, double y) {
   const double right = moved_[0], up = -moved_[1];
   if (turnsCamera_) return;
   if (held_.empty())
-    visitor_.look(kLookPerPixel * right, kLookPerPixel * up);
+    visitor_.turn(kLookPerPixel * right, kLookPerPixel * up);
   else
     visitor_.moveHand(kHandPerPixel * (shift_ ? Vec3(right, up, 0) : Vec3(right, 0, up)));
 }
@@ -82,7 +82,7 @@ void ViewControls::take(const std::optional<GamepadState>& pad, double seconds) 
   std::array<double, kTrackerAxes> axes{};
   axes[0] = beyondSlack(pad->axes[0]), axes[1] = -beyondSlack(pad->axes[1]);
   visitor_.setGamepad(axes, pad->buttons & 15u);
-  visitor_.look(kPadLook * seconds * beyondSlack(pad->axes[2]),
+  visitor_.turn(kPadLook * seconds * beyondSlack(pad->axes[2]),
                 -kPadLook * seconds * beyondSlack(pad->axes[3]));
 }
 

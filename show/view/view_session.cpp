@@ -269,7 +269,7 @@ void ViewSession::watchFiles() {
 void ViewSession::beginReload(const std::string& why) {
   if (reload_) return;
   say(fmt::format("reading {} again: {}", settings_.session.show.script, why));
-  files_.settle();
+  files_.reset();
   ShowSurroundings around = surroundings(std::make_shared<ReusableResources>());
   around.recorded = over_;
   reload_ = std::make_unique<ShowReload>(std::move(around));

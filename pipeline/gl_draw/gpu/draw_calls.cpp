@@ -14,7 +14,7 @@ DrawCalls::DrawCalls(const GlTable& gl, bool basesInstances) : gl_(gl), basesIns
   gl_.ActiveTexture(GL_TEXTURE0);
 }
 
-void DrawCalls::settle() {
+void DrawCalls::restoreState() {
   gl_.Disable(GL_SCISSOR_TEST);
   gl_.Disable(GL_POLYGON_OFFSET_FILL);
   gl_.Disable(GL_BLEND);

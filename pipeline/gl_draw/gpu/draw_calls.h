@@ -22,7 +22,7 @@ public:
   bool basesInstances() const { return basesInstances_; }
 
   /// Restores the state that an interrupted drawing may have changed.
-  void settle();
+  void restoreState();
   /// Starts a view: counts from zero, and assumes nothing about what is bound.
   void beginView();
 

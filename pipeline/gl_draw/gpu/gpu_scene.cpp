@@ -27,11 +27,11 @@ GpuScene::GpuScene(const GlTable& gl, const MeshStore& store, RenderQuality qual
 }
 
 void GpuScene::begin(const DrawList& list, FrameProbe* probe) {
-  calls_.settle();
+  calls_.restoreState();
   meshes_.freeUnused();
   if (list.lights.size() > DrawList::kMaxLights)
     problems_.report("more than " + std::to_string(DrawList::kMaxLights) + " lights: the rest are left out");
-  meshes_.tell(probe);
+  meshes_.setProbe(probe);
   instances_.begin(list, probe);
   instances_.takeMore();
 }

@@ -88,7 +88,7 @@ public:
   /// Returns true if find() has it already, and uploads nothing.
   bool holds(MeshId id) const;
   /// Reports uploads to this probe from now on; null = none.
-  void tell(FrameProbe* probe) { probe_ = probe; }
+  void setProbe(FrameProbe* probe) { probe_ = probe; }
   /// Frees the GL objects of meshes that the store has freed since the last call.
   void freeUnused();
 

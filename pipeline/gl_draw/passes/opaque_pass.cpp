@@ -13,7 +13,7 @@ OpaquePass::OpaquePass(const PassContext& with, SurfaceDrawing& surfaces)
 /// The near objects first: what they hide of the others can be left out.
 void OpaquePass::draw(const DrawView& from, std::uint32_t view, const SmallObjectPass& small) {
   constexpr float kFar = std::numeric_limits<float>::infinity();
-  if (culler_) culler_->look(from);
+  if (culler_) culler_->setView(from);
   const std::optional<float> near = nearQuarter(view, small);
   drawBatches(view, small, {0, near.value_or(kFar)});
   if (!near) return;

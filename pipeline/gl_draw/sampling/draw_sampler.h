@@ -56,7 +56,7 @@ public:
   }
   template <class Work>
   void piece(Span what, const Work& work) {
-    tell(what, timed(work), {});
+    report(what, timed(work), {});
   }
   /// A part of an eye that is no node's: with others of the kind, their sum.
   template <class Work>
@@ -86,11 +86,11 @@ public:
   /// All passes are over. `shares` is asked whose the pieces are that were timed: (first instance, end).
   template <class Shares>
   void endEye(const Shares& shares) {
-    for (const auto& [what, ms] : parts_) tell(what, ms, {});
+    for (const auto& [what, ms] : parts_) report(what, ms, {});
     for (std::size_t i = 0; i < turn_.size(); ++i) {
       const std::size_t end = turn_[i] + 1;
-      tell(Span::Draw, timed_[i],
-           shares(starts_[turn_[i]], end < starts_.size() ? starts_[end] : ~std::uint32_t{0}));
+      report(Span::Draw, timed_[i],
+             shares(starts_[turn_[i]], end < starts_.size() ? starts_[end] : ~std::uint32_t{0}));
     }
   }
 
@@ -114,7 +114,7 @@ private:
     work();
     return clock_.end() - now_.emptyMs;
   }
-  void tell(Span what, double ms, std::span<const NodeShare> nodes) {
+  void report(Span what, double ms, std::span<const NodeShare> nodes) {
     IsolatedDrawTime drawn = now_;
     drawn.what = what, drawn.ms = ms;
     probe_->drewAlone(drawn, nodes);

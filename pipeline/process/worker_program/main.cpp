@@ -45,7 +45,7 @@ void answer(Order to, const std::optional<Diagnostic>& problem, const ViewTotals
 }
 
 /// Receives the next order and its descriptors. Returns false when the show has ended.
-bool hear(OrderHead& head, std::array<int, 3>& descriptors) {
+bool receive(OrderHead& head, std::array<int, 3>& descriptors) {
   iovec part{&head, sizeof head};
   alignas(cmsghdr) char control[CMSG_SPACE(3 * sizeof(int))];
   msghdr message{};
@@ -202,13 +202,13 @@ int work() {
   Worker worker;
   OrderHead order;
   std::array<int, 3> segments{-1, -1, -1};
-  if (!hear(order, segments) || order.order != Order::Open || segments[0] < 0) {
+  if (!receive(order, segments) || order.order != Order::Open || segments[0] < 0) {
     std::fputs("stadion-wall is started by stadion; there is nothing to run by hand\n", stderr);
     return 2;
   }
   const auto why = worker.open(order, segments);
   answer(Order::Open, why ? *why : worker.description(), why.has_value());
-  while (!why && hear(order, segments)) {
+  while (!why && receive(order, segments)) {
     if (order.order == Order::Draw) worker.draw(order);
     if (order.order == Order::Read) worker.read();
   }

@@ -23,8 +23,8 @@ public:
     options.script = script, options.input = input, options.walls = "cave4", options.size = "64x48";
     options.assetRoots = {assetFolder()}, options.state = state, options.appThreads = 1;
     Diagnostics findings;
-    if (options.settle(findings)) player_ = Player::create(options, findings);
-    tell(findings);
+    if (options.complete(findings)) player_ = Player::create(options, findings);
+    printFindings(findings);
     if (!player_) return;
     ShowParts parts = player_->parts(StereoLayout::Off);
     parts.provider = &provider;

@@ -26,7 +26,7 @@ struct HeardShow : ShowFixture {
   }
   SoundScape heard() {
     SoundScape scape;
-    scene.listen(input, scape);
+    scene.collectSounds(input, scape);
     return scape;
   }
   /// When it was finished.

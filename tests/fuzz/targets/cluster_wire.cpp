@@ -23,14 +23,14 @@ public:
   void take(Step step, Bytes bytes) {
     const std::uint8_t figure = bytes.empty() ? 0 : bytes[0];
     switch (step) {
-    case Step::Session: return hear<Session>(stadion_wire_Session_desc, bytes);
-    case Step::Presence: return hear<Presence>(stadion_wire_Presence_desc, bytes);
-    case Step::Order: return hear<Order>(stadion_wire_Order_desc, bytes);
-    case Step::Drawn: return hear<Drawn>(stadion_wire_Drawn_desc, bytes);
-    case Step::Go: return hear<Go>(stadion_wire_Go_desc, bytes);
-    case Step::SceneHash: return hear<SceneHash>(stadion_wire_SceneHash_desc, bytes);
-    case Step::Difference: return hear<Difference>(stadion_wire_Difference_desc, bytes);
-    case Step::StatePart: return hear<StatePart>(stadion_wire_StatePart_desc, bytes);
+    case Step::Session: return receive<Session>(stadion_wire_Session_desc, bytes);
+    case Step::Presence: return receive<Presence>(stadion_wire_Presence_desc, bytes);
+    case Step::Order: return receive<Order>(stadion_wire_Order_desc, bytes);
+    case Step::Drawn: return receive<Drawn>(stadion_wire_Drawn_desc, bytes);
+    case Step::Go: return receive<Go>(stadion_wire_Go_desc, bytes);
+    case Step::SceneHash: return receive<SceneHash>(stadion_wire_SceneHash_desc, bytes);
+    case Step::Difference: return receive<Difference>(stadion_wire_Difference_desc, bytes);
+    case Step::StatePart: return receive<StatePart>(stadion_wire_StatePart_desc, bytes);
     case Step::Left: return lead_->left(figure, bytes.size() > 1 ? bytes[1] : 0);
     case Step::Join: return join();
     case Step::Next: return next();
@@ -45,11 +45,11 @@ public:
 
 private:
   template <class T>
-  void hear(const dds_topic_descriptor_t& type, Bytes bytes) {
+  void receive(const dds_topic_descriptor_t& type, Bytes bytes) {
     const Packet<T> packet(type, bytes);
     if (!packet) return;
-    static_cast<BusListener&>(*lead_).hear(*packet);
-    static_cast<BusListener&>(*follower_).hear(*packet);
+    static_cast<BusListener&>(*lead_).receive(*packet);
+    static_cast<BusListener&>(*follower_).receive(*packet);
   }
 
   void join() {

@@ -44,7 +44,7 @@ void osc(Bytes bytes) {
   static Ear ear;
   OscRoom room;
   ear.room = &room;
-  ear.server->hear(bytes);
+  ear.server->decode(bytes);
   InputSample sample;
   room.trackers.sampleFrame(0, 16'666'667, sample);
   for (const TrackerSample& t : sample.trackers) {

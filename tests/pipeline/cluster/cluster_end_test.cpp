@@ -14,14 +14,14 @@ namespace {
 TEST(ClusterHearing, TheLeaderEndsTheShowForAll) {
   const auto f = follower();
   Session s = session(60, false);
-  f->hear(s);
+  f->receive(s);
   ASSERT_TRUE(f->join());
   FrameOrder order;
   order.signature = signatureAt(0, 60);
   WrittenOrder written;
-  f->hear(written.write({1, 1, 3, 0}, order, nullptr));
+  f->receive(written.write({1, 1, 3, 0}, order, nullptr));
   s.begun = s.over = true;
-  f->hear(s);
+  f->receive(s);
   EXPECT_TRUE(f->next()) << "what was ordered before is played";
   EXPECT_FALSE(f->next());
   EXPECT_FALSE(f->mustRejoin());
@@ -31,15 +31,15 @@ TEST(ClusterHearing, TheLeaderEndsTheShowForAll) {
 std::unique_ptr<Follower> followerThatPlayed(const std::vector<bool>& member, std::uint64_t go,
                                              bool toTheLast = false) {
   auto f = follower();
-  f->hear(session(60, false));
+  f->receive(session(60, false));
   EXPECT_TRUE(f->join());
   WrittenOrder written;
   FrameOrder order;
   for (std::size_t i = 0; i < member.size(); ++i) {
     order.signature = signatureAt(i, 60), order.last = toTheLast && i + 1 == member.size();
-    f->hear(written.write({1, i + 1, member[i] ? 3U : 1U, 0}, order, nullptr));
+    f->receive(written.write({1, i + 1, member[i] ? 3U : 1U, 0}, order, nullptr));
   }
-  f->hear(Go{1, go, 0});
+  f->receive(Go{1, go, 0});
   for (std::size_t i = 0; i < member.size(); ++i)
     if (const auto next = f->next()) f->mayShow(next->signature);
   return f;
@@ -54,7 +54,7 @@ Session over(std::uint64_t shown) {
 
 bool missesTheEnd(const std::unique_ptr<Follower>& f, std::uint64_t shown) {
   EXPECT_FALSE(f->missedTheEnd()) << "it is not over";
-  f->hear(over(shown));
+  f->receive(over(shown));
   return f->missedTheEnd();
 }
 
@@ -81,7 +81,7 @@ TEST(ClusterHearing, AHostLeftOutOfAPauseAtTheEndHasNotMissedIt) {
   FrameOrder order;
   order.signature = signatureAt(1, 60), order.still = Standstill::Paused;
   WrittenOrder written;
-  f->hear(written.write({1, 3, 1, 0}, order, nullptr));
+  f->receive(written.write({1, 3, 1, 0}, order, nullptr));
   ASSERT_TRUE(f->next());
   f->mayShow(order.signature);
   EXPECT_FALSE(missesTheEnd(f, 2));
@@ -103,10 +103,10 @@ TEST(ClusterHearing, AHostStillJoiningAsTheShowEndsHasMissedTheEnd) {
     StatePart part{};
     part.to = 7, part.session = 1, part.serial = 4, part.frame = 3, part.size = 10;
     part.bytes._buffer = bytes.data(), part.bytes._length = part.bytes._maximum = 10;
-    f->hear(session(60, true));
-    f->hear(part);
+    f->receive(session(60, true));
+    f->receive(part);
     ASSERT_TRUE(f->join());
-    f->hear(over(4));
+    f->receive(over(4));
     EXPECT_TRUE(f->missedTheEnd()) << cameBefore;
   }
 }
@@ -116,15 +116,15 @@ TEST(ClusterHearing, AHostThatHasShownTheLastFrameHasNotMissedTheEnd) {
   const auto f = followerThatHasShown(5);
   Session s = session(60, true);
   s.number = 2, s.resumes = 1;
-  f->hear(s);
+  f->receive(s);
   std::vector<std::uint8_t> bytes(10, 3);
   StatePart part{};
   part.to = 7, part.session = 2, part.serial = 0, part.frame = 4, part.size = 10;
   part.bytes._buffer = bytes.data(), part.bytes._length = part.bytes._maximum = 10;
-  f->hear(part);
+  f->receive(part);
   ASSERT_TRUE(f->join());
   s.over = true;
-  f->hear(s);
+  f->receive(s);
   EXPECT_TRUE(f->isOver());
   EXPECT_FALSE(f->missedTheEnd());
 }
@@ -134,14 +134,14 @@ TEST(ClusterHearing, AHostThatRejoinsAndHearsThatTheShowIsOverIsDone) {
     const auto f = followerThatHasShown(5, 1);
     Session s = over(7);
     s.number = 1 + resumes, s.resumes = resumes;
-    f->hear(s);
+    f->receive(s);
     EXPECT_FALSE(f->join());
     EXPECT_TRUE(f->isOver() && f->missedTheEnd());
   }
   const auto f = followerThatHasShown(5, 1);
   Session another = over(7);
   another.number = 8;
-  f->hear(another);
+  f->receive(another);
   EXPECT_FALSE(f->isOver()) << "it was another show";
 }
 
@@ -150,9 +150,9 @@ TEST(ClusterHearing, AnEarlierShowThatIsOverIsNoReasonToLeaveTheNextOne) {
   const auto f = follower();
   Session next = session(60, false), earlier = over(7);
   next.number = 9, earlier.number = 5;
-  f->hear(next);
+  f->receive(next);
   ASSERT_TRUE(f->join());
-  f->hear(earlier);
+  f->receive(earlier);
   EXPECT_FALSE(f->mustRejoin() || f->isOver());
 }
 

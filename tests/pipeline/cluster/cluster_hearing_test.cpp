@@ -57,46 +57,46 @@ TEST(ClusterHearing, AnOrderThatSaysWhatCannotBeIsNone) {
 TEST(ClusterHearing, ASessionWithoutARateIsNotJoined) {
   for (const double rate : {kNan, 0.0, -60.0, 1e9}) {
     const auto f = follower();
-    f->hear(session(rate, false));
+    f->receive(session(rate, false));
     EXPECT_FALSE(f->join()) << rate;
   }
   const auto f = follower();
-  f->hear(session(60, false));
+  f->receive(session(60, false));
   EXPECT_TRUE(f->join());
 }
 
 TEST(ClusterHearing, AfterAnOrderThatIsNoneOneIsMissing) {
   const auto f = follower();
-  f->hear(session(60, false));
+  f->receive(session(60, false));
   ASSERT_TRUE(f->join());
   WrittenOrder written;
   InputSample input = visitor();
   FrameOrder order;
   order.signature = signatureAt(60, 60);
-  f->hear(written.write({1, 1, 3, 0}, order, &input));
+  f->receive(written.write({1, 1, 3, 0}, order, &input));
   EXPECT_TRUE(f->next());
   input.trackers[0].X_RT.p.x() = kNan;
-  f->hear(written.write({1, 2, 3, 0}, order, &input));
+  f->receive(written.write({1, 2, 3, 0}, order, &input));
   input = visitor();
-  f->hear(written.write({1, 3, 3, 0}, order, &input));
+  f->receive(written.write({1, 3, 3, 0}, order, &input));
   EXPECT_FALSE(f->next());
   EXPECT_TRUE(f->mustRejoin());
 }
 
 TEST(ClusterHearing, AStateArrivesInParts) {
   const auto f = follower();
-  f->hear(session(60, true));
+  f->receive(session(60, true));
   std::vector<std::uint8_t> bytes(10, 3);
   StatePart part{};
   part.to = 7, part.session = 1, part.serial = 4, part.size = 2 * bytes.size();
   part.bytes._buffer = bytes.data(), part.bytes._length = part.bytes._maximum = 10;
-  f->hear(part);
+  f->receive(part);
   part.size = 25, part.offset = 10;
-  f->hear(part);  // of another size: not a part of it
+  f->receive(part);  // of another size: not a part of it
   part.size = 20, part.offset = 5;
-  f->hear(part);  // not the next one
+  f->receive(part);  // not the next one
   part.offset = 10;
-  f->hear(part);
+  f->receive(part);
   const auto joining = f->join();
   ASSERT_TRUE(joining);
   EXPECT_EQ(*joining->state, std::vector<std::uint8_t>(20, 3));
@@ -151,7 +151,7 @@ std::unique_ptr<ClusterLeader> leadThatTells(std::vector<std::string>& told) {
 
 TEST(ClusterHearing, TheLeaderDoesNotWaitForAHostLostInTheLastFrame) {
   const auto l = lead();
-  l->hear(said(1, 9, 1, kSession, static_cast<std::uint8_t>(Phase::Ready), 0, false, kShow));
+  l->receive(said(1, 9, 1, kSession, static_cast<std::uint8_t>(Phase::Ready), 0, false, kShow));
   l->begin(60);
   FrameOrder order;
   order.signature = signatureAt(1, 60), order.last = true;
@@ -166,16 +166,16 @@ TEST(ClusterHearing, TheLeaderDoesNotWaitForAHostLostInTheLastFrame) {
 
 TEST(ClusterHearing, AShowGoesOnOnlyFromAHostThatHasPlayedIt) {
   const auto l = lead();
-  l->hear(said(1, 9, 1, 5, static_cast<std::uint8_t>(Phase::Ready), 0, false, kShow));
+  l->receive(said(1, 9, 1, 5, static_cast<std::uint8_t>(Phase::Ready), 0, false, kShow));
   std::vector<std::uint8_t> bytes(10, 3);
   StatePart part{};
   part.to = kSession, part.session = kSession, part.size = 10;
   part.bytes._buffer = bytes.data(), part.bytes._length = part.bytes._maximum = 10;
-  l->hear(part);
+  l->receive(part);
   EXPECT_FALSE(l->takeOver());
   const auto other = lead();
-  other->hear(said(1, 9, 1, 5, static_cast<std::uint8_t>(Phase::Ready), 3, true, kShow));
-  other->hear(part);
+  other->receive(said(1, 9, 1, 5, static_cast<std::uint8_t>(Phase::Ready), 3, true, kShow));
+  other->receive(part);
   EXPECT_TRUE(other->takeOver());
 }
 
@@ -185,35 +185,35 @@ TEST(ClusterHearing, AShowOfAnotherScriptIsNotTakenOver) {
   StatePart part{};
   part.to = kSession, part.session = kSession, part.size = 10;
   part.bytes._buffer = bytes.data(), part.bytes._length = part.bytes._maximum = 10;
-  l->hear(said(1, 9, 1, 5, static_cast<std::uint8_t>(Phase::Ready), 3, true, kShow + 1));
-  l->hear(part);
+  l->receive(said(1, 9, 1, 5, static_cast<std::uint8_t>(Phase::Ready), 3, true, kShow + 1));
+  l->receive(part);
   EXPECT_FALSE(l->takeOver());
 }
 
 TEST(ClusterHearing, OfTwoProgramsOfOneNodeOneEnds) {
   const auto ready = static_cast<std::uint8_t>(Phase::Ready);
   const auto f = follower();  // its number is 7
-  f->hear(said(1, 9, 1, 0, 0, 0, false, 1));
+  f->receive(said(1, 9, 1, 0, 0, 0, false, 1));
   EXPECT_FALSE(f->hasDouble()) << "it came later: it is told the same of us, and ends";
-  f->hear(said(0, 6, 1, 0, 0, 0, false, 1));
+  f->receive(said(0, 6, 1, 0, 0, 0, false, 1));
   EXPECT_FALSE(f->hasDouble()) << "another node";
-  f->hear(said(1, 9, 2, 1, ready, 3, true, 1));
+  f->receive(said(1, 9, 2, 1, ready, 3, true, 1));
   EXPECT_TRUE(f->hasDouble()) << "it plays, we do not yet";
   EXPECT_FALSE(f->mustRejoin());
   const auto earlier = follower();
-  earlier->hear(said(1, 6, 1, 0, 0, 0, false, 1));
+  earlier->receive(said(1, 6, 1, 0, 0, 0, false, 1));
   EXPECT_TRUE(earlier->hasDouble()) << "it came before us";
   const auto l = lead();  // its number is kSession
   Session waiting = session(60, false);
   waiting.number = kSession - 1, waiting.over = true;
-  l->hear(waiting);
+  l->receive(waiting);
   EXPECT_FALSE(l->hasDouble());
   waiting.over = false;
-  l->hear(waiting);
+  l->receive(waiting);
   EXPECT_TRUE(l->hasDouble());
   const auto begun = lead();
   begun->begin(60);
-  begun->hear(waiting);
+  begun->receive(waiting);
   EXPECT_FALSE(begun->hasDouble()) << "it has not begun, we have";
 }
 
@@ -222,7 +222,7 @@ TEST(ClusterHearing, ALeaderTakenForDeadThatComesBackLeadsNoMore) {
   later.number = kSession + 1, later.resumes = kSession;
   const auto l = lead();
   l->begin(60);
-  l->hear(later);
+  l->receive(later);
   EXPECT_TRUE(l->hasDouble());
   FrameOrder order;
   order.signature = signatureAt(1, 60);
@@ -237,14 +237,14 @@ TEST(ClusterHearing, ALeaderTakenForDeadThatComesBackLeadsNoMore) {
   earlier.number = 3;
   const auto another = lead();
   another->begin(60);
-  another->hear(earlier);
+  another->receive(earlier);
   EXPECT_FALSE(another->hasDouble()) << "that one had not been heard of";
   const auto f = follower();
   later.begun = false;
-  f->hear(later);
-  f->hear(earlier);
+  f->receive(later);
+  f->receive(earlier);
   later.begun = true, later.over = true;
-  f->hear(later);
+  f->receive(later);
   EXPECT_FALSE(f->join()) << "it is in the later session, and that is over";
 }
 
@@ -256,7 +256,7 @@ TEST(ClusterHearing, AHostGoneBeforeTheNextGroupIsNotWaitedFor) {
     LeaderOptions options{room(), {1}, patience, [](const std::string&) {}, [] { return false; }};
     options.expected = expected;
     const auto l = ClusterLeader::unconnected(options, kSession);
-    if (isThere) l->hear(said(1, 9, 1, 0, 0, 0, false, kShow));
+    if (isThere) l->receive(said(1, 9, 1, 0, 0, 0, false, kShow));
     const auto begin = Clock::now();
     l->begin(60, [&](bool) { return hurry ? WaitDecision::Ends : WaitDecision::Lasts; });
     return Clock::now() - begin >= patience;
@@ -274,10 +274,10 @@ TEST(ClusterHearing, OnlyAHostTakenIntoTheShowHasPlayed) {
   EXPECT_EQ(l->played(), ~0U) << "there was no show before";
   const auto ready = static_cast<std::uint8_t>(Phase::Ready),
              waiting = static_cast<std::uint8_t>(Phase::Waiting);
-  l->hear(said(1, 9, 1, kSession, waiting, 0, false, kShow));
+  l->receive(said(1, 9, 1, kSession, waiting, 0, false, kShow));
   l->finish(false);
   EXPECT_EQ(l->played(), 0U) << "it waited, and was refused";
-  l->hear(said(1, 9, 2, kSession, ready, 0, false, kShow));
+  l->receive(said(1, 9, 2, kSession, ready, 0, false, kShow));
   l->finish(false);
   EXPECT_EQ(l->played(), 2U);
   l->left(1, 9);
@@ -310,7 +310,7 @@ TEST(ClusterHearing, ALeaderThatGivesUpWaitingHasBegunNothing) {
 TEST(ClusterHearing, WhatComesAfterASessionHasAHigherNumberWhateverTheClocksSay) {
   const auto l = lead();
   const auto ready = static_cast<std::uint8_t>(Phase::Ready);
-  l->hear(said(1, 9, 1, kSession + 77, ready, 3, false, kShow));
+  l->receive(said(1, 9, 1, kSession + 77, ready, 3, false, kShow));
   EXPECT_FALSE(l->takeOver());
   EXPECT_GT(l->session(), kSession + 77);
 }
@@ -324,14 +324,14 @@ TEST(ClusterHearing, OfAnotherClusterInTheSameNetworkItIsSaidThatThereIsOne) {
   const auto l = ClusterLeader::unconnected({room(), ours, std::chrono::seconds(0), tell, stop}, kSession);
   Session theirs = session(60, true);
   theirs.compatibility.cluster = 6;
-  l->hear(theirs);
+  l->receive(theirs);
   EXPECT_TRUE(l->hasDouble());
   EXPECT_NE(told.find("another cluster plays in the same network"), std::string::npos) << told;
   told.clear();
   const auto f = Follower::unconnected({room(), 1, ours, tell, stop}, 7);
   Presence beside = said(1, 6, 1, 0, 0, 0, false, 1);
   beside.cluster = 6;
-  f->hear(beside);
+  f->receive(beside);
   EXPECT_TRUE(f->hasDouble());
   EXPECT_NE(told.find("another cluster plays in the same network"), std::string::npos) << told;
 }
@@ -339,10 +339,10 @@ TEST(ClusterHearing, OfAnotherClusterInTheSameNetworkItIsSaidThatThereIsOne) {
 TEST(ClusterHearing, AHostThatLeavesIsNotMissed) {
   std::vector<std::string> told;
   const auto l = leadThatTells(told);
-  l->hear(said(1, 9, 1, kSession, static_cast<std::uint8_t>(Phase::Ready), 0, true, kShow));
+  l->receive(said(1, 9, 1, kSession, static_cast<std::uint8_t>(Phase::Ready), 0, true, kShow));
   l->begin(60);
   told.clear();
-  l->hear(said(1, 9, 2, kSession, static_cast<std::uint8_t>(Phase::Leaving), 0, true, kShow));
+  l->receive(said(1, 9, 2, kSession, static_cast<std::uint8_t>(Phase::Leaving), 0, true, kShow));
   l->left(1, 9);
   EXPECT_EQ(told, std::vector<std::string>{"left plays no longer; the others go on"});
 }
@@ -351,13 +351,13 @@ TEST(ClusterHearing, AFollowerAskedToEndAppliesNoFurtherOrder) {
   bool leaves = false;
   const auto f = Follower::unconnected(
       {room(), 1, {1}, [](const std::string&) {}, [] { return true; }, [&] { return leaves; }}, 7);
-  f->hear(session(60, false));
+  f->receive(session(60, false));
   ASSERT_TRUE(f->join());
   FrameOrder order;
   order.signature = signatureAt(0, 60);
   WrittenOrder written;
-  f->hear(written.write({1, 1, 3, 0}, order, nullptr));
-  f->hear(written.write({1, 2, 3, 0}, order, nullptr));
+  f->receive(written.write({1, 1, 3, 0}, order, nullptr));
+  f->receive(written.write({1, 2, 3, 0}, order, nullptr));
   EXPECT_TRUE(f->next());
   leaves = true;
   EXPECT_FALSE(f->next());
@@ -368,13 +368,13 @@ TEST(ClusterHearing, AHostBesideAMemberOfItsNameIsNoneUntilItAsks) {
   std::vector<std::string> told;
   const auto l = leadThatTells(told);
   const auto phase = [](Phase p) { return static_cast<std::uint8_t>(p); };
-  l->hear(said(1, 9, 1, kSession, phase(Phase::Ready), 0, true, kShow));
+  l->receive(said(1, 9, 1, kSession, phase(Phase::Ready), 0, true, kShow));
   l->begin(60);
   told.clear();
-  l->hear(said(1, 12, 1, 0, phase(Phase::Waiting), 0, false, 0));
-  l->hear(said(1, 9, 2, kSession, phase(Phase::Ready), 0, true, kShow));
+  l->receive(said(1, 12, 1, 0, phase(Phase::Waiting), 0, false, 0));
+  l->receive(said(1, 9, 2, kSession, phase(Phase::Ready), 0, true, kShow));
   EXPECT_EQ(told, std::vector<std::string>()) << "it may end at once";
-  l->hear(said(1, 12, 2, kSession, phase(Phase::Asking), 0, false, kShow));
+  l->receive(said(1, 12, 2, kSession, phase(Phase::Asking), 0, false, kShow));
   EXPECT_EQ(told, std::vector<std::string>{"left restarted; the others go on"});
 }
 
@@ -436,7 +436,7 @@ TEST(ClusterHearing, WhatAnotherMachineSaysIsNoCommandToATerminal) {
   Difference d{};
   d.node = 1, d.session = 1, d.frame = 3, d.found = true;
   d.where = where.data(), d.here = longText.data(), d.there = there.data();
-  lead->hear(d);
+  lead->receive(d);
   EXPECT_EQ(told.find('\x1b'), std::string::npos);
   EXPECT_LT(told.size(), 1000U);
 }

@@ -42,7 +42,7 @@ struct LevelRoom {
   }
   std::uint32_t levelOf(const InstanceRecord& r) const {
     LevelChoice levels(walls, meshes);
-    levels.look(viewer);
+    levels.setViewer(viewer);
     return levels.levelOf(r);
   }
 };

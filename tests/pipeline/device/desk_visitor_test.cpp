@@ -34,7 +34,7 @@ TEST(DeskVisitor, AFrozenHeadStaysWhileTheHandGoesWhereTheEyesWould) {
   Desk desk;
   desk.frames(2);
   desk.visitor.freezeHead(true);
-  desk.visitor.look(1, 0);
+  desk.visitor.turn(1, 0);
   desk.visitor.setStep({0, 1, 0});
   const InputSample later = desk.frames(60);
   EXPECT_EQ(later.trackers[kHead].X_RT.p, Vec3(0, 0, 1.7));
@@ -46,7 +46,7 @@ TEST(DeskVisitor, AHeadThatIsLetGoEasesToWhereItHasBeenTurnedMeanwhile) {
   Desk desk;
   desk.frames(2);
   desk.visitor.freezeHead(true);
-  desk.visitor.look(1, 0);
+  desk.visitor.turn(1, 0);
   desk.frames(10);
   desk.visitor.freezeHead(false);
   double before = 0;
@@ -62,12 +62,12 @@ TEST(DeskVisitor, AHeadThatIsLetGoEasesToWhereItHasBeenTurnedMeanwhile) {
 TEST(DeskVisitor, LooksAboutWhileTheShowStandsStill) {
   Desk desk;
   desk.frames(2);
-  desk.visitor.look(0.5, 0);
+  desk.visitor.turn(0.5, 0);
   InputSample still;
   ASSERT_TRUE(desk.visitor.sampleNow(still));
   EXPECT_NEAR(ahead(still, kHead).x(), std::sin(0.5), 1e-9);
   desk.visitor.freezeHead(true);
-  desk.visitor.look(0.5, 0);
+  desk.visitor.turn(0.5, 0);
   desk.visitor.sampleNow(still);
   EXPECT_NEAR(ahead(still, kHead).x(), std::sin(0.5), 1e-9) << "unless it is frozen";
 }
@@ -76,7 +76,7 @@ TEST(DeskVisitor, IsNoLongerFrozenWhenTheShowRestarts) {
   Desk desk;
   desk.frames(2);
   desk.visitor.freezeHead(true);
-  desk.visitor.look(0.5, 0);
+  desk.visitor.turn(0.5, 0);
   desk.visitor.restart();
   EXPECT_NEAR(ahead(desk.frames(1), kHead).x(), std::sin(0.5), 1e-9);
 }

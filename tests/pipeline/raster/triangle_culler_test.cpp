@@ -64,7 +64,7 @@ TEST(TriangleCuller, KeepsWhatMakesPixelsAndLittleElse) {
     TriangleCuller culler(static_cast<std::uint32_t>(width), static_cast<std::uint32_t>(height));
     const bool mirrored = round % 3 == 0, both = round % 5 == 0;
     const InstanceMatrix model = placed(somewhere(random, 2, 60, mirrored));
-    culler.look(eye);
+    culler.setView(eye);
     culler.place(mesh, model);
     const auto facing = both       ? TriangleCuller::Facing::Both
                         : mirrored ? TriangleCuller::Facing::Clockwise
@@ -114,7 +114,7 @@ TEST(TriangleCuller, FourAtATimeAndEightGiveTheSame) {
     const InstanceMatrix model = placed(somewhere(random, 0.5, 80, round % 2 == 0));
     for (TriangleCuller* culler : {&four, &eight}) {
       culler->clear();
-      culler->look(eye);
+      culler->setView(eye);
       culler->place(mesh, model);
       culler->keep(random.below(1), triangles - 3, TriangleCuller::Facing(round % 3));
     }
@@ -127,7 +127,7 @@ TEST(TriangleCuller, WhatReachesBehindTheEyeIsKeptWhole) {
   const CullerMesh mesh(*ball, ball->indices);
   const auto triangles = static_cast<std::uint32_t>(ball->indices.size() / 3);
   TriangleCuller culler(64, 48);
-  culler.look(test::lookAt(Vec3::Zero(), Vec3(0, 1, 0), 1.2, 1.5));
+  culler.setView(test::lookAt(Vec3::Zero(), Vec3(0, 1, 0), 1.2, 1.5));
   InstanceMatrix model = placed(Affine::Identity());
   culler.place(mesh, model);
   EXPECT_EQ(culler.keep(0, triangles, TriangleCuller::Facing::CounterClockwise).count, 3 * triangles);

@@ -43,8 +43,8 @@ struct Listener {
     scape.time = fromSeconds(seconds);
     scape.X_WH.p = Vec3(0, 0, 1);
     scape.sounds = std::move(sounds);
-    player->hear(scape, mix);
-    player->settle();
+    player->play(scape, mix);
+    player->waitUntilPlayed();
     return std::exchange(notes, {});
   }
   AssetRoots roots;
@@ -118,8 +118,8 @@ TEST(ThreadsSoundPlayer, WithoutADeviceItSaysSoOnceAndIsSilent) {
   for (int i = 0; i < 3; ++i) {
     SoundScape scape;
     scape.sounds = {thud(0)};
-    player.hear(scape, {});
-    player.settle();
+    player.play(scape, {});
+    player.waitUntilPlayed();
   }
   EXPECT_EQ(told, Notes{"sound: no device; the show is played silently"});
 }

@@ -18,7 +18,7 @@ TEST(AsyncLogWriter, ACallerDoesNotWaitForTheWriterAndEverythingIsWritten) {
       said.push_back(line);
     });
     const std::lock_guard lock(held);
-    for (const char* line : {"one", "two", "three"}) teller.tell(line);
+    for (const char* line : {"one", "two", "three"}) teller.write(line);
   }
   EXPECT_EQ(said, (std::vector<std::string>{"one", "two", "three"}));
 }
@@ -32,7 +32,7 @@ TEST(AsyncLogWriter, LinesWithoutAReaderAreKeptUpToALimit) {
       ++said;
     });
     const std::lock_guard lock(held);
-    for (int i = 0; i < 5000; ++i) teller.tell("again");
+    for (int i = 0; i < 5000; ++i) teller.write("again");
   }
   EXPECT_GE(said, 1000U);
   EXPECT_LE(said, 1001U);

@@ -22,9 +22,9 @@ Ends playJoypad(double rate) {
   options.script = testShow("joypad.evs"), options.walls = "desktop", options.size = "64x48";
   options.rate = rate, options.assetRoots = {assetFolder()};
   Diagnostics findings;
-  if (!options.settle(findings)) return ends;
+  if (!options.complete(findings)) return ends;
   const auto player = Player::create(options, findings);
-  tell(findings);
+  printFindings(findings);
   if (!player) return ends;
   const auto ball = [&](const char* name) {
     const Node* node = player->scene().find(player->scene().tree().resolve(name, {1, 0}));

@@ -78,9 +78,9 @@ PlayedKick playKick(const std::string& script, double rate, const std::string& i
   options.input = input;
   options.assetRoots = {assetFolder()};
   Diagnostics findings;
-  if (!options.settle(findings)) return played;
+  if (!options.complete(findings)) return played;
   const auto player = Player::create(options, findings);
-  tell(findings);
+  printFindings(findings);
   if (!player) return played;
   const std::vector<Vec3> corners = footCorners();
   ShowParts parts = player->parts(StereoLayout::Pair);

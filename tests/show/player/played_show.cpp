@@ -13,8 +13,8 @@ std::unique_ptr<Player> openShow(const std::string& script, const std::string& w
   options.assetRoots = {assetFolder()};
   Diagnostics findings;
   std::unique_ptr<Player> player;
-  if (options.settle(findings)) player = Player::create(options, findings);
-  tell(findings);
+  if (options.complete(findings)) player = Player::create(options, findings);
+  printFindings(findings);
   return player;
 }
 

@@ -29,8 +29,8 @@ std::unique_ptr<Player> openScript(const Script& script,
   options.appThreads = 1;
   Diagnostics findings;
   std::unique_ptr<Player> player;
-  if (options.settle(findings)) player = Player::create(options, findings);
-  tell(findings);
+  if (options.complete(findings)) player = Player::create(options, findings);
+  printFindings(findings);
   return player;
 }
 

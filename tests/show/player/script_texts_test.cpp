@@ -86,7 +86,7 @@ TEST_F(SavedScripts, AreToldOfWithTheirNameOnceTheyStayAsTheyAre) {
   folder_.write("part.evs", "timer( period=20 )\n");
   EXPECT_EQ(asked(watch_, said_), 2);
   EXPECT_EQ(said_, part_ + " was saved");
-  watch_.settle();
+  watch_.reset();
   EXPECT_EQ(asked(watch_, said_), 0);
 }
 
@@ -96,12 +96,12 @@ TEST_F(SavedScripts, ThatAreGoneAreToldOfAndWhenTheyAreBack) {
     fs::remove(file);
     EXPECT_EQ(asked(watch_, said_), ScriptWatch::kGoneFor + 1);
     EXPECT_EQ(said_, file + " is gone");
-    watch_.settle();
+    watch_.reset();
     EXPECT_EQ(asked(watch_, said_), 0) << "once is enough";
     folder_.write(fs::path(file).filename(), text);
     EXPECT_EQ(asked(watch_, said_), 2);
     EXPECT_EQ(said_, file + " was saved");
-    watch_.settle();
+    watch_.reset();
   }
 }
 

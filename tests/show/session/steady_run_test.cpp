@@ -76,8 +76,8 @@ std::optional<Asked> askedIn(const Way& way) {
   show.script = showOf(folder, way.look == Look::Full), show.walls = way.walls, show.size = "64x48";
   show.look = way.look, show.input = "none", show.assetRoots = {assetFolder()};
   Diagnostics findings;
-  const auto player = show.settle(findings) ? Player::create(show, findings) : nullptr;
-  tell(findings);
+  const auto player = show.complete(findings) ? Player::create(show, findings) : nullptr;
+  printFindings(findings);
   auto provider = openGlProvider(GlProviderKind::OsMesa);
   if (!player || !provider) return {};
   ShowParts parts = player->parts(StereoLayout::Pair);

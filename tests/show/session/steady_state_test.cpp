@@ -21,8 +21,8 @@ std::uint64_t allocationsOfApp(const std::string& script, const std::string& log
   options.input = log.empty() ? "none" : folder.write("visitor.input", "stadion-input 1\n" + log);
   options.assetRoots = {assetFolder()};
   Diagnostics findings;
-  const auto player = options.settle(findings) ? Player::create(options, findings) : nullptr;
-  tell(findings);
+  const auto player = options.complete(findings) ? Player::create(options, findings) : nullptr;
+  printFindings(findings);
   if (!player) return ADD_FAILURE() << "the show cannot be played", 0;
   ShowStages stages(player->parts(StereoLayout::Pair));
   Allocations before;
@@ -42,8 +42,8 @@ std::uint64_t allocationsOfDraw(const std::string& script, const std::string& lo
   options.script = script, options.walls = "desktop", options.size = "64x48", options.look = look;
   options.input = "none", options.assetRoots = {assetFolder()};
   Diagnostics findings;
-  const auto player = options.settle(findings) ? Player::create(options, findings) : nullptr;
-  tell(findings);
+  const auto player = options.complete(findings) ? Player::create(options, findings) : nullptr;
+  printFindings(findings);
   auto provider = openGlProvider(GlProviderKind::OsMesa);
   if (!player || !provider) return ADD_FAILURE() << "the show cannot be played", 0;
   ShowParts parts = player->parts(StereoLayout::Pair);

@@ -73,8 +73,8 @@ std::optional<Watched> watch(Look look, const std::string& walls, const Fate& fa
   show.walls = walls, show.size = "64x48", show.look = look, show.input = "none";
   show.assetRoots = {assetFolder()};
   Diagnostics findings;
-  const auto player = show.settle(findings) ? Player::create(show, findings) : nullptr;
-  tell(findings);
+  const auto player = show.complete(findings) ? Player::create(show, findings) : nullptr;
+  printFindings(findings);
   auto provider = openGlProvider(GlProviderKind::OsMesa);
   if (!player || !provider) return {};
   ShowParts parts = player->parts(StereoLayout::Pair);
