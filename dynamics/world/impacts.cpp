@@ -113,6 +113,41 @@ void Impacts::embedTip(RigidBody& b, ContactSide in, const Vec3& v, double tau) 
                Spin::still(b.orientation(tau)), std::numeric_limits<double>::infinity(), BodyMode::Stuck);
 }
 
+/// A touch of body `a` with another side, and what an impact there needs.
+struct Impacts::Collision {
+  const Touch& touch;  ///< its normal points to `a`
+  ContactSide pa, pb;
+  double tau;  ///< [s]
+  RigidBody& a;
+  RigidBody* b;  ///< the other side: exactly one of these two
+  Collider* c;
+  SolverBody ma, mb;  ///< receive the impulse
+  Vec3 n, x;          ///< normal and point
+  double closing;     ///< speed along the normal [m/s]
+  ContactMemory::Key key;
+  Vec3 outwards;  ///< the normal, as the key orders the two
+  bool awaited;   ///< the release of the pair is awaited
+
+  bool movable() const { return a.movable() || (b && b->movable()); }
+  bool embeds() const { return a.embedding && c && !c->motion.moving && embedsTip(a, x, n, closing, tau); }
+};
+
+Impacts::Collision Impacts::collisionOf(const Touch& touch, ContactSide pa, ContactSide pb,
+                                        double tau) const {
+  RigidBody& a = *objects_.body(pa.id);
+  RigidBody* b = pb.isBody ? objects_.body(pb.id) : nullptr;
+  Collider* c = pb.isBody ? nullptr : objects_.collider(pb.id);
+  const SolverBody ma = solverBodyOf(a, tau), mb = b ? solverBodyOf(*b, tau) : solverBodyOf(*c, tau);
+  const Vec3 n = touch.gap.normal;
+  // What presses a ball at its middle does not turn it, not even by rounding.
+  const Vec3 x = a.centred ? Vec3(ma.p - (a.radius() + touch.gap.distance) * n) : touch.gap.point;
+  const double closing = -(ma.velocityAt(x) - mb.velocityAt(x)).dot(n);
+  const ContactMemory::Key key = ContactMemory::keyOf(pa, pb);
+  const Vec3 outwards = key.second == pa.id ? n : Vec3(-n);
+  const bool awaited = std::isfinite((key.second == pa.id ? a : *b).releaseDistance);
+  return {touch, pa, pb, tau, a, b, c, ma, mb, n, x, closing, key, outwards, awaited};
+}
+
 void Impacts::onTouch(const Touch& touch, ContactSide pa, ContactSide pb, double tau) {
   if (!pa.isBody) {
     std::swap(pa, pb);
@@ -121,91 +156,114 @@ void Impacts::onTouch(const Touch& touch, ContactSide pa, ContactSide pb, double
     onTouch(t, pa, pb, tau);
     return;
   }
-  RigidBody& a = *objects_.body(pa.id);
-  RigidBody* b = pb.isBody ? objects_.body(pb.id) : nullptr;
-  Collider* c = pb.isBody ? nullptr : objects_.collider(pb.id);
+  Collision at = collisionOf(touch, pa, pb, tau);
   ++counters_.impacts;
-  countImpact(a, tau);
-  if (b) countImpact(*b, tau);
-  SolverBody ma = solverBodyOf(a, tau), mb = b ? solverBodyOf(*b, tau) : solverBodyOf(*c, tau);
-  const Vec3 n = touch.gap.normal;
-  // What presses a ball at its middle does not turn it, not even by rounding.
-  const Vec3 x = a.centred ? Vec3(ma.p - (a.radius() + touch.gap.distance) * n) : touch.gap.point;
-  const double closing = -(ma.velocityAt(x) - mb.velocityAt(x)).dot(n);
-  const ContactMemory::Key key = ContactMemory::keyOf(pa, pb);
-  const Vec3 outwards = key.second == pa.id ? n : Vec3(-n);
-  const bool awaited = std::isfinite((key.second == pa.id ? a : *b).releaseDistance);
-  if (awaited) releases_.releaseBefore(key, tau);
-  if (!a.movable() && !(b && b->movable())) {
-    ContactMemory::Waiting* waiting =
-        memory_.impact(key, time_.timeAt(tau), x, outwards, closing, 0, time_.frame(), awaited);
-    memory_.setTouching(key, true);
-    if (waiting) releases_.foreseeRelease(*waiting, tau, touch.gap.triangle);
-    return;
-  }
-  if (a.embedding && c && !c->motion.moving && embedsTip(a, x, n, closing, tau)) {
-    const Vec3 way = ma.velocityAt(x);
-    const double impulse = collide(ma, mb, x, n, 0, 0).dot(n);
-    ContactMemory::Waiting* waiting =
-        memory_.impact(key, time_.timeAt(tau), x, outwards, closing, impulse, time_.frame(), awaited);
-    embedTip(a, pb, way, tau);
-    if (waiting) releases_.foreseeRelease(*waiting, tau, touch.gap.triangle);
-    return;
-  }
-  const PairSurface pair = combine(a.surface, objects_.surfaceOf(pb));
-  // What presses the two together while neither is carried by something else.
-  const auto pull = [&](const RigidBody& body) {
-    if (body.mode == BodyMode::Flight && body.path.isParabola()) return Vec3(2 * body.path.c[2]);
-    return body.mode == BodyMode::Flight || body.mode == BodyMode::Slide || body.mode == BodyMode::Roll
-               ? Vec3(fields_.accelerationAt(body, body.position(tau), body.velocity(tau), tau))
-               : Vec3(Vec3::Zero());
-  };
-  const double press = -n.dot(pull(a) - (b ? pull(*b) : Vec3(Vec3::Zero())));
-  const double rebound = pair.restitution * std::max(closing, 0.0);
+  countImpact(at.a, tau);
+  if (at.b) countImpact(*at.b, tau);
+  if (at.awaited) releases_.releaseBefore(at.key, tau);
+  if (!at.movable())
+    touchImmovable(at);
+  else if (at.embeds())
+    embed(at);
+  else
+    bounce(at);
+}
 
+ContactMemory::Waiting* Impacts::record(const Collision& at, const Vec3& x, double impulse) {
+  return memory_.impact(at.key, time_.timeAt(at.tau), x, at.outwards, at.closing, impulse, time_.frame(),
+                        at.awaited);
+}
+
+/// Neither side moves by an impulse.
+void Impacts::touchImmovable(const Collision& at) {
+  ContactMemory::Waiting* waiting = record(at, at.x, 0);
+  memory_.setTouching(at.key, true);
+  if (waiting) releases_.foreseeRelease(*waiting, at.tau, at.touch.gap.triangle);
+}
+
+/// The tip of `a` goes into the other side.
+void Impacts::embed(Collision& at) {
+  const Vec3 v = at.ma.velocityAt(at.x);
+  const double impulse = collide(at.ma, at.mb, at.x, at.n, 0, 0).dot(at.n);
+  ContactMemory::Waiting* waiting = record(at, at.x, impulse);
+  embedTip(at.a, at.pb, v, at.tau);
+  if (waiting) releases_.foreseeRelease(*waiting, at.tau, at.touch.gap.triangle);
+}
+
+/// Returns what accelerates the body while nothing carries it [m/s2].
+Vec3 Impacts::pullOn(const RigidBody& body, double tau) const {
+  if (body.mode == BodyMode::Flight && body.path.isParabola()) return Vec3(2 * body.path.c[2]);
+  return body.mode == BodyMode::Flight || body.mode == BodyMode::Slide || body.mode == BodyMode::Roll
+             ? Vec3(fields_.accelerationAt(body, body.position(tau), body.velocity(tau), tau))
+             : Vec3(Vec3::Zero());
+}
+
+/// Decides whether this impact is the last one: the next bounce would be too low, or there were too many.
+Impacts::Rebound Impacts::reboundOf(const Collision& at, double restitution) {
+  const RigidBody &a = at.a, *b = at.b;
+  const double press = -at.n.dot(pullOn(a, at.tau) - (b ? pullOn(*b, at.tau) : Vec3(Vec3::Zero())));
+  const double speed = restitution * std::max(at.closing, 0.0);
   // A ball that rolls into the next face of its mesh goes on there, unless it rocks in a fold.
   const bool rolls = (a.mode == BodyMode::Slide || a.mode == BodyMode::Roll) && a.support.on.id &&
-                     a.support.on == pb && a.impacts <= kMostFolds;
-  const bool onFace = c && (a.mode == BodyMode::Flight || rolls) && carries(a, *c, touch.gap);
+                     a.support.on == at.pb && a.impacts <= kMostFolds;
+  const bool onFace = at.c && (a.mode == BodyMode::Flight || rolls) && carries(a, *at.c, at.touch.gap);
   const double last = std::max(onFace ? kLastBounce : kLastRattle, search_.tolerance());
-  std::uint32_t most = pair.restitution < 1 ? kMostImpacts : kMostElastic;
-  if (pair.restitution < 0.6)
-    most = b && foresight_.ballsAround(a, tau) + 1 >= kPileOfBalls ? kMostInThick : kMostRattles;
+  std::uint32_t most = restitution < 1 ? kMostImpacts : kMostElastic;
+  if (restitution < 0.6)
+    most = b && foresight_.ballsAround(a, at.tau) + 1 >= kPileOfBalls ? kMostInThick : kMostRattles;
   const bool tired = a.impacts > (onFace ? kMostBounces : most) || (b && b->impacts > most);
-  const bool ends = tired || (press > 0 && rebound * rebound <= 2 * press * last);
   if (tired) ++counters_.dampedBounces;
-  const double restitution = ends ? 0 : pair.restitution;
+  const bool ends = tired || (press > 0 && speed * speed <= 2 * press * last);
+  return {ends ? 0 : restitution, onFace, ends};
+}
+
+/// Applies the impulse, and lets both sides go on.
+void Impacts::bounce(Collision& at) {
+  const PairSurface pair = combine(at.a.surface, objects_.surfaceOf(at.pb));
+  const Rebound rebound = reboundOf(at, pair.restitution);
   std::optional<PatchImpact> patch;
   std::vector<PatchSide> others;
-  if (!a.isBall() && !(b && b->isBall())) {
-    if (c) others = surfaces_.struckBeside(a, *c, tau, ends);
-    patch = collidePatch(Side::of(a), *objects_.side(pb), tau, touch.gap, ma, mb, restitution, pair.friction,
-                         others);
+  if (!at.a.isBall() && !(at.b && at.b->isBall())) {
+    if (at.c) others = surfaces_.struckBeside(at.a, *at.c, at.tau, rebound.ends);
+    patch = collidePatch(Side::of(at.a), *objects_.side(at.pb), at.tau, at.touch.gap, at.ma, at.mb,
+                         rebound.restitution, pair.friction, others);
   }
-  const Vec3 impulse = patch ? patch->impulse : collide(ma, mb, x, n, restitution, pair.friction);
-  ContactMemory::Waiting* waiting = memory_.impact(key, time_.timeAt(tau), patch ? patch->middle : x,
-                                                   outwards, closing, impulse.dot(n), time_.frame(), awaited);
-  if (Support face; onFace && ends && supportFor(a, *c, touch.gap, face) && !face.ends(ma.p, ma.v)) {
-    BallStart s{ma.p, ma.v, ma.omega, ma.q};
-    s.v -= n * n.dot(s.v);
-    if (std::fabs(touch.gap.distance) < std::max(kExact, search_.tolerance())) s.p -= touch.gap.distance * n;
-    a.support = face;
-    arcs_.startOnFace(a, tau, s, false, false);
-    foresight_.predict(a, tau);
-    return;
-  }
-  if (ends) memory_.setTouching(key, true);
-  afterImpulse(a, ma, tau, ends);
-  if (b) afterImpulse(*b, mb, tau, ends);
-  if (waiting) releases_.foreseeRelease(*waiting, tau, touch.gap.triangle);
+  const Vec3 impulse =
+      patch ? patch->impulse : collide(at.ma, at.mb, at.x, at.n, rebound.restitution, pair.friction);
+  ContactMemory::Waiting* waiting = record(at, patch ? patch->middle : at.x, impulse.dot(at.n));
+  if (rebound.onFace && rebound.ends && landOnFace(at)) return;
+  if (rebound.ends) memory_.setTouching(at.key, true);
+  afterImpulse(at.a, at.ma, at.tau, rebound.ends);
+  if (at.b) afterImpulse(*at.b, at.mb, at.tau, rebound.ends);
+  if (waiting) releases_.foreseeRelease(*waiting, at.tau, at.touch.gap.triangle);
+  if (patch) recordBeside(at, others, rebound.ends);
+}
+
+/// Starts a ball on the face that it has met. Returns false if the face does not carry it.
+bool Impacts::landOnFace(const Collision& at) {
+  Support face;
+  if (!supportFor(at.a, *at.c, at.touch.gap, face) || face.ends(at.ma.p, at.ma.v)) return false;
+  const double distance = at.touch.gap.distance;
+  BallStart s{at.ma.p, at.ma.v, at.ma.omega, at.ma.q};
+  s.v -= at.n * at.n.dot(s.v);
+  if (std::fabs(distance) < std::max(kExact, search_.tolerance())) s.p -= distance * at.n;
+  at.a.support = face;
+  arcs_.startOnFace(at.a, at.tau, s, false, false);
+  foresight_.predict(at.a, at.tau);
+  return true;
+}
+
+/// Records the impacts on surfaces that `a` has struck together with the first one.
+void Impacts::recordBeside(const Collision& at, const std::vector<PatchSide>& others, bool lasting) {
   for (const PatchSide& part : others) {
-    if (!patch || !(part.closing > 0)) continue;
-    const ContactMemory::Key other = ContactMemory::keyOf(part.side.key, pa);
-    if (awaited) releases_.releaseBefore(other, tau);
-    waiting = memory_.impact(other, time_.timeAt(tau), part.middle, n, part.closing, part.impulse.dot(n),
-                             time_.frame(), awaited);
-    if (ends) memory_.setTouching(other, true);
-    if (waiting) releases_.foreseeRelease(*waiting, tau, -1);
+    if (!(part.closing > 0)) continue;
+    const ContactMemory::Key other = ContactMemory::keyOf(part.side.key, at.pa);
+    if (at.awaited) releases_.releaseBefore(other, at.tau);
+    ContactMemory::Waiting* waiting =
+        memory_.impact(other, time_.timeAt(at.tau), part.middle, at.n, part.closing, part.impulse.dot(at.n),
+                       time_.frame(), at.awaited);
+    if (lasting) memory_.setTouching(other, true);
+    if (waiting) releases_.foreseeRelease(*waiting, at.tau, -1);
   }
 }
 

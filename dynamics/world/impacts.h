@@ -23,6 +23,22 @@ public:
   void afterImpulse(RigidBody& b, const SolverBody& m, double tau, bool lasting);
 
 private:
+  struct Collision;
+  struct Rebound {
+    double restitution;
+    bool onFace;  ///< a face may carry the ball from now on
+    bool ends;    ///< the two stay in contact
+  };
+
+  Collision collisionOf(const Touch& touch, ContactSide pa, ContactSide pb, double tau) const;
+  ContactMemory::Waiting* record(const Collision& at, const Vec3& x, double impulse);
+  void touchImmovable(const Collision& at);
+  void embed(Collision& at);
+  Vec3 pullOn(const RigidBody& body, double tau) const;
+  Rebound reboundOf(const Collision& at, double restitution);
+  void bounce(Collision& at);
+  bool landOnFace(const Collision& at);
+  void recordBeside(const Collision& at, const std::vector<PatchSide>& others, bool lasting);
   void countImpact(RigidBody& b, double tau) const;
   void embedTip(RigidBody& b, ContactSide in, const Vec3& v, double tau);
   void strikeInPile(RigidBody& b, const SolverBody& m, double tau);
