@@ -3,14 +3,16 @@
 #include "cli/options/command_programs.h"
 #include "cli/options/option_table.h"
 #include "engine/base/installed_files.h"
+#include "pipeline/platform/child_process.h"
 #include "show/base/version.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <cstdio>
+#include <chrono>
 #include <map>
+#include <sstream>
 #include <stdexcept>
 #include <vector>
 
@@ -59,28 +61,33 @@ std::string usesOf(const CLI::App& program) {
   return text;
 }
 
-/// Those of another program. Throws if it has not been built.
+/// Returns the uses of another program's options. Throws if it has not been built.
 std::string usesOfProgram(const std::string& program) {
-  const std::string line = fmt::format("'{}' manual uses 2>/dev/null", helperProgram(program).string());
-  std::FILE* other = popen(line.c_str(), "r");
-  std::string text;
-  char block[4096];
-  while (const std::size_t size = other ? std::fread(block, 1, sizeof block, other) : 0)
-    text.append(block, size);
-  if (!other || pclose(other) != 0)
+  constexpr std::size_t kMostBytes = 4 << 20;
+  const FileDescriptor out = makeMemoryFile();
+  ChildProcess other;
+  const bool starts = !other.start({helperProgram(program).string(), "manual", "uses"}, {-1, out.get(), -1});
+  if (!starts || other.wait(std::chrono::minutes(1)) != 0)
     throw std::runtime_error(
         fmt::format("the options of {} cannot be listed, because it does not start; in a checkout, "
                     "`./stadion plan --help` and `./stadion bench --help` build what is missing",
                     program));
-  return text;
+  return contentOf(out, kMostBytes);
+}
+
+/// Returns the parts of a text between separators.
+std::vector<std::string> partsOf(const std::string& text, char separator) {
+  std::vector<std::string> parts;
+  std::istringstream in(text);
+  for (std::string part; std::getline(in, part, separator);) parts.push_back(part);
+  return parts;
 }
 
 /// The commands whose help shows each option.
 std::map<std::string, std::vector<std::string>> commandsByOption(const std::string& uses) {
   std::map<std::string, std::vector<std::string>> commands;
-  for (const std::string& line : CLI::detail::split(uses, '\n'))
-    if (const std::vector<std::string> parts = CLI::detail::split(line, '\t');
-        parts.size() == 4 && parts[3] == "shown")
+  for (const std::string& line : partsOf(uses, '\n'))
+    if (const std::vector<std::string> parts = partsOf(line, '\t'); parts.size() == 4 && parts[3] == "shown")
       commands[parts[0]].push_back(parts[1]);
   return commands;
 }
@@ -224,7 +231,7 @@ std::string valuesOf(const CLI::Option& option, const OptionRow& row, const std:
   if (row.value.kind == OptionValueKind::File) return ":files\n";
   if (row.value.kind == OptionValueKind::Folder) return ":folders\n";
   std::vector<std::string> words;
-  for (const std::string& word : CLI::detail::split(option.get_type_name(), '|'))
+  for (const std::string& word : partsOf(option.get_type_name(), '|'))
     if (hasWord(row.value.words, word)) words.push_back(word);
   return beginningWith(typed, words);
 }
