@@ -132,13 +132,113 @@ std::string unwritable(const WallsSetting& s) {
   return {};
 }
 
-Result<nlohmann::json> measureWalls(const WallsSetting& s, const std::string& folder) {
+namespace {
+
+ShowOptions showOf(const WallsSetting& s, const std::string& folder) {
   ShowOptions show;
-  show.script = folder + "/show.evs", show.walls = folder + "/room.walls",
+  show.script = folder + "/show.evs";
+  show.walls = folder + "/room.walls";
   show.input = folder + "/show.input";
-  show.mode = s.mode, show.look = Look::Plain;
+  show.mode = s.mode;
+  show.look = Look::Plain;
   show.size = std::to_string(s.width) + "x" + std::to_string(s.height);
   show.frames = s.warm + s.frames + 1;
+  return show;
+}
+
+ShowParts showPartsOf(const WallsSetting& s, Player& player, ShowRenderer& renderer) {
+  ShowParts parts = player.parts(StereoLayout::Pair);
+  if (s.kind == "STRICT") {
+    parts.quality.mostAtOnce = 1;
+    parts.quality.leavesOutUnseen = false;
+  }
+  if (s.without == "unseen") parts.quality.leavesOutUnseen = false;
+  if (s.without == "small") parts.quality.drawsSmallObjects = false;
+  if (s.workers == "process") parts.workers = WallWorkers{renderer.kind()};
+  renderer.drawFor(parts);
+  return parts;
+}
+
+/// Returns the latency of each measured frame: that of its slowest wall [ms].
+std::vector<double> worstLatency(const FrameTimes& times, const WallsSetting& s) {
+  std::vector<double> latency;
+  for (std::size_t i = 0; i < s.frames; ++i) {
+    double worst = 0;
+    for (const DurationSeries& wall : times.latency)
+      if (s.warm + i < wall.values().size()) worst = std::max(worst, wall.values()[s.warm + i]);
+    latency.push_back(worst);
+  }
+  return latency;
+}
+
+void addSetting(const WallsSetting& s, ShowRenderer& renderer, nlohmann::json& to) {
+  const char* lp = std::getenv("LP_NUM_THREADS");
+  to.update({{"engine", "stadion"},
+             {"class", s.kind},
+             {"without", s.without},
+             {"backend", nameOf(renderer.kind())},
+             {"scene", s.scene},
+             {"flat", s.flat ? 1 : 0},
+             {"walls", s.walls},
+             {"eyes", 2},
+             {"width", s.width},
+             {"height", s.height},
+             {"mode", nameOf(s.mode)},
+             {"wall_workers", s.workers},
+             {"frames_under_way", s.mostInFlight},
+             {"lp_threads", lp ? lp : "default"},
+             {"draw_threads", renderer.threads()},
+             {"pace", s.pace},
+             {"frames", s.frames}});
+}
+
+void addTimes(const WallsSetting& s, const FrameTimes& times, nlohmann::json& to) {
+  const double views = 2 * static_cast<double>(s.walls);
+  const std::vector<double> period = measured(times.period, s), latency = worstLatency(times, s);
+  const double cull = medianOfSums(times.cull, s), draw = medianOfSums(times.draw, s);
+  to.update({{"frame_ms_median", percentile(period, 50)},
+             {"frame_ms_p95", percentile(period, 95)},
+             {"frame_ms_p99", percentile(period, 99)},
+             {"frame_ms_max", percentile(period, 100)},
+             {"latency_ms_median", percentile(latency, 50)},
+             {"latency_ms_p95", percentile(latency, 95)},
+             {"latency_ms_p99", percentile(latency, 99)},
+             {"app_ms", percentile(measured(times.app, s), 50)},
+             {"cull_ms_per_view", cull / views},
+             {"draw_ms_per_view", draw / views},
+             {"cull_ms_sum", cull},
+             {"draw_ms_sum", draw}});
+}
+
+void addProcessorTime(const WallsSetting& s, const CompletedFrames& completed, nlohmann::json& to) {
+  const double took = seconds(completed.end - completed.begin);
+  const double processor = completed.processorEnd - completed.processorBegin;
+  const auto frames = static_cast<double>(s.frames);
+  to.update({{"fps", frames / took},
+             {"cpu_cores", processor / took},
+             {"cpu_ms_per_frame", 1e3 * processor / frames}});
+}
+
+void addCounts(const WallsSetting& s, const ShowStages& stages, nlohmann::json& to) {
+  nlohmann::json counts = nlohmann::json::array();
+  double draws = 0, triangles = 0;
+  for (std::size_t wall = 0; wall < s.walls; ++wall)
+    for (const DrawTotals& eye : std::span(stages.drawn(wall)).first(kEyes.size())) {
+      const double n = std::max(1.0, static_cast<double>(eye.frames));
+      counts.push_back(std::llround(static_cast<double>(eye.calls) / n));
+      draws += static_cast<double>(eye.calls) / n;
+      triangles += static_cast<double>(eye.triangles) / n;
+    }
+  to.update({{"renderer", stages.drawnBy()},
+             {"draws_per_frame", draws},
+             {"tris_per_frame", triangles},
+             {"draws_per_view", counts}});
+}
+
+}  // namespace
+
+Result<nlohmann::json> measureWalls(const WallsSetting& s, const std::string& folder) {
+  ShowOptions show = showOf(s, folder);
   Diagnostics findings;
   const auto wrong = [&](const std::string& what) {
     printFindings(findings);
@@ -151,14 +251,9 @@ Result<nlohmann::json> measureWalls(const WallsSetting& s, const std::string& fo
   if (!player) return wrong("the show cannot be played");
   LastPictures pictures(s, player->walls().names());
   CompletedFrames completed;
-  ShowParts parts = player->parts(StereoLayout::Pair);
+  ShowParts parts = showPartsOf(s, *player, *renderer.value());
   parts.sink = &pictures;
-  if (s.kind == "STRICT") parts.quality.mostAtOnce = 1, parts.quality.leavesOutUnseen = false;
-  if (s.without == "unseen") parts.quality.leavesOutUnseen = false;
-  if (s.without == "small") parts.quality.drawsSmallObjects = false;
   parts.shown = [&] { completed.add(s); };
-  if (s.workers == "process") parts.workers = WallWorkers{renderer.value()->kind()};
-  renderer.value()->drawFor(parts);
   ShowStages stages(std::move(parts));
   const std::atomic<bool> never = false;
   FrameLoopOptions options = player->loopOptions();
@@ -168,68 +263,13 @@ Result<nlohmann::json> measureWalls(const WallsSetting& s, const std::string& fo
   const FrameLoopOutcome outcome = loop.run();
   if (outcome.failure) return wrong(outcome.failure->message);
 
-  const double memory = memoryMb(), held = heldMb(*player);
-  const FrameTimes& times = loop.times();
-  const double took = seconds(completed.end - completed.begin);
-  const double processor = completed.processorEnd - completed.processorBegin;
-  const auto frames = static_cast<double>(s.frames), views = 2 * static_cast<double>(s.walls);
-  const std::vector<double> period = measured(times.period, s);
-  std::vector<double> latency;
-  for (std::size_t i = 0; i < s.frames; ++i) {
-    double worst = 0;
-    for (const DurationSeries& wall : times.latency)
-      if (s.warm + i < wall.values().size()) worst = std::max(worst, wall.values()[s.warm + i]);
-    latency.push_back(worst);
-  }
-  nlohmann::json counts = nlohmann::json::array();
-  double draws = 0, triangles = 0;
-  for (std::size_t wall = 0; wall < s.walls; ++wall)
-    for (const DrawTotals& eye : std::span(stages.drawn(wall)).first(kEyes.size())) {
-      const double n = std::max(1.0, static_cast<double>(eye.frames));
-      counts.push_back(std::llround(static_cast<double>(eye.calls) / n));
-      draws += static_cast<double>(eye.calls) / n, triangles += static_cast<double>(eye.triangles) / n;
-    }
-  const double cull = medianOfSums(times.cull, s), draw = medianOfSums(times.draw, s);
-  const char* lp = std::getenv("LP_NUM_THREADS");
-  return nlohmann::json{{"engine", "stadion"},
-                        {"class", s.kind},
-                        {"without", s.without},
-                        {"backend", nameOf(renderer.value()->kind())},
-                        {"renderer", stages.drawnBy()},
-                        {"scene", s.scene},
-                        {"flat", s.flat ? 1 : 0},
-                        {"walls", s.walls},
-                        {"eyes", 2},
-                        {"width", s.width},
-                        {"height", s.height},
-                        {"mode", nameOf(s.mode)},
-                        {"wall_workers", s.workers},
-                        {"frames_under_way", s.mostInFlight},
-                        {"lp_threads", lp ? lp : "default"},
-                        {"draw_threads", renderer.value()->threads()},
-                        {"pace", s.pace},
-                        {"frames", s.frames},
-                        {"fps", frames / took},
-                        {"frame_ms_median", percentile(period, 50)},
-                        {"frame_ms_p95", percentile(period, 95)},
-                        {"frame_ms_p99", percentile(period, 99)},
-                        {"frame_ms_max", percentile(period, 100)},
-                        {"latency_ms_median", percentile(latency, 50)},
-                        {"latency_ms_p95", percentile(latency, 95)},
-                        {"latency_ms_p99", percentile(latency, 99)},
-                        {"app_ms", percentile(measured(times.app, s), 50)},
-                        {"cull_ms_per_view", cull / views},
-                        {"draw_ms_per_view", draw / views},
-                        {"cull_ms_sum", cull},
-                        {"draw_ms_sum", draw},
-                        {"cpu_cores", processor / took},
-                        {"cpu_ms_per_frame", 1e3 * processor / frames},
-                        {"memory_mb", memory},
-                        {"held_mb", held},
-                        {"incomplete", incompleteFrames(outcome, stages, s.walls, show.frames)},
-                        {"draws_per_frame", draws},
-                        {"tris_per_frame", triangles},
-                        {"draws_per_view", counts}};
+  nlohmann::json result{{"memory_mb", memoryMb()}, {"held_mb", heldMb(*player)}};
+  addSetting(s, *renderer.value(), result);
+  addTimes(s, loop.times(), result);
+  addProcessorTime(s, completed, result);
+  addCounts(s, stages, result);
+  result["incomplete"] = incompleteFrames(outcome, stages, s.walls, show.frames);
+  return result;
 }
 
 nlohmann::json measureTicks(std::uint64_t frames) {

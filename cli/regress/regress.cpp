@@ -114,6 +114,62 @@ void refuseOverwriting(const RegressOptions& o, const std::vector<regression::Su
   refuseOverwriting(shows, files, findings);
 }
 
+regression::SuiteResult emptyResult(const RegressOptions& o, const RegressReference& with) {
+  const std::string reference = !o.against.empty() ? o.against : with.baseline ? o.baseline : "";
+  return {o.suite, o.program, reference, nowUtc(), {}};
+}
+
+/// Plays the cases that the folder does not have yet, until `stop` is true. Returns false if the folder cannot
+/// keep a result.
+bool playSuite(const RegressOptions& o, const regression::Suite& suite, const RegressReference& with,
+               RegressFolder& folder, const std::atomic<bool>& stop, regression::Baseline* updated,
+               regression::SuiteResult& result) {
+  const bool watched = isatty(2) == 1;
+  const auto progress = [watched](const std::string& what) {
+    if (watched) std::fprintf(stderr, "\r\x1b[K%s", what.c_str());
+  };
+  for (const regression::SuiteCase& c : suite.cases) {
+    const auto done = folder.done().find(c.name);
+    const bool isDone = done != folder.done().end();
+    const auto results = isDone ? done->second : playCase(c, o.settings(), with, updated, stop, progress);
+    if (stop) break;
+    if (!o.out.empty() && !isDone && !folder.note(c.name, results)) return false;
+    for (const regression::CaseResult& r : results) result.add(r);
+  }
+  progress("");
+  return true;
+}
+
+int stoppedBySignal(const RegressOptions& o) {
+  std::fprintf(stderr, "stadion: stopped by %s%s\n", stopSignalName(),
+               o.out.empty() ? "" : "; with --resume the suite goes on where it was");
+  return kStopped + stopSignal();
+}
+
+/// Writes the new baseline if all cases could be played. Returns false if it cannot be written.
+bool writeBaseline(const RegressOptions& o, const regression::SuiteResult& result,
+                   const regression::Baseline& updated, const std::vector<std::string>& gone, Output& file) {
+  if (result.faults() > 0) {
+    std::fprintf(stderr, "%s stays as it was: not all cases could be played\n", o.baseline.c_str());
+    return true;
+  }
+  if (!file.write(regression::toJson(updated))) return false;
+  tellGone(gone, o);
+  std::fprintf(stderr, "wrote %s\n", o.baseline.c_str());
+  return true;
+}
+
+/// Says why a suite without faults was not compared.
+void printLackOfReference(const RegressOptions& o, const regression::SuiteResult& result, bool hasReference) {
+  if (result.faults() == 0 && !result.compared())
+    std::fprintf(stderr, "stadion: error: nothing was compared%s\n",
+                 hasReference ? "; the table says why" : "");
+  if (!hasReference)
+    std::fprintf(
+        stderr, "stadion: error: there is no baseline %s: --update writes it, --against BUILD does without\n",
+        o.baseline.c_str());
+}
+
 int regress(RegressOptions o) {
   Diagnostics findings;
   RegressReference with;
@@ -137,53 +193,17 @@ int regress(RegressOptions o) {
   regression::Baseline updated;
   if (o.update && with.baseline) updated = std::move(*std::exchange(with.baseline, std::nullopt));
   for (const std::string& name : gone) updated.erase(name);
-  regression::SuiteResult result{o.suite,
-                                 o.program,
-                                 !o.against.empty() ? o.against
-                                 : with.baseline    ? o.baseline
-                                                    : "",
-                                 nowUtc(),
-                                 {}};
-  const bool watched = isatty(2) == 1;
-  const auto progress = [watched](const std::string& what) {
-    if (watched) std::fprintf(stderr, "\r\x1b[K%s", what.c_str());
-  };
-  for (const regression::SuiteCase& c : suite->cases) {
-    const auto done = folder.done().find(c.name);
-    const auto results = done != folder.done().end()
-                             ? done->second
-                             : playCase(c, o.settings(), with, o.update ? &updated : nullptr, stop, progress);
-    if (stop) break;
-    if (!o.out.empty() && done == folder.done().end() && !folder.note(c.name, results)) return kBadInput;
-    for (const regression::CaseResult& r : results) result.add(r);
-  }
-  progress("");
-  if (stop) {
-    std::fprintf(stderr, "stadion: stopped by %s%s\n", stopSignalName(),
-                 o.out.empty() ? "" : "; with --resume the suite goes on where it was");
-    return kStopped + stopSignal();
-  }
+  regression::SuiteResult result = emptyResult(o, with);
+  if (!playSuite(o, *suite, with, folder, stop, o.update ? &updated : nullptr, result)) return kBadInput;
+  if (stop) return stoppedBySignal(o);
 
   bool written = o.out.empty() || folder.finish(result);
   if (!o.out.empty() && written) std::fprintf(stderr, "wrote %s/report.html\n", o.out.c_str());
-  if (o.update && result.faults() == 0) {
-    const bool well = baseline.write(regression::toJson(updated));
-    if (well) tellGone(gone, o), std::fprintf(stderr, "wrote %s\n", o.baseline.c_str());
-    written = written && well;
-  } else if (o.update) {
-    std::fprintf(stderr, "%s stays as it was: not all cases could be played\n", o.baseline.c_str());
-  }
+  if (o.update && !writeBaseline(o, result, updated, gone, baseline)) written = false;
   if (!o.out.empty() && written) folder.forgetProgress();
   const std::string text = o.json ? regression::benchmarkJsonOf(result) + "\n" : regression::tableOf(result);
   std::printf("%s", text.c_str());
-  const bool hasReference = with.baseline || !o.against.empty();
-  if (!o.update && result.faults() == 0 && !result.compared())
-    std::fprintf(stderr, "stadion: error: nothing was compared%s\n",
-                 hasReference ? "; the table says why" : "");
-  if (!o.update && !hasReference)
-    std::fprintf(
-        stderr, "stadion: error: there is no baseline %s: --update writes it, --against BUILD does without\n",
-        o.baseline.c_str());
+  if (!o.update) printLackOfReference(o, result, with.baseline || !o.against.empty());
   return codeOf(result, o.update, written);
 }
 
