@@ -64,7 +64,10 @@ int checkModels(const std::string& folder) {
                   f.message.c_str());
     for (const Diagnostic& d : f.notes.all()) std::printf("         %s\n", d.message.c_str());
   });
-  if (!counts) return std::fprintf(stderr, "%s\n", format(counts.error()).c_str()), kBadInput;
+  if (!counts) {
+    std::fprintf(stderr, "%s\n", format(counts.error()).c_str());
+    return kBadInput;
+  }
   const AssetCounts& c = counts.value();
   std::printf(
       "%zu loaded, %zu refused by name, %zu failed (%zu of them took the importer down or timed out)\n",

@@ -19,7 +19,10 @@ namespace stadion {
 namespace {
 
 int printReference(const NodeRegistry& types, const std::string& type) {
-  if (type.empty()) return std::printf("%s", languageReference(types).c_str()), kOk;
+  if (type.empty()) {
+    std::printf("%s", languageReference(types).c_str());
+    return kOk;
+  }
   if (const RegisteredType* known = types.named(type))
     return std::printf("%s", languageReference(types, *known).c_str()), kOk;
   const auto meant = closest(type, types.names());

@@ -45,9 +45,13 @@ int runCommand(int argc, char** argv, const AddCommands& addCommands,
   addCommands(app, code, rasteriserThreads);
   const std::vector<std::string> words(argv + std::min(argc, 1), argv + argc);
   try {
-    if (const auto answer = referenceAnswer(app, words)) return std::fputs(answer->c_str(), stdout), kOk;
+    if (const auto answer = referenceAnswer(app, words)) {
+      std::fputs(answer->c_str(), stdout);
+      return kOk;
+    }
   } catch (const std::runtime_error& e) {
-    return std::fprintf(stderr, "stadion: %s\n", e.what()), kBadInput;
+    std::fprintf(stderr, "stadion: %s\n", e.what());
+    return kBadInput;
   }
   if (const auto retired = retiredSpellingIn(words))
     return std::fprintf(stderr, "stadion: %s\n", retired->c_str()), kBadInput;

@@ -112,7 +112,10 @@ int show(const TrackerToolOptions& o, TrackerDevice& device, const std::atomic<b
   for (bool again = false; !stop; again = true) {
     std::this_thread::sleep_for(o.seconds > 0 ? std::min<Clock::duration>(kShowEvery, end - Clock::now())
                                               : kShowEvery);
-    o.json ? showJson(device) : showTable(device, again && redraw);
+    if (o.json)
+      showJson(device);
+    else
+      showTable(device, again && redraw);
     if (o.seconds > 0 && Clock::now() >= end) break;
   }
   return stop ? kStopped + stopSignal() : kOk;

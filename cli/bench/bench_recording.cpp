@@ -165,7 +165,10 @@ std::optional<RoundCost> measureRound(const ShowOptions& options, ShowRenderer& 
   shows[0]->play();
   second.join();
   for (const auto& show : shows)
-    if (show->failure()) return findings.error({}, show->failure()->message), std::nullopt;
+    if (show->failure()) {
+      findings.error({}, show->failure()->message);
+      return std::nullopt;
+    }
   if (shows[recorded]->lost() > 0) findings.warning({}, "spans were lost");
   return RoundCost{ratioOf(turns.took(recorded), turns.took(1 - recorded)),
                    medianOfRounds(turns.took(1 - recorded))};
@@ -185,7 +188,10 @@ std::optional<double> moreInstructions(const ShowOptions& show, const RendererOp
   words.back() = "--profile";
   const FrameInstructions with =
       without.fault.empty() ? instructionsAFrame(words, folder.path(""), stop) : without;
-  if (!with.fault.empty()) return findings.error({}, with.fault), std::nullopt;
+  if (!with.fault.empty()) {
+    findings.error({}, with.fault);
+    return std::nullopt;
+  }
   return with.each / without.each - 1;
 }
 

@@ -27,7 +27,10 @@ double instructionsOf(std::vector<std::string> words, int frames, const std::str
   constexpr std::size_t kMostBytes = 256 << 20;
   const Result<std::string> text = readPlainFile(file, kMostBytes);
   const std::size_t at = text ? text.value().find("\nsummary: ") : std::string::npos;
-  if (at == std::string::npos) return wrong = "callgrind wrote no summary", 0;
+  if (at == std::string::npos) {
+    wrong = "callgrind wrote no summary";
+    return 0;
+  }
   return std::strtod(text.value().c_str() + at + 10, nullptr);
 }
 

@@ -41,11 +41,17 @@ struct BenchWallsOptions {
 
 /// In this process, so that its processor time is that setting's.
 int measureOne(WallsSetting s, const std::string& out, bool control) {
-  if (control) return std::printf("%s\n", measureTicks(s.frames).dump().c_str()), kOk;
+  if (control) {
+    std::printf("%s\n", measureTicks(s.frames).dump().c_str());
+    return kOk;
+  }
   const TemporaryFolder folder;
   const std::string wrong =
       bench::writeWallScene(folder.path(""), sceneOf(s), s.walls, !s.flat, s.warm + s.frames + 1);
-  if (!wrong.empty()) return std::fprintf(stderr, "stadion: %s\n", wrong.c_str()), kBadInput;
+  if (!wrong.empty()) {
+    std::fprintf(stderr, "stadion: %s\n", wrong.c_str());
+    return kBadInput;
+  }
   const auto row = measureWalls(s, folder.path(""));
   if (!row) return printError(row.error(), kInternalFault);
   const std::string line = row.value().dump() + "\n";
@@ -118,7 +124,8 @@ int benchTable(const BenchWallsOptions& o) {
 }
 
 int refuse(const std::string& why) {
-  return std::fprintf(stderr, "stadion: %s\n", why.c_str()), kBadInput;
+  std::fprintf(stderr, "stadion: %s\n", why.c_str());
+  return kBadInput;
 }
 
 /// What would be passed over in silence; empty: nothing.

@@ -69,7 +69,10 @@ std::unique_ptr<Journal> openJournal(const std::string& file, const ClusterNode&
                                      Diagnostics& findings) {
   if (file.empty()) return nullptr;
   auto journal = Journal::open(fileOfHost(file, node.name));
-  if (!journal) return findings.error({}, "--journal: " + journal.error().message), nullptr;
+  if (!journal) {
+    findings.error({}, "--journal: " + journal.error().message);
+    return nullptr;
+  }
   return std::move(journal.value());
 }
 

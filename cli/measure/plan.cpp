@@ -59,9 +59,15 @@ double rasterThreadsHere() {
 std::optional<plan::ShowCosts> readFrom(const std::string& file, Diagnostics& findings) {
   constexpr std::size_t kMostBytes = 64 << 20;
   const Result<std::string> text = readPlainFile(file, kMostBytes);
-  if (!text) return findings.add(text.error()), std::nullopt;
+  if (!text) {
+    findings.add(text.error());
+    return std::nullopt;
+  }
   Result<plan::ShowCosts> costs = plan::readCosts(text.value(), file);
-  if (!costs) return findings.add(costs.error()), std::nullopt;
+  if (!costs) {
+    findings.add(costs.error());
+    return std::nullopt;
+  }
   return std::move(costs.value());
 }
 
@@ -76,7 +82,10 @@ std::optional<plan::ShowCosts> measure(PlanOptions& o, Diagnostics& findings) {
   const RendererSettings settings = o.renderer.settings(findings);
   if (findings.hasErrors()) return {};
   auto renderer = ShowRenderer::open(settings);
-  if (!renderer) return findings.add(renderer.error()), std::nullopt;
+  if (!renderer) {
+    findings.add(renderer.error());
+    return std::nullopt;
+  }
   o.run.layout = *stereoLayout(o.stereo);
   o.run.walls = std::min(o.count.value_or(walls->walls.size()), walls->walls.size());
   const double load = loadNow();

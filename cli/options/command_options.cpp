@@ -152,7 +152,8 @@ BoundOption CommandOptions::add(const char* name, Variable& variable, const Opti
   const OptionRow& row = rowOf(name);
   const ValueGrammar g = narrowed(row.value, limits, kIsVector<Variable>);
   const CLI::callback_t take = [&variable](const CLI::results_t& words) {
-    return assignAll(words, variable), true;
+    assignAll(words, variable);
+    return true;
   };
   CLI::Option* option = command_.add_option(name, take, row.fullText());
   describe(*option, row, g, defaultText(g, variable));
@@ -164,7 +165,8 @@ BoundOption CommandOptions::add(const char* name, bool& variable, const OptionLi
   const OptionRow& row = rowOf(name);
   const bool isFlag = row.value.kind == OptionValueKind::Flag;
   const CLI::callback_t take = [&variable](const CLI::results_t& words) {
-    return assignAll(words, variable), true;
+    assignAll(words, variable);
+    return true;
   };
   CLI::Option* option = isFlag ? command_.add_flag(name, variable, row.fullText())
                                : command_.add_option(name, take, row.fullText());
@@ -176,7 +178,8 @@ BoundOption CommandOptions::addFunction(const char* name,
                                         std::function<void(const std::vector<std::string>&)> take) {
   const OptionRow& row = rowOf(name);
   const CLI::callback_t all = [take = std::move(take)](const CLI::results_t& words) {
-    return take(words), true;
+    take(words);
+    return true;
   };
   CLI::Option* option = command_.add_option(name, all, row.fullText());
   describe(*option, row, row.value, "");

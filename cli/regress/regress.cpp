@@ -47,7 +47,10 @@ bool findReference(const RegressOptions& o, RegressReference& with, Diagnostics&
   }
   if (o.update && std::filesystem::is_empty(o.baseline, none)) return true;
   auto read = regression::readBaseline(o.baseline);
-  if (!read) return findings.add(read.error()), false;
+  if (!read) {
+    findings.add(read.error());
+    return false;
+  }
   with.baseline = std::move(read.value());
   return true;
 }

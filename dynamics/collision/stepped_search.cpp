@@ -81,7 +81,10 @@ std::optional<Touch> SteppedSearch::backUp(double apart, double overlapping) con
   while (overlapping - apart > kShortestBracket) {
     if (motion(apart, overlapping) <= scheme_.tolerance && (touch = approaching(apart))) break;
     const double middle = 0.5 * (apart + overlapping);
-    (overlap(middle) ? overlapping : apart) = middle;
+    if (overlap(middle))
+      overlapping = middle;
+    else
+      apart = middle;
   }
   return touch ? touch : approaching(apart);
 }

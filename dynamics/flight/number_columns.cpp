@@ -82,7 +82,10 @@ struct Reader {
     text = trimmed(text);
     if (text.empty()) return;
     if (text.front() == '#') return remark(text.substr(1));
-    table.names.empty() ? names(text) : numbers(text);
+    if (table.names.empty())
+      names(text);
+    else
+      numbers(text);
   }
 };
 

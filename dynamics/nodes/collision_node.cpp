@@ -102,7 +102,10 @@ void CollisionNode::changeParts(Nanoseconds time, FrameContext& frame) {
   for (Part* part : comingOrGoing_) {
     const bool isCollider = part >= colliders_.data() && part < colliders_.data() + colliders_.size();
     if (part->ref.valid() && part->leaveAt <= time) {
-      isCollider ? removeCollider(*part, scene) : removeCollidee(*part, scene);
+      if (isCollider)
+        removeCollider(*part, scene);
+      else
+        removeCollidee(*part, scene);
       part->ref = {}, part->id = 0, part->fit = nullptr, part->track.clear(), part->arcs.clear();
     }
     if (!part->next.valid() || part->nextAt > time || part->ref.valid()) continue;
@@ -124,7 +127,10 @@ void CollisionNode::bring(Part& part, ObjectNode& object, bool isCollider, Nanos
   followFrom(part, frame.scene.poseTracks().startOf(part.placement, placements), frame);
   const Pose now = part.pose;
   if (moves(part)) part.pose = poseAt(part, time, Limit::After);
-  isCollider ? addCollider(part, object, frame.scene) : addCollidee(part, object, frame.scene);
+  if (isCollider)
+    addCollider(part, object, frame.scene);
+  else
+    addCollidee(part, object, frame.scene);
   part.pose = now;
 }
 
@@ -307,7 +313,10 @@ void CollisionNode::step(FrameContext* frame) {
   bool continues = false;
   const auto pass = [&](Nanoseconds from, Nanoseconds to) {
     const bool runs = on_ && !(span_.rested && to <= span_.from);
-    runs ? world_.advance(from, to, continues) : world_.pause(from, to, continues);
+    if (runs)
+      world_.advance(from, to, continues);
+    else
+      world_.pause(from, to, continues);
     continues = true;
   };
   if (advancedTo_ < begin) pass(advancedTo_, begin);

@@ -23,7 +23,10 @@ void World::Core::start(Nanoseconds at) {
   const Nanoseconds whole = at / WorldTime::kWindow * WorldTime::kWindow,
                     opens = at < whole ? whole - WorldTime::kWindow : whole;
   for (RigidBody& b : objects_.bodies()) b.since = Instant{at, 0};
-  commands_.empty() ? openWindow(opens) : beginWindow(opens);
+  if (commands_.empty())
+    openWindow(opens);
+  else
+    beginWindow(opens);
 }
 
 /// Removes the body from all lists.

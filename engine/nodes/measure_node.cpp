@@ -72,7 +72,10 @@ void ThrowMeasureNode::simulate(FrameContext& frame) {
   stop(frame.scene);
   result_ = result;
   compared_ = attributes_.against.empty();
-  result_->foul ? raise("foul", result_->when) : raise("measured", result_->when, result_->metres);
+  if (result_->foul)
+    raise("foul", result_->when);
+  else
+    raise("measured", result_->when, result_->metres);
 }
 
 /// How the throw has ended, if it has by `now`.

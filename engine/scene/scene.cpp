@@ -93,7 +93,10 @@ std::vector<Message> Scene::callRound(const TimeSignature& now) {
     return late;
   });
   for (const Message& m : mail)
-    schedule_.call(m.target) ? ++counters_.messagesDelivered : ++counters_.messagesLost;
+    if (schedule_.call(m.target))
+      ++counters_.messagesDelivered;
+    else
+      ++counters_.messagesLost;
   schedule_.callDue(now.time);
   if (mail.size() > 1)
     std::stable_sort(mail.begin(), mail.end(),

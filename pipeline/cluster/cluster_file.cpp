@@ -160,7 +160,10 @@ std::optional<ClusterFile> parseCluster(std::string_view text, const std::string
 
 std::optional<ClusterFile> loadCluster(const std::string& file, Diagnostics& out) {
   const Result<std::string> text = readPlainFile(file, kMostBytes);
-  if (!text) return out.add(text.error()), std::nullopt;
+  if (!text) {
+    out.add(text.error());
+    return std::nullopt;
+  }
   return parseCluster(text.value(), file, out);
 }
 

@@ -63,10 +63,14 @@ void FragmentShading::shade(const PictureShading& picture, BandTriangles& triang
     job.place = place_.data() + first, job.count = ends_[m] - static_cast<unsigned>(first);
     if (job.count == 0) continue;
     job.material = m < sky ? materials[m] : nullptr;
-    if (m == sky)
-      plain ? k.skyPlain(job) : k.sky(job);
+    if (m == sky && plain)
+      k.skyPlain(job);
+    else if (m == sky)
+      k.sky(job);
+    else if (plain)
+      k.shadePlain(job);
     else
-      plain ? k.shadePlain(job) : k.shade(job);
+      k.shade(job);
   }
 }
 

@@ -191,7 +191,10 @@ DrawOutcome PerWallProcessRenderer::draw(std::size_t index, const DrawList& list
 void PerWallProcessRenderer::begin(Wall& wall, const DrawList& list, bool read, bool warmUp) {
   wall.processor = -1;
   wall.began = wall.since = Clock::now();
-  warmUp ? wall.process.warmUp(list) : wall.process.draw(list, read);
+  if (warmUp)
+    wall.process.warmUp(list);
+  else
+    wall.process.draw(list, read);
 }
 
 Failure PerWallProcessRenderer::drawEvery(Wall& wall, const DrawList& list, bool read, bool warmUp) {

@@ -85,7 +85,10 @@ std::optional<MeshPlace> SharedMeshes::take(MeshId id, std::uint64_t hash) {
   const auto known = std::find_if(entries_.begin(), entries_.end(), [&](const auto& p) {
     return p.second.place.id == id && p.second.hash == hash;
   });
-  if (known != entries_.end()) return ++known->second.users, known->second.place;
+  if (known != entries_.end()) {
+    ++known->second.users;
+    return known->second.place;
+  }
   const Mesh* mesh = meshes_.find(id);
   if (!mesh) return {};
   const std::vector<std::uint8_t> bytes = encodeAll(*mesh);

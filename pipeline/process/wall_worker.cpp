@@ -203,7 +203,10 @@ bool WallWorker::receive(std::chrono::milliseconds atMost) {
   if (state_ == State::Down || state_ == State::Idle) return false;
   pollfd one{socket_.get(), POLLIN, 0};
   const int ready = ::poll(&one, 1, static_cast<int>(atMost.count()));
-  if (ready <= 0) return updateStatus(), false;
+  if (ready <= 0) {
+    updateStatus();
+    return false;
+  }
   char bytes[sizeof(AnswerHead) + kLongestText];
   const ssize_t got = ::recv(socket_.get(), bytes, sizeof bytes, MSG_DONTWAIT);
   if (got < 0 && (errno == EINTR || errno == EAGAIN)) return false;

@@ -84,7 +84,10 @@ public:
                    sound.samples.data(), static_cast<ALsizei>(sound.samples.size() * sizeof(std::int16_t)),
                    static_cast<ALsizei>(sound.info.rate));
     if (al_.error() == AL_NO_ERROR) al_.genSources(1, &source);
-    if (al_.error() != AL_NO_ERROR || source == 0) return al_.deleteBuffers(1, &buffer), 0;
+    if (al_.error() != AL_NO_ERROR || source == 0) {
+      al_.deleteBuffers(1, &buffer);
+      return 0;
+    }
     buffers_[source] = buffer;
     al_.sourceInt(source, AL_BUFFER, static_cast<ALint>(buffer));
     al_.sourceInt(source, AL_LOOPING, loop ? AL_TRUE : AL_FALSE);

@@ -99,7 +99,10 @@ bool ClusterSession::openLead(Diagnostics& findings) {
   if (lead_) options.above = lead_->session(), options.expected = lead_->played();
   lead_.reset();
   auto opened = cluster::ClusterLeader::open(std::move(options));
-  if (!opened) return findings.add(opened.error()), false;
+  if (!opened) {
+    findings.add(opened.error());
+    return false;
+  }
   lead_ = std::move(opened.value());
   return true;
 }
@@ -126,7 +129,10 @@ bool ClusterSession::follow(ShowOptions& show, Diagnostics& findings) {
   auto opened = cluster::Follower::open({file_, node_, compatibilityKeyOf(show_, layout_, file_),
                                          [this](const std::string& what) { report(what); }, isGivenUp,
                                          [] { return stopSignal() != 0; }, std::move(kept_), played});
-  if (!opened) return findings.add(opened.error()), false;
+  if (!opened) {
+    findings.add(opened.error());
+    return false;
+  }
   follower_ = std::move(opened.value());
   const auto joining = follower_->join();
   over_ = !joining && follower_->isOver(), otherFiles_ = follower_->isRefused();

@@ -48,7 +48,10 @@ bool OperatorConsole::begin(const Player& player, Diagnostics& findings) {
   if (console.oscPort >= 0) {
     auto osc = OscOperator::open(static_cast<std::uint16_t>(console.oscPort), controls_->queue(),
                                  reporter_.sayFunction());
-    if (!osc) return findings.error({}, "--osc: " + osc.error().message), false;
+    if (!osc) {
+      findings.error({}, "--osc: " + osc.error().message);
+      return false;
+    }
     osc_ = std::move(osc.value());
     say(fmt::format("operator: OSC on UDP port {}", osc_->port()));
   }

@@ -42,9 +42,15 @@ bool MachineNeeds::add(const std::string& word, Diagnostics& findings) {
   if (word.ends_with(".evs")) return addShow(word, findings);
   if (word.ends_with(".walls")) return addWalls(word, findings);
   if (word.ends_with(".cluster")) return addCluster(word, findings);
-  if (word == "cluster") return topics_.insert(topics_.end(), {"programs", "network"}), true;
+  if (word == "cluster") {
+    topics_.insert(topics_.end(), {"programs", "network"});
+    return true;
+  }
   const auto topics = doctorTopics();
-  if (std::ranges::find(topics, word) != topics.end()) return topics_.push_back(word), true;
+  if (std::ranges::find(topics, word) != topics.end()) {
+    topics_.push_back(word);
+    return true;
+  }
   std::vector<std::string> known(topics.begin(), topics.end());
   known.emplace_back("cluster");
   findings.error({}, "--for: \"" + word +
@@ -57,7 +63,10 @@ bool MachineNeeds::addShow(const std::string& file, Diagnostics& findings) {
   const SharedTypes types = standardNodes();
   const auto texts = ScriptTexts::read(file, AssetRoots::ofScript(file), *types);
   const auto show = texts->show();
-  if (!show) return findings.add(show.error()), false;
+  if (!show) {
+    findings.add(show.error());
+    return false;
+  }
   topics_.insert(topics_.end(), {"programs", "drawing"});
   bool sounds = hasSounds(show.value(), *types);
   for (const std::string& name : texts->parts())

@@ -45,7 +45,10 @@ std::optional<ShowFigures> profileShow(const ProfileRunOptions& options, OutputF
                                        Reporter& reporter, Diagnostics& findings, Failure& failure) {
   const std::atomic<bool>& stop = catchStopSignals();
   const auto renderer = ShowRenderer::open(options.renderer);
-  if (!renderer) return findings.add(renderer.error()), std::nullopt;
+  if (!renderer) {
+    findings.add(renderer.error());
+    return std::nullopt;
+  }
   const auto player = Player::create(options.show, findings, reporter.reportFunction(), &stop);
   if (!player) return {};
   FrameLoopOptions loopOptions = player->loopOptions();
@@ -77,7 +80,8 @@ std::optional<ShowFigures> profileShow(const ProfileRunOptions& options, OutputF
   if (failure = outcome.failure; failure) {
     recording->keepLastFrames();
     nameNode(failure, player->scene());
-    return findings.error({}, failure->message), std::nullopt;
+    findings.error({}, failure->message);
+    return std::nullopt;
   }
   recording->finishTrace(findings);
   if (findings.hasErrors()) return {};
@@ -86,7 +90,10 @@ std::optional<ShowFigures> profileShow(const ProfileRunOptions& options, OutputF
                                                              "could be collected");
   ShowFigures figures = recording->figures(player->walls().names(), stages.drawnBy());
   if (!options.renderer.drawsNothing()) figures.warmUpMs = loop.times().warmUp;
-  if (figures.frames == 0) return findings.error({}, tooShort("the show ended too early")), std::nullopt;
+  if (figures.frames == 0) {
+    findings.error({}, tooShort("the show ended too early"));
+    return std::nullopt;
+  }
   if (files.areWanted()) {
     ReportHead head = reportHead(options, *player, stages.drawnBy());
     if (figures.warmUpMs > 0)

@@ -102,13 +102,22 @@ bool SoakRecord::lock(Diagnostics& findings) {
 bool SoakRecord::read(const std::string& what, Diagnostics& findings) {
   const std::string none = "is no record of this soak (" + what + ")", other = "; name another file";
   const auto text = readPlainFile(file_.get(), name_, kMostRecordBytes);
-  if (!text) return findings.add(text.error()), false;
+  if (!text) {
+    findings.add(text.error());
+    return false;
+  }
   const Json head{{"stadion-soak", kVersion}, {"what", what}};
-  if (text.value().empty()) return write(head.dump()), true;
+  if (text.value().empty()) {
+    write(head.dump());
+    return true;
+  }
   std::istringstream in(text.value());
   std::string line;
   std::getline(in, line);
-  if (!(Json::parse(line, nullptr, false) == head)) return findings.error({name_, 0, 0}, none + other), false;
+  if (!(Json::parse(line, nullptr, false) == head)) {
+    findings.error({name_, 0, 0}, none + other);
+    return false;
+  }
   for (std::uint32_t number = 2; std::getline(in, line); ++number) {
     const Json j = Json::parse(line, nullptr, false);
     if (j.is_discarded() && !line.ends_with('}')) continue;  // half a line: a run was killed there
@@ -210,7 +219,10 @@ std::optional<std::uint64_t> SoakRecord::known(const std::string& show, std::uin
 
 bool SoakRecord::agrees(const std::string& show, std::uint64_t frame, std::uint64_t history) {
   const auto before = known(show, frame, history);
-  if (before) return ++counts.compared, *before == history;
+  if (before) {
+    ++counts.compared;
+    return *before == history;
+  }
   write(Json{{"show", show}, {"frame", frame}, {"history", history}}.dump());
   return true;
 }

@@ -21,7 +21,10 @@ Failure HashStream::take(const TimeSignature& now, const std::vector<EyePictures
     if (Failure failure = options_.next->take(now, walls)) return failure;
   std::unique_lock lock(mutex_);
   if (options_.everyFrame) changed_.wait(lock, [&] { return waiting_.size() < kMostWaiting; });
-  if (waiting_.size() >= kMostWaiting) return ++leftOut_, Failure{};
+  if (waiting_.size() >= kMostWaiting) {
+    ++leftOut_;
+    return Failure{};
+  }
   waiting_.push_back({now.frame, walls});
   changed_.notify_all();
   return {};

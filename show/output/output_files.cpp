@@ -21,7 +21,10 @@ bool OutputFiles::open(Diagnostics& findings) {
   std::filesystem::create_directories(folder_, unmade);
   for (const std::string& name : names_) {
     const auto [at, isNew] = files_.try_emplace(name, folder_ + "/" + name);
-    if (const auto& wrong = at->second.file.error()) return findings.add(*wrong), false;
+    if (const auto& wrong = at->second.file.error()) {
+      findings.add(*wrong);
+      return false;
+    }
   }
   return true;
 }

@@ -57,13 +57,20 @@ std::optional<Diagnostic> ShowRenderer::openGl(GlProviderKind gl) {
 /// Device files are looked at first: to load a driver takes longer than to find out that there is no card.
 bool ShowRenderer::openCard() {
   const auto file = graphicsCardFile();
-  if (!file) return why_ = "no graphics card: there is no usable render node in /dev", false;
+  if (!file) {
+    why_ = "no graphics card: there is no usable render node in /dev";
+    return false;
+  }
   if (const auto failed = openGl(GlProviderKind::Egl))
     return why_ = *file + " cannot draw: " + failed->message, false;
-  if (drawsOnCard()) return why_ = "graphics card " + *file, true;
+  if (drawsOnCard()) {
+    why_ = "graphics card " + *file;
+    return true;
+  }
   provider_.reset();
   onCard_.reset();
-  return why_ = *file + " has no driver that draws: OpenGL would draw in software", false;
+  why_ = *file + " has no driver that draws: OpenGL would draw in software";
+  return false;
 }
 
 bool ShowRenderer::drawsOnCard() {

@@ -53,7 +53,10 @@ public:
         };
       const bool wanted = options.keep->wanted;
       auto box = BlackBox::create(std::move(*options.keep), made->names_);
-      if (!box && wanted) return findings.add(box.error()), nullptr;
+      if (!box && wanted) {
+        findings.add(box.error());
+        return nullptr;
+      }
       if (!box) findings.warning(box.error().where, box.error().message + kBlackBoxElsewhere);
       if (box) {
         made->box_ = std::move(box.value()), readers.push_back(made->box_.get());
@@ -67,7 +70,10 @@ public:
     }
     if (options.trace) {
       made->trace_ = std::make_unique<TraceFile>(std::move(*options.trace), made->names_);
-      if (const auto& why = made->trace_->error()) return findings.add(*why), nullptr;
+      if (const auto& why = made->trace_->error()) {
+        findings.add(*why);
+        return nullptr;
+      }
       readers.push_back(made->trace_.get());
     }
     made->sampled_ = options.profile;

@@ -35,7 +35,10 @@ std::unique_ptr<SpanRecording> SpanRecording::create(const SpanOptions& options,
 bool SpanRecording::count(regression::SpanTimesOptions& times, Diagnostics& findings) {
   std::string why;
   counter_ = regression::InstructionCounter::open(why);
-  if (!counter_) return findings.error({}, "--count-by-hardware: " + why), false;
+  if (!counter_) {
+    findings.error({}, "--count-by-hardware: " + why);
+    return false;
+  }
   times.instructions = [this] { return counter_->now(); };
   return true;
 }

@@ -66,7 +66,10 @@ public:
   bool play(RoundSide& first, RoundSide& second) {
     if (!old_ && turns_) {
       const auto [a, b] = runInTurns(words(first), words(second), o_.limit, o_.stop, kDrawAlone);
-      if (knowsNoSpans(a) || knowsNoSpans(b)) return old_ = true, play(first, second);
+      if (knowsNoSpans(a) || knowsNoSpans(b)) {
+        old_ = true;
+        return play(first, second);
+      }
       return take(a, first) && take(b, second);
     }
     return play(first) && play(second);
@@ -78,7 +81,10 @@ public:
       return fault.empty();
     }
     const ChildResult child = runMeasured(measuredWords(case_, mode_, side.program, side.file, false), o_);
-    if (knowsNoSpans(child)) return old_ = true, play(side);
+    if (knowsNoSpans(child)) {
+      old_ = true;
+      return play(side);
+    }
     return take(child, side);
   }
 

@@ -77,7 +77,10 @@ bool OpenSession::openDrawing(Diagnostics& findings) {
   // Spans are processor time of the thread that draws.
   if (!s.record.spans.file.empty() && settings.threads == 0) settings.threads = 1;
   auto renderer = ShowRenderer::open(settings);
-  if (!renderer) return findings.add(renderer.error()), false;
+  if (!renderer) {
+    findings.add(renderer.error());
+    return false;
+  }
   renderer_ = std::move(renderer.value());
   state_.renderer = renderer_.get();
   if (renderer_->drawsNothing()) return true;
@@ -141,7 +144,8 @@ std::unique_ptr<Player> OpenSession::openShow(Diagnostics& findings) {
   if (cluster && !cluster->leads()) {
     report.release();
     findings.append(found);
-    return cluster->refuseFiles(findings), nullptr;
+    cluster->refuseFiles(findings);
+    return nullptr;
   }
   show.state.reset(), player.reset();
   player = createPlayer(show, findings);

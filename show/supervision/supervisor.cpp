@@ -40,11 +40,17 @@ void Supervisor::Terminal::restore() const {
 std::unique_ptr<Supervisor> Supervisor::create(const SupervisionSettings& settings, const PlayerWords& words,
                                                Reporter& reporter) {
   auto progress = SharedProgress::create();
-  if (!progress) return reporter.fault(progress.error().message), nullptr;
+  if (!progress) {
+    reporter.fault(progress.error().message);
+    return nullptr;
+  }
   std::unique_ptr<Supervisor> made(new Supervisor(reporter));
   if (!settings.journal.empty()) {
     auto opened = Journal::open(settings.journal);
-    if (!opened) return reporter.fault("--journal: " + opened.error().message), nullptr;
+    if (!opened) {
+      reporter.fault("--journal: " + opened.error().message);
+      return nullptr;
+    }
     made->journal_ = std::move(opened.value());
   }
   made->hangs_ = fromSeconds(settings.hangAfter);

@@ -57,7 +57,10 @@ std::unique_ptr<ViewSession> ViewSession::open(ViewSettings settings, Reporter& 
 
 bool ViewSession::openDrawing(Diagnostics& findings) {
   auto renderer = ShowRenderer::open(settings_.session.draw.renderer);
-  if (!renderer) return findings.add(renderer.error()), false;
+  if (!renderer) {
+    findings.add(renderer.error());
+    return false;
+  }
   renderer_ = std::move(renderer.value());
   if (!renderer_->drawsWithGl()) return true;
   DrawingNeeds needs = settings_.session.drawingNeeds(walls_.walls.size());
@@ -169,7 +172,10 @@ bool ViewSession::viewersCommand(Key key) {
 // As in the terminal, but that the brackets without shift are the viewer's.
 bool ViewSession::operatorsCommand(Key key, bool shift) {
   const bool bracket = key == static_cast<Key>('[') || key == static_cast<Key>(']');
-  if (bracket && !shift) return changeSpeed(key == static_cast<Key>(']') ? 2 : 0.5), true;
+  if (bracket && !shift) {
+    changeSpeed(key == static_cast<Key>(']') ? 2 : 0.5);
+    return true;
+  }
   const auto order = operatorCommandOf(key);
   if (order) console_->queue().post(*order);
   return order.has_value();

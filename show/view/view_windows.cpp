@@ -19,14 +19,20 @@ std::unique_ptr<ViewWindows> ViewWindows::open(const ViewSettings& settings, con
                                                bool drawnWithOpenGl, Diagnostics& findings) {
   std::unique_ptr<ViewWindows> made(new ViewWindows(walls, settings.stereo));
   auto system = WindowSystem::open();
-  if (!system) return findings.add(system.error()), nullptr;
+  if (!system) {
+    findings.add(system.error());
+    return nullptr;
+  }
   made->system_ = std::move(system.value());
   if (const auto why = made->system_->mayGoDark()) findings.warning({}, "the display may go dark: " + *why);
   made->sizes_ = unfold(walls.walls, settings.width, settings.height);
   const std::string name = std::filesystem::path(settings.session.show.script).filename().string();
   const auto add = [&](const WindowPlan& plan) {
     auto window = ShowWindow::open(*made->system_, plan, settings.stereo, walls.walls.size() + 1);
-    if (!window) return findings.add(window.error()), false;
+    if (!window) {
+      findings.add(window.error());
+      return false;
+    }
     made->windows_.push_back(std::move(window.value()));
     return true;
   };

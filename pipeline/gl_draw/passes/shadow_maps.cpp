@@ -174,7 +174,10 @@ void ShadowMaps::drawPart(const GlMesh& mesh, const GlSubmesh& part, GLsizei ins
     gl_.BindBufferRange(GL_UNIFORM_BUFFER, kMaterialBinding, mesh.materials.name(), part.materialOffset,
                         sizeof(MaterialBlock));
   }
-  part.bothSides ? gl_.Disable(GL_CULL_FACE) : gl_.Enable(GL_CULL_FACE);
+  if (part.bothSides)
+    gl_.Disable(GL_CULL_FACE);
+  else
+    gl_.Enable(GL_CULL_FACE);
   gl_.CullFace(GL_BACK);
   gl_.DrawElementsInstanced(GL_TRIANGLES, part.indexCount, GL_UNSIGNED_INT,
                             reinterpret_cast<const void*>(part.indexOffset), instances);

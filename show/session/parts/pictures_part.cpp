@@ -72,7 +72,10 @@ private:
 std::unique_ptr<SessionPart> makePicturesPart(SessionState& session, Diagnostics& findings) {
   if (session.settings.record.out.empty()) return nullptr;
   auto folder = OutputFolder::open(session.settings.record.out);
-  if (!folder) return findings.add(folder.error()), nullptr;
+  if (!folder) {
+    findings.add(folder.error());
+    return nullptr;
+  }
   return std::make_unique<PicturesPart>(session, std::move(folder.value()));
 }
 
