@@ -2,7 +2,7 @@
 /// Force fields and media. A field is a plain value: the world evaluates it, and its scene node moves and
 /// switches it.
 ///
-/// Laws     linear, spherical, point, vortex, medium. docs/architecture.md says how to add one.
+/// Laws     linear, spherical, point, vortex, medium. docs/extend.md says how to add one.
 /// Frames   a field has a pose X_WF and a strength at both ends of the frame; both change evenly.
 /// Forces   all laws here act at the centre of mass.
 /// Units    SI; a strength is an acceleration [m/s2] or a force [N], as `unit` says.
