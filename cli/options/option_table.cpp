@@ -91,6 +91,9 @@ constexpr OptionRow kRows[] = {
      "fast in "
      "software",
      Drawing},
+    {"--samples", word("1|2|4|8"),
+     "of a pixel, in the full look: more make edges calmer and cost more; OpenGL may have fewer (default: 4)",
+     Drawing},
     {"--renderer", word("auto|cpu|gl"),
      "what draws: cpu: the processors without OpenGL; gl: OpenGL; auto: gl with a graphics card or with --gl "
      "osmesa|egl, else cpu",

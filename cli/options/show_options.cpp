@@ -14,6 +14,7 @@ void addShowOptions(CLI::App& command, ShowOptions& o) {
   options.add("--mode", o.mode, {.words = "pipelined|sequential"});
   options.add("--size", o.size);
   options.add("--look", o.look);
+  options.add("--samples", o.samples);
   addLengthOptions(command, o);
 }
 

@@ -68,6 +68,7 @@ std::optional<Diagnostic> CpuRenderer::draw(const DrawList& list, const std::fun
 
 void CpuRenderer::drawWhole(const DrawList& list, const std::function<bool()>& giveUp, FrameProbe* probe) {
   stopIf(giveUp);
+  drawing_ = rung_.under(list.viewer.stress);
   if (list.lights.size() > DrawList::kMaxLights)
     report("more than " + std::to_string(DrawList::kMaxLights) + " lights: the rest are left out");
   {
@@ -75,7 +76,7 @@ void CpuRenderer::drawWhole(const DrawList& list, const std::function<bool()>& g
     room_.meshes().freeUnused();
     prepare(list, giveUp);
   }
-  const bool shadowed = list.shadows.light >= 0 && rung_.look == Look::Full;
+  const bool shadowed = list.shadows.light >= 0 && drawing_.look == Look::Full;
   std::shared_ptr<const ShadowSet> shadows;
   if (shadowed) {
     const SpanScope span(probe, Span::ShadowMaps);
@@ -83,9 +84,9 @@ void CpuRenderer::drawWhole(const DrawList& list, const std::function<bool()>& g
   }
   stopIf(giveUp);
   const SceneParameters scene =
-      sceneParameters(fillScene(list.sky, list.lights, rung_.look, shadowed ? list.shadows.light : -1));
+      sceneParameters(fillScene(list.sky, list.lights, drawing_.look, shadowed ? list.shadows.light : -1));
   const ShadowParameters shadow =
-      shadows ? shadows->parameters(list.shadows, rung_.shadowTaps) : ShadowParameters{};
+      shadows ? shadows->parameters(list.shadows, drawing_.shadowTaps) : ShadowParameters{};
   {
     // Bands of both eyes are drawn side by side, so their time is reported as one.
     const SpanScope span(probe, Span::LeftEye);
@@ -109,7 +110,7 @@ void CpuRenderer::sample(const DrawList& list, const SceneParameters& scene, con
     Picture& p = pictures_[view];
     if (!p.drawn) continue;
     const PieceCosts::View drawn{
-        list, view, {&room_.kernels(), &p.setup, &scene, shadow, &p.view, rung_, p.rgba}};
+        list, view, {&room_.kernels(), &p.setup, &scene, shadow, &p.view, drawing_, p.rgba}};
     how == DrawSample::Whole ? costs_.sampleWhole(drawn, probe) : costs_.sampleSome(drawn, probe);
   }
 }
@@ -142,7 +143,7 @@ void CpuRenderer::begin(const DrawList& list, std::uint32_t view) {
   picture.refused = 0;
   if (!picture.drawn) return;
   picture.view = viewParameters(block, width_, height_);
-  picture.setup.begin(*geometry, rung_.samples);
+  picture.setup.begin(*geometry, drawing_.samples);
   MeshId last = kNoMesh;
   std::shared_ptr<const CpuMesh> mesh;
   const auto addAll = [&](const std::vector<DrawItem>& items, Transparency which) {
@@ -161,7 +162,7 @@ void CpuRenderer::drawBands(const SceneParameters& scene, const ShadowParameters
                             const std::function<bool()>& giveUp) {
   forAll([](const Picture& p) { return p.setup.bands(); },
          [&](Picture& p, std::size_t band) {
-           room_.bands().draw({&room_.kernels(), &p.setup, &scene, shadow, &p.view, rung_, p.rgba}, band);
+           room_.bands().draw({&room_.kernels(), &p.setup, &scene, shadow, &p.view, drawing_, p.rgba}, band);
          },
          giveUp);
 }

@@ -95,7 +95,8 @@ private:
 
   CpuRoom& room_;
   std::uint32_t width_, height_;
-  PictureRung rung_;
+  PictureRung rung_;     ///< without stress
+  PictureRung drawing_;  ///< of the current list
   std::vector<Picture> pictures_;  ///< by view
   PieceCosts costs_;
   std::size_t views_ = 0;  ///< number of views in the current list

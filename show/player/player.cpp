@@ -73,6 +73,8 @@ bool ShowOptions::complete(Diagnostics& findings) {
   else
     findings.error({}, "--size: \"" + size +
                            "\" is not WIDTHxHEIGHT in pixels from 1x1 to 16384x16384, such as 800x600");
+  if (samples > 0 && look == Look::Plain)
+    findings.error({}, "--samples is for --look full: the plain look has one sample a pixel");
   return !findings.hasErrors();
 }
 
@@ -207,6 +209,7 @@ ShowParts Player::parts(StereoLayout stereo, InputDevice* instead) {
                   .walls = {},
                   .observer = {}};
   if (options_.look == Look::Plain) parts.quality = RenderQuality::plain();
+  if (options_.samples > 0) parts.quality.samples = options_.samples;
   for (const WallEntry& entry : walls_.walls) {
     WallViews wall{.name = entry.wall.name, .views = viewsOf(entry.wall, eyeCount(stereo) == 2)};
     wall.depth = walls_.depth;

@@ -32,6 +32,7 @@ struct ShowOptions {
   std::string walls = "cave4";
   Mode mode = Mode::Pipelined;
   Look look = Look::Full;
+  std::uint32_t samples = 0;  ///< for each pixel: 1, 2, 4 or 8; 0 = 4, or 1 in the plain look
   std::string size;  ///< empty = as the wall file says, else 800x600
   double rate = 60;
   bool rateGiven = false;    ///< true: `rate` was given; false: a recorded run's own rate counts more

@@ -1,5 +1,6 @@
 /// The ladder of pictures: each rung against a picture with 64 samples a pixel.
 
+#include "engine/core/cost_budget.h"
 #include "tests/pipeline/cpu_draw/compared_pictures.h"
 
 #include <gtest/gtest.h>
@@ -52,6 +53,21 @@ TEST_F(PictureLadder, CheaperShadingCostsLittleAccuracy) {
   PictureRung coarse, nearest, fourTaps;
   coarse.coarse = true, nearest.nearestLevel = true, fourTaps.shadowTaps = 4;
   for (const PictureRung& rung : {coarse, nearest, fourTaps}) EXPECT_LT(errorOf(rung), 2 * whole + 0.2);
+}
+
+TEST_F(PictureLadder, UnderStressHalfTheSamplesAreDrawnForEachQuarterOfAnOctave) {
+  EXPECT_EQ(PictureRung{}.under(1), PictureRung{});
+  EXPECT_EQ(PictureRung{.samples = 8}.under(stressOf(1)).samples, 4);
+  EXPECT_EQ(PictureRung{.samples = 8}.under(stressOf(kMostStress)).samples, 1);
+  for (const auto& [level, samples] : {std::pair{0U, 4}, {1U, 2}, {2U, 1}, {3U, 1}}) {
+    DrawList list = *list_;
+    list.viewer.stress = stressOf(level);
+    PictureRung rung;
+    rung.samples = samples;
+    EXPECT_EQ(drawnByCpu(*meshes_, list, kRungWidth, kRungHeight),
+              drawnByCpu(*meshes_, *list_, kRungWidth, kRungHeight, rung))
+        << "level " << level;
+  }
 }
 
 TEST_F(PictureLadder, EachRungDrawsAnotherPicture) {
