@@ -36,7 +36,7 @@ std::uint64_t allocationsOfApp(const std::string& script, const std::string& log
 
 /// How often Draw does, on all walls, when it has seen the show for a while. What Mesa asks for itself, of C,
 /// is not counted.
-std::uint64_t allocationsOfDraw(const std::string& script, const std::string& look) {
+std::uint64_t allocationsOfDraw(const std::string& script, Look look) {
   constexpr std::uint64_t kWarm = 30, kDrawnFrames = 15;
   ShowOptions options;
   options.script = script, options.walls = "desktop", options.size = "64x48", options.look = look;
@@ -118,9 +118,9 @@ TEST_F(ProgramSteadyState, DrawOfThingsOfEveryKindInBothLooks) {
     text += fmt::format("object( file={}, position=\"{}, {}, {}\" )\n", i % 3 ? "football.3ds" : "plane.3ds",
                         i % 20 - 10, 3 + i / 20, i % 3);
   const std::string lamps = "light( type=point, position=\"0, 4, 3\", range=9 )\n";
-  for (const char* look : {"full", "plain"}) {
-    EXPECT_EQ(allocationsOfDraw(showOf(folder_, text), look), 0u) << look;
-    EXPECT_EQ(allocationsOfDraw(showOf(folder_, text + lamps), look), 0u) << look << ", lamps";
+  for (const Look look : {Look::Full, Look::Plain}) {
+    EXPECT_EQ(allocationsOfDraw(showOf(folder_, text), look), 0u) << nameOf(look);
+    EXPECT_EQ(allocationsOfDraw(showOf(folder_, text + lamps), look), 0u) << nameOf(look) << ", lamps";
   }
 }
 
