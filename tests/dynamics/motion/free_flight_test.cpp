@@ -72,21 +72,21 @@ TEST(Flight, ASpinningDiscTurnsAsTheClosedFormSays) {
 
 /// Taylor series of order 24 in long double: an independent solution.
 Quat tumbling(const Vec3& I, const Vec3& w0, double t) {
-  using Real = long double;
+  using Exact = long double;
   constexpr int P = 24;
   const int steps = static_cast<int>(t * 480 + 0.5);
-  Real s[7] = {w0.x(), w0.y(), w0.z(), 1, 0, 0, 0};
-  const Real h = static_cast<Real>(t) / steps;
-  const Real k[3] = {(static_cast<Real>(I.y()) - I.z()) / I.x(), (static_cast<Real>(I.z()) - I.x()) / I.y(),
-                     (static_cast<Real>(I.x()) - I.y()) / I.z()};
+  Exact s[7] = {w0.x(), w0.y(), w0.z(), 1, 0, 0, 0};
+  const Exact h = static_cast<Exact>(t) / steps;
+  const Exact k[3] = {(static_cast<Exact>(I.y()) - I.z()) / I.x(), (static_cast<Exact>(I.z()) - I.x()) / I.y(),
+                     (static_cast<Exact>(I.x()) - I.y()) / I.z()};
   for (int n = 0; n < steps; ++n) {
-    Real a[7][P + 1];
+    Exact a[7][P + 1];
     for (int i = 0; i < 7; ++i) a[i][0] = s[i];
     for (int j = 0; j < P; ++j) {
-      Real d[7] = {};
+      Exact d[7] = {};
       for (int m = 0; m <= j; ++m) {
         const int o = j - m;
-        const Real x = a[0][m], y = a[1][m], z = a[2][m], qw = a[3][o], qx = a[4][o], qy = a[5][o],
+        const Exact x = a[0][m], y = a[1][m], z = a[2][m], qw = a[3][o], qx = a[4][o], qy = a[5][o],
                    qz = a[6][o];
         d[0] += k[0] * y * a[2][o], d[1] += k[1] * z * a[0][o], d[2] += k[2] * x * a[1][o];
         d[3] -= x * qx + y * qy + z * qz, d[4] += qw * x + qy * z - qz * y;
@@ -95,7 +95,7 @@ Quat tumbling(const Vec3& I, const Vec3& w0, double t) {
       for (int i = 0; i < 7; ++i) a[i][j + 1] = (i < 3 ? d[i] : d[i] / 2) / (j + 1);
     }
     for (int i = 0; i < 7; ++i) {
-      Real r = a[i][P];
+      Exact r = a[i][P];
       for (int j = P - 1; j >= 0; --j) r = r * h + a[i][j];
       s[i] = r;
     }
