@@ -4,6 +4,7 @@
 #include "engine/asset/check.h"
 #include "cli/commands.h"
 #include "cli/exit_code.h"
+#include "cli/findings_json.h"
 #include "cli/options/command_options.h"
 #include "cli/options/plugin_option.h"
 #include "show/player/show_check.h"
@@ -36,42 +37,101 @@ Diagnostics findingsOf(const std::string& file, const std::optional<std::string>
   return inFiles(filesOf(file, *around, roots, *types), checkShow(*around, roots, types));
 }
 
+/// Prints what is found, as text or as one object at the end.
+class CheckReport {
+public:
+  explicit CheckReport(bool json) : json_(json) {}
+
+  void add(const std::string& file, const std::optional<std::string>& around, const Diagnostics& findings) {
+    wrong_ |= findings.hasErrors();
+    if (json_)
+      shows_.push_back({{"file", file},
+                        {"ok", !findings.hasErrors()},
+                        {"part_of", around ? Json(*around) : Json()},
+                        {"findings", jsonOf(findings)}});
+    else
+      print(file, around, findings);
+  }
+
+  void add(const AssetFinding& f) {
+    if (json_)
+      models_.push_back({{"file", f.file},
+                         {"verdict", nameOf(f.verdict)},
+                         {"triangles", f.mesh ? Json(f.mesh->indices.size() / 3) : Json()},
+                         {"message", f.message},
+                         {"findings", jsonOf(f.notes)}});
+    else
+      print(f);
+  }
+
+  void add(const AssetCounts& c) {
+    if (json_)
+      counts_ = {{"loaded", c.loaded}, {"refused", c.refused}, {"failed", c.failed}, {"faults", c.faults}};
+    else
+      std::printf(
+          "%zu loaded, %zu refused by name, %zu failed (%zu of them took the importer down or timed out)\n",
+          c.loaded, c.refused, c.failed, c.faults);
+  }
+
+  /// Returns the exit code.
+  int finish(int code) const {
+    if (json_)
+      printJson({{"ok", code == kOk}, {"shows", shows_}, {"models", models_}, {"model_counts", counts_}});
+    return code;
+  }
+  bool wrong() const { return wrong_; }
+
+private:
+  using Json = nlohmann::ordered_json;
+
+  static const char* nameOf(AssetVerdict verdict) {
+    return verdict == AssetVerdict::Loaded    ? "loaded"
+           : verdict == AssetVerdict::Refused ? "refused"
+                                              : "failed";
+  }
+
+  static void print(const std::string& file, const std::optional<std::string>& around,
+                    const Diagnostics& findings) {
+    for (const Diagnostic& d : findings.all()) std::printf("%s\n", format(d).c_str());
+    if (!findings.hasErrors())
+      std::printf("%s: ok%s\n", file.c_str(), around ? (", as a part of " + *around).c_str() : "");
+    else if (around)
+      std::printf("%s: checked as a part of %s\n", file.c_str(), around->c_str());
+  }
+
+  static void print(const AssetFinding& f) {
+    if (f.verdict == AssetVerdict::Loaded)
+      std::printf("loaded   %s: %zu triangles\n", f.file.c_str(), f.mesh->indices.size() / 3);
+    else
+      std::printf("%-7s  %s: %s\n", nameOf(f.verdict), f.file.c_str(), f.message.c_str());
+    for (const Diagnostic& d : f.notes.all()) std::printf("         %s\n", d.message.c_str());
+  }
+
+  bool json_, wrong_ = false;
+  Json shows_ = Json::array(), models_ = Json::array(), counts_;
+};
+
 int checkEach(const std::vector<std::string>& files, const std::vector<std::string>& roots,
-              const SharedTypes& types) {
-  bool wrong = false;
+              const SharedTypes& types, CheckReport& report) {
   for (const std::string& file : files) {
     const bool watched = isatty(2) == 1;
     if (watched) std::fprintf(stderr, "checking %s ...", file.c_str());
     const std::optional<std::string> around = showAround(file, roots, *types);
     const Diagnostics findings = findingsOf(file, around, roots, types);
     if (watched) std::fprintf(stderr, "\r\x1b[K");
-    for (const Diagnostic& d : findings.all()) std::printf("%s\n", format(d).c_str());
-    wrong |= findings.hasErrors();
-    if (!findings.hasErrors())
-      std::printf("%s: ok%s\n", file.c_str(), around ? (", as a part of " + *around).c_str() : "");
-    else if (around)
-      std::printf("%s: checked as a part of %s\n", file.c_str(), around->c_str());
+    report.add(file, around, findings);
   }
-  return wrong ? kBadInput : kOk;
+  return report.wrong() ? kBadInput : kOk;
 }
 
-int checkModels(const std::string& folder) {
-  const auto counts = checkAssets(Importer::installedProgram(), folder, [](const AssetFinding& f) {
-    if (f.verdict == AssetVerdict::Loaded)
-      std::printf("loaded   %s: %zu triangles\n", f.file.c_str(), f.mesh->indices.size() / 3);
-    else
-      std::printf("%s  %s: %s\n", f.verdict == AssetVerdict::Refused ? "refused" : "failed ", f.file.c_str(),
-                  f.message.c_str());
-    for (const Diagnostic& d : f.notes.all()) std::printf("         %s\n", d.message.c_str());
-  });
+int checkModels(const std::string& folder, CheckReport& report) {
+  const auto counts =
+      checkAssets(Importer::installedProgram(), folder, [&](const AssetFinding& f) { report.add(f); });
   if (!counts) {
     std::fprintf(stderr, "%s\n", format(counts.error()).c_str());
     return kBadInput;
   }
-  const AssetCounts& c = counts.value();
-  std::printf(
-      "%zu loaded, %zu refused by name, %zu failed (%zu of them took the importer down or timed out)\n",
-      c.loaded, c.refused, c.failed, c.faults);
+  report.add(counts.value());
   return kOk;
 }
 
@@ -82,6 +142,7 @@ void addCheckCommand(CLI::App& app, int& code) {
     std::vector<std::string> scripts, roots, plugins;
     SharedTypes types = standardNodes();
     std::string models;
+    bool json = false;
   };
   auto o = std::make_shared<Options>();
   CLI::App* command = app.add_subcommand("check", "Look for mistakes in scripts and assets; draws nothing");
@@ -90,17 +151,22 @@ void addCheckCommand(CLI::App& app, int& code) {
   options.add("--assets", o->models);
   options.add("--asset-root", o->roots);
   addPluginOption(*command, o->plugins, o->types);
+  options.add("--json", o->json);
   command->footer("Sub-scenes and assets that a script names are checked with it. A script that a show loads "
                   "is checked in "
                   "that show.");
   command->callback([o, &code] {
     if (o->scripts.empty() && o->models.empty()) {
-      std::fprintf(stderr, "check: name a script, or a folder with --assets DIR\n");
+      const char* wrong = "name a script, or a folder with --assets DIR";
+      std::fprintf(stderr, "check: %s\n", wrong);
+      if (o->json) printJson({{"error", wrong}});
       code = kBadInput;
       return;
     }
-    if (!o->scripts.empty()) code = checkEach(o->scripts, o->roots, o->types);
-    if (!o->models.empty() && code == kOk) code = checkModels(o->models);
+    CheckReport report(o->json);
+    if (!o->scripts.empty()) code = checkEach(o->scripts, o->roots, o->types, report);
+    if (!o->models.empty() && code == kOk) code = checkModels(o->models, report);
+    code = report.finish(code);
   });
 }
 

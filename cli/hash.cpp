@@ -2,6 +2,7 @@
 
 #include "cli/commands.h"
 #include "cli/exit_code.h"
+#include "cli/findings_json.h"
 #include "cli/options/command_options.h"
 #include "cli/options/show_options.h"
 #include "cli/terminal.h"
@@ -20,7 +21,13 @@ namespace {
 struct HashOptions {
   ShowOptions show;
   std::string saveState, compareState;
+  bool json = false;
 };
+
+void printHash(std::uint64_t frame, std::uint64_t hash, bool json) {
+  std::printf(json ? "{\"frame\":%" PRIu64 ",\"hash\":\"%016" PRIx64 "\"}\n" : "%" PRIu64 " %016" PRIx64 "\n",
+              frame, hash);
+}
 
 /// Of the last frame, as the options ask.
 int keepState(Scene& scene, const HashOptions& o) {
@@ -38,8 +45,15 @@ int keepState(Scene& scene, const HashOptions& o) {
   printFindings(findings);
   if (findings.hasErrors()) return kBadInput;
   if (!difference) return kOk;
-  std::printf("difference: %s is %s here and %s in %s\n", difference->where.c_str(), difference->here.c_str(),
-              difference->there.c_str(), o.compareState.c_str());
+  if (o.json)
+    printJson({{"difference",
+                {{"where", difference->where},
+                 {"here", difference->here},
+                 {"there", difference->there},
+                 {"file", o.compareState}}}});
+  else
+    std::printf("difference: %s is %s here and %s in %s\n", difference->where.c_str(),
+                difference->here.c_str(), difference->there.c_str(), o.compareState.c_str());
   return kCheckFailed;
 }
 
@@ -57,7 +71,7 @@ int hashShow(const HashOptions& o) {
   ShowParts parts = player->parts(StereoLayout::Off);
   const ShowStages* running = nullptr;
   parts.observer = [&](const TimeSignature& now, const InputSample&, const Scene& scene) {
-    std::printf("%" PRIu64 " %016" PRIx64 "\n", now.frame, scene.stateHash());
+    printHash(now.frame, scene.stateHash(), o.json);
     player->collect(running->shownFrame());
   };
   ShowStages stages(std::move(parts));
@@ -82,6 +96,7 @@ void addHashCommand(CLI::App& app, int& code) {
   CommandOptions own(*command);
   own.add("--save-state", options->saveState);
   own.add("--compare-state", options->compareState);
+  own.add("--json", options->json);
   command->footer(
       "Equal lines mean equal states. To find where two builds differ: compare their lines, then save the "
       "state of the\nfirst frame N that differs, and compare:\n\n"

@@ -13,6 +13,7 @@
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include <cstdio>
 #include <fstream>
@@ -33,6 +34,7 @@ constexpr double kRate = 60;
 struct BenchBudgetsOptions {
   double before = 2, stall = 3, recovery = 9, quiet = 10;  ///< [s]
   int length = 50;                                         ///< [ms]
+  bool json = false;
   double seconds() const { return before + stall + recovery + quiet; }
   static std::uint64_t frame(double seconds) { return static_cast<std::uint64_t>(seconds * kRate); }
   std::uint64_t from() const { return frame(before); }
@@ -164,15 +166,32 @@ private:
   BudgetRun played_;
 };
 
+/// Prints each limit at once, as text or as an object.
 class Report {
 public:
+  explicit Report(bool json) : json_(json) {}
+
   void limit(bool met, const std::string& what) {
-    std::printf("%-6s %s\n", met ? "ok" : "FAILED", what.c_str());
+    if (json_)
+      print({{"bench", "budgets"}, {"limit", what}, {"ok", met}});
+    else
+      std::printf("%-6s %s\n", met ? "ok" : "FAILED", what.c_str());
     met_ = met_ && met;
+  }
+  void lateFrames(std::uint64_t late, std::uint64_t stalled, std::uint64_t tries) const {
+    if (json_)
+      print({{"bench", "budgets"}, {"late_frames", late}, {"stalled_frames", stalled}, {"tries", tries}});
+    else
+      std::printf("       %llu of the stall's %llu frames were late, tries to recover included (%llu)\n",
+                  static_cast<unsigned long long>(late), static_cast<unsigned long long>(stalled),
+                  static_cast<unsigned long long>(tries));
   }
   bool met() const { return met_; }
 
 private:
+  static void print(const nlohmann::json& line) { std::printf("%s\n", line.dump().c_str()); }
+
+  bool json_;
   bool met_ = true;
 };
 
@@ -210,9 +229,7 @@ void judge(const BenchBudgetsOptions& o, const BudgetRun& p, Report& report) {
     tries += frame > from && frame < to && d.level < level;
     level = d.level, last = frame;
   }
-  std::printf("       %llu of the stall's %llu frames were late, tries to recover included (%llu)\n",
-              static_cast<unsigned long long>(late), static_cast<unsigned long long>(to - from),
-              static_cast<unsigned long long>(tries));
+  report.lateFrames(late, to - from, tries);
   const std::uint64_t quiet = BenchBudgetsOptions::frame(o.seconds() - o.quiet);
   report.limit(level == 0 && !p.decisions.empty(),
                fmt::format("has everything back from frame {} on, {:.1f} s "
@@ -235,7 +252,7 @@ int benchBudgets(const BenchBudgetsOptions& o) {
     if (played) replays.push_back(experiment.replay(mode, findings));
   printFindings(findings);
   if (!played) return kInternalFault;
-  Report report;
+  Report report(o.json);
   judge(o, *played, report);
   for (const auto& history : replays)
     report.limit(history == played->history,
@@ -255,6 +272,7 @@ void addBenchBudgets(CLI::App& bench, int& code) {
   options.add("--stall-time", o->stall);
   options.add("--recovery", o->recovery);
   options.add("--quiet", o->quiet);
+  options.add("--json", o->json);
   command->callback([o, &code] { code = benchBudgets(*o); });
 }
 

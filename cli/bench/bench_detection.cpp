@@ -14,6 +14,7 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <cstdio>
@@ -32,6 +33,7 @@ struct BenchDetectionOptions {
   double share = 5;  ///< [%]
   std::string by = "instructions", record;
   std::size_t rounds = 12;
+  bool json = false;
 };
 
 /// Frames of the show that every trial plays.
@@ -215,6 +217,18 @@ std::string lineOf(const TrialResult& r) {
                      r.seconds, fmt::join(r.alarms, "; "));
 }
 
+/// Prints a table, or an object for each trial and one for all. Returns whether all limits are met.
+bool tellTrials(const std::vector<TrialResult>& results, const BenchDetectionOptions& o) {
+  bool met = false;
+  const std::string table = detectionTable(results, o.planted, o.same, met);
+  std::fputs(table.c_str(), o.json ? stderr : stdout);
+  if (!o.json) return met;
+  for (const TrialResult& r : results) std::fputs(toJsonLine(r).c_str(), stdout);
+  std::printf("%s\n",
+              nlohmann::json{{"bench", "detection"}, {"trials", results.size()}, {"ok", met}}.dump().c_str());
+  return met;
+}
+
 int benchDetection(const BenchDetectionOptions& o) {
   const std::atomic<bool>& stop = catchStopSignals();
   const std::string program = thisProgram();
@@ -235,8 +249,7 @@ int benchDetection(const BenchDetectionOptions& o) {
     record << toJsonLine(*result) << std::flush;
     results.push_back(*result);
   }
-  bool met = false;
-  std::printf("%s", detectionTable(results, o.planted, o.same, met).c_str());
+  const bool met = tellTrials(results, o);
   if (stop) return kStopped + stopSignal();
   return met ? kOk : kCheckFailed;
 }
@@ -255,6 +268,7 @@ void addBenchDetection(CLI::App& bench, int& code) {
   options.add("--by", o->by);
   options.add("--rounds", o->rounds, {.least = 10, .most = 80});
   options.add("--record", o->record);
+  options.add("--json", o->json);
   command->callback([o, &code] { code = benchDetection(*o); });
 }
 

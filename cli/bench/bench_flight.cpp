@@ -98,11 +98,10 @@ int benchFlight(const BenchFlightOptions& o) {
                                    bench::measureIntegrators(references.value()),
                                    bench::measureCosts(o.rounds), bench::measurePublishedThrows(),
                                    bench::measureHardCases()};
-  const std::string text = bench::textOf(report), json = bench::jsonOf(report);
-  std::fputs(text.c_str(), o.json ? stderr : stdout);
-  if (o.json) std::printf("%s", json.c_str());
+  std::fputs(bench::textOf(report).c_str(), o.json ? stderr : stdout);
+  if (o.json) std::printf("%s\n", bench::jsonOf(report).c_str());
   std::vector<NamedPlot> files = out ? picturesOf(report, references.value()) : std::vector<NamedPlot>();
-  files.emplace_back("flight.json", json);
+  files.emplace_back("flight.json", bench::indentedJsonOf(report));
   if (out && !writeFiles(*out, files)) return kBadInput;
   return bench::allMet(report) ? kOk : kCheckFailed;
 }

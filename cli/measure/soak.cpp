@@ -2,6 +2,7 @@
 
 #include "cli/commands.h"
 #include "cli/exit_code.h"
+#include "cli/findings_json.h"
 #include "cli/options/command_options.h"
 #include "cli/options/command_programs.h"
 #include "cli/options/plugin_option.h"
@@ -49,6 +50,7 @@ struct SoakOptions {
   Look look = Look::Plain;
   RendererOptions renderer;
   bool noMemory = false;  ///< what grows is not judged
+  bool json = false;
 };
 
 /// How a visit is played. The same happens in all of them.
@@ -204,10 +206,16 @@ void Soak::tellProgress() {
                static_cast<double>(record_.samples().back().residentBytes) / (1 << 20));
 }
 
+/// Prints each verdict at once, or keeps it for JSON.
 class Verdicts {
 public:
+  explicit Verdicts(bool json) : json_(json) {}
+
   void add(bool well, const std::string& what) {
-    std::printf("  %-6s %s\n", well ? "ok" : "FAILED", what.c_str());
+    if (json_)
+      kept_.push_back({{"what", what}, {"ok", well}});
+    else
+      std::printf("  %-6s %s\n", well ? "ok" : "FAILED", what.c_str());
     well_ = well_ && well;
   }
   /// Likewise, of what more samples might hide.
@@ -215,11 +223,20 @@ public:
     add(well, what);
     if (!well) failed_.push_back(what);
   }
+  /// What could not be judged.
+  void addOpen(const std::string& what) {
+    if (json_)
+      kept_.push_back({{"what", what}, {"ok", nullptr}});
+    else
+      std::printf("  -      %s\n", what.c_str());
+  }
   bool well() const { return well_; }
   const std::vector<std::string>& failed() const { return failed_; }
+  const nlohmann::ordered_json& kept() const { return kept_; }
 
 private:
-  bool well_ = true;
+  bool json_, well_ = true;
+  nlohmann::ordered_json kept_ = nlohmann::ordered_json::array();
   std::vector<std::string> failed_;
 };
 
@@ -240,8 +257,8 @@ void judgeGrowth(Verdicts& v, const SoakRecord& record, std::uint64_t warmUp, bo
                     "{:+.1f} of them asked for by the program; {} samples",
                     resident, kMostSlope, slope(&SoakSample::heapBytes), samples.size()));
   } else {
-    std::printf("  -      memory in a visit: %zu samples after its first %ju frames are too few\n",
-                samples.size(), static_cast<std::uintmax_t>(warmUp));
+    v.addOpen(fmt::format("memory in a visit: {} samples after its first {} frames are too few",
+                          samples.size(), warmUp));
   }
   const auto more = slopeOfVisits(record.samples(), &SoakSample::heapBytes);
   if (more)
@@ -251,9 +268,9 @@ void judgeGrowth(Verdicts& v, const SoakRecord& record, std::uint64_t warmUp, bo
                     "{:+.1f} bytes of RSS",
                     *more, kMostOfVisit, *slopeOfVisits(record.samples(), &SoakSample::residentBytes)));
   else
-    std::printf("  -      memory from visit to visit: too few visits (--visit)\n");
+    v.addOpen("memory from visit to visit: too few visits (--visit)");
   if (!inVisit && !more && stopped)
-    std::printf("  -      memory was not judged: the soak was stopped\n");
+    v.addOpen("memory was not judged: the soak was stopped");
   else if (!inVisit && !more)
     v.add(false,
           "memory was not judged: more --frames are needed, or --no-memory says that it is not asked for");
@@ -264,18 +281,41 @@ void judgeGrowth(Verdicts& v, const SoakRecord& record, std::uint64_t warmUp, bo
   v.addLasting(threads <= 0, fmt::format("threads: {:+} of {}", threads, record.samples().back().threads));
 }
 
-/// Prints what came of it.
-Verdicts tellVerdicts(const SoakOptions& o, const SoakRecord& record) {
+double framesPerSecond(const SoakCounts& c) {
+  return static_cast<double>(c.frames) / std::max(c.seconds, 1e-3);
+}
+
+void printCounts(const SoakOptions& o, const SoakRecord& record) {
   const SoakCounts& c = record.counts;
   std::printf("soak of %s: %ju frames in %ju visits by %u processes, %.0f frames a second\n",
               fmt::format("{}", fmt::join(o.shows, ", ")).c_str(), static_cast<std::uintmax_t>(c.frames),
-              static_cast<std::uintmax_t>(c.visits), record.processes(),
-              static_cast<double>(c.frames) / std::max(c.seconds, 1e-3));
+              static_cast<std::uintmax_t>(c.visits), record.processes(), framesPerSecond(c));
   std::printf(
       "  %ju files loaded or unloaded, %ju throws, %ju measurements refused, %ju walls' processes killed\n",
       static_cast<std::uintmax_t>(c.changes), static_cast<std::uintmax_t>(c.throws),
       static_cast<std::uintmax_t>(c.refused), static_cast<std::uintmax_t>(c.killed));
-  Verdicts v;
+}
+
+void printAsJson(const SoakOptions& o, const SoakRecord& record, const Verdicts& v) {
+  const SoakCounts& c = record.counts;
+  printJson({{"ok", v.well()},
+             {"shows", o.shows},
+             {"frames", c.frames},
+             {"visits", c.visits},
+             {"processes", record.processes()},
+             {"frames_per_second", framesPerSecond(c)},
+             {"files_changed", c.changes},
+             {"throws", c.throws},
+             {"measurements_refused", c.refused},
+             {"walls_killed", c.killed},
+             {"verdicts", v.kept()}});
+}
+
+/// Prints what came of it.
+Verdicts tellVerdicts(const SoakOptions& o, const SoakRecord& record) {
+  const SoakCounts& c = record.counts;
+  if (!o.json) printCounts(o, record);
+  Verdicts v(o.json);
   v.add(c.wrongSteps == 0, fmt::format("time steps: {} of {} frames are not one tick after the one before",
                                        c.wrongSteps, c.frames));
   v.add(c.wrongHashes == 0,
@@ -285,6 +325,7 @@ Verdicts tellVerdicts(const SoakOptions& o, const SoakRecord& record) {
                 c.frames < o.frames);
   for (const std::string& what : record.failed())
     if (std::ranges::find(v.failed(), what) == v.failed().end()) v.add(false, "before: " + what);
+  if (o.json) printAsJson(o, record, v);
   return v;
 }
 
@@ -330,6 +371,7 @@ void addSoakCommand(CLI::App& app, int& code) {
   o->renderer.addTo(*command);
   addPluginOption(*command, o->plugins, o->types);
   options.add("--no-memory", o->noMemory);
+  options.add("--json", o->json);
   command->footer(
       "Without SHOW a show is played that loads, unloads and throws. Shows are played in turns.\n"
       "Fails (exit code 1) if memory grows by 1 KiB or more in 10 000 frames of a visit, or by 4 KiB from\n"

@@ -13,7 +13,7 @@ struct PatternOptions {
   std::string out;     ///< folder for files; empty = on the outputs
   bool stereo = true;  ///< of files: a picture for each eye
   WindowStereo windowStereo = WindowStereo::Mono;
-  std::uint32_t width = 800, height = 800;  ///< of walls for which nothing is stated
+  std::uint32_t width = 800, height = 600;  ///< of walls for which nothing is stated
 };
 
 /// Returns the exit code.

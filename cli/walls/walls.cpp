@@ -2,6 +2,7 @@
 
 #include "cli/commands.h"
 #include "cli/exit_code.h"
+#include "cli/findings_json.h"
 #include "cli/options/command_options.h"
 #include "cli/terminal.h"
 #include "cli/walls/wall_pattern.h"
@@ -25,8 +26,8 @@ namespace stadion {
 namespace {
 
 struct WallsOptions {
-  std::string file, out, stereo = "off", size = "800x800";
-  bool pattern = false;
+  std::string file, out, stereo = "off", size;
+  bool pattern = false, json = false;
   PatternOptions shown;  ///< from the others
 
   void addTo(CLI::App& command) {
@@ -34,6 +35,7 @@ struct WallsOptions {
     options.add("WALLS", file).required();
     options.add("--pattern", pattern);
     options.add("--out", out);
+    options.add("--json", json);
     options.add("--stereo", stereo);
     options.add("--size", size, {.least = 16});
     command.footer("--pattern shows border, metres, the wall's name, L or R, and a cube of 1 m in the middle "
@@ -42,8 +44,10 @@ struct WallsOptions {
   }
 
   bool complete(Diagnostics& findings) {
-    std::tie(shown.width, shown.height) = *parseSize(size);
+    if (!size.empty()) std::tie(shown.width, shown.height) = *parseSize(size);
     if (!out.empty() && !pattern) findings.error({}, "--out needs --pattern: the floor plan is printed");
+    if (json && pattern)
+      findings.error({}, "--json describes the walls, and --pattern shows them: leave one out");
     shown.out = out;
     shown.windowStereo = windowStereo(*stereoLayout(stereo));
     return !findings.hasErrors();
@@ -58,17 +62,46 @@ ThreadCount threadsHere(std::size_t walls, std::size_t processors, Diagnostics& 
   return threadsOf(DrawingPlan(needs, knownMachine(findings)).setting(), walls);
 }
 
+nlohmann::ordered_json describe(const WallFile& walls, const ThreadCount& threads, std::size_t processors,
+                                const Diagnostics& findings) {
+  using Json = nlohmann::ordered_json;
+  const auto point = [](const Vec3& p) { return Json::array({p.x(), p.y(), p.z()}); };
+  Json all = Json::array();
+  for (const WallEntry& e : walls.walls)
+    all.push_back({{"name", e.wall.name},
+                   {"lower_left_m", point(e.wall.lowerLeft)},
+                   {"lower_right_m", point(e.wall.lowerRight)},
+                   {"upper_left_m", point(e.wall.upperLeft)},
+                   {"pixels", e.pixels.width > 0 ? Json::array({e.pixels.width, e.pixels.height}) : Json()}});
+  return {{"ok", true},
+          {"file", walls.file},
+          {"eye_separation_m", walls.eyeSeparation},
+          {"walls", all},
+          {"threads",
+           {{"app", threads.app},
+            {"cull", threads.cull},
+            {"draw", threads.draw},
+            {"rasteriser", threads.rasteriser}}},
+          {"processors", processors},
+          {"findings", jsonOf(findings)}};
+}
+
 int lookAtWalls(WallsOptions o) {
   Diagnostics findings;
   const bool settled = o.complete(findings);
   const auto walls = settled ? loadWalls(o.file, shareFolder() + "/walls", findings) : std::nullopt;
   printFindings(findings);
+  if (o.json && !walls) printJson({{"ok", false}, {"findings", jsonOf(findings)}});
   if (!walls) return kBadInput;
   if (o.pattern) return showPattern(*walls, o.shown, catchStopSignals());
   Diagnostics ofMachine;
   const std::size_t processors = std::max<std::size_t>(1, processorsOfThisThread().size());
   const ThreadCount threads = threadsHere(walls->walls.size(), processors, ofMachine);
   printFindings(ofMachine);
+  if (o.json) {
+    printJson(describe(*walls, threads, processors, findings));
+    return kOk;
+  }
   std::printf("%s\n%s", floorPlan(*walls).c_str(), textOf(threads, processors, o.file).c_str());
   return kOk;
 }

@@ -117,7 +117,9 @@ std::string textOf(const FlightReport& report) {
          fmt::format("{} limits met, {} missed\n", met, static_cast<std::ptrdiff_t>(checks.size()) - met);
 }
 
-std::string jsonOf(const FlightReport& report) {
+namespace {
+
+nlohmann::ordered_json objectOf(const FlightReport& report) {
   using Json = nlohmann::ordered_json;
   Json json{{"bench", "flight"}, {"ok", allMet(report)}};
   for (const RungResult& r : report.ladder.rungs)
@@ -155,7 +157,17 @@ std::string jsonOf(const FlightReport& report) {
                               {"most", numberOrNull(c.most)},
                               {"unit", c.unit},
                               {"met", c.met()}});
-  return json.dump(1) + "\n";
+  return json;
+}
+
+}  // namespace
+
+std::string jsonOf(const FlightReport& report) {
+  return objectOf(report).dump();
+}
+
+std::string indentedJsonOf(const FlightReport& report) {
+  return objectOf(report).dump(1) + "\n";
 }
 
 }  // namespace stadion::bench

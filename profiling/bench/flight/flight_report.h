@@ -20,7 +20,10 @@ struct FlightReport {
 };
 
 std::string textOf(const FlightReport& report);
+/// On one line, without its end.
 std::string jsonOf(const FlightReport& report);
+/// The same object, indented for readers.
+std::string indentedJsonOf(const FlightReport& report);
 bool allMet(const FlightReport& report);
 
 }  // namespace stadion::bench

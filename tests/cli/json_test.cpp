@@ -1,0 +1,120 @@
+/// What `--json` prints in the commands that check and measure: one object, or one a line.
+
+#include "tests/cli/short_run.h"
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include <sstream>
+
+namespace stadion {
+namespace {
+
+using nlohmann::json;
+
+/// Each line is an object by itself.
+std::vector<json> objectsIn(const std::string& out) {
+  std::vector<json> objects;
+  std::istringstream lines(out);
+  for (std::string line; std::getline(lines, line);) {
+    const json object = json::parse(line, nullptr, false);
+    EXPECT_TRUE(object.is_object()) << line.substr(0, 200);
+    objects.push_back(object);
+  }
+  return objects;
+}
+
+TEST(ProgramJson, CheckTellsTheFindingsOfEachScript) {
+  const TestFolder folder;
+  const std::string wrong = folder.write("wrong.evs", "dynobject( name=a, densty=2 )\n");
+  const ProgramResult r =
+      stadionProgram({"check", wrong, testShow("bodies.evs"), "--asset-root", assetFolder(), "--json"});
+  EXPECT_EQ(r.status, 2);
+  const std::vector<json> objects = objectsIn(r.out);
+  ASSERT_EQ(objects.size(), 1U) << r.out;
+  EXPECT_EQ(objects[0].at("ok"), false);
+  const json& shows = objects[0].at("shows");
+  ASSERT_EQ(shows.size(), 2U);
+  EXPECT_EQ(shows[0].at("file"), wrong);
+  EXPECT_EQ(shows[0].at("findings")[0].at("severity"), "error");
+  EXPECT_EQ(shows[0].at("findings")[0].at("line"), 1);
+  EXPECT_EQ(shows[0].at("findings")[0].at("column"), 20);
+  EXPECT_EQ(shows[1].at("ok"), true);
+}
+
+TEST(ProgramJson, WallsTellsCornersAndThreads) {
+  const std::vector<json> objects = objectsIn(stadionProgram({"walls", "cave4", "--json"}).out);
+  ASSERT_EQ(objects.size(), 1U);
+  EXPECT_EQ(objects[0].at("walls").size(), 4U);
+  EXPECT_EQ(objects[0].at("walls")[0].at("lower_left_m").size(), 3U);
+  EXPECT_EQ(objects[0].at("threads").at("cull"), 4);
+  const ProgramResult wrong = stadionProgram({"walls", "/nowhere.walls", "--json"});
+  EXPECT_EQ(wrong.status, 2);
+  EXPECT_EQ(objectsIn(wrong.out).at(0).at("ok"), false) << wrong.out;
+}
+
+TEST(ProgramJson, HashPrintsAnObjectALine) {
+  const std::vector<std::string> words{
+      "hash", testShow("bodies.evs"), "--asset-root", assetFolder(), "--frames", "3"};
+  std::vector<std::string> asked = words;
+  asked.emplace_back("--json");
+  std::string lines;
+  for (const json& object : objectsIn(stadionProgram(asked).out))
+    lines +=
+        std::to_string(object.at("frame").get<int>()) + " " + object.at("hash").get<std::string>() + "\n";
+  EXPECT_EQ(lines, stadionProgram(words).out);
+}
+
+TEST(ProgramJson, SoakTellsItsVerdicts) {
+  const ProgramResult r =
+      stadionProgram({"soak", "--frames", "1000", "--visit", "1000", "--no-memory", "--json"});
+  EXPECT_EQ(r.status, 0) << r.err;
+  const std::vector<json> objects = objectsIn(r.out);
+  ASSERT_EQ(objects.size(), 1U) << r.out;
+  EXPECT_EQ(objects[0].at("ok"), true);
+  EXPECT_EQ(objects[0].at("frames"), 1000);
+  EXPECT_GE(objects[0].at("verdicts").size(), 2U);
+}
+
+TEST(ProgramJson, BenchFlightPrintsAnObjectALine) {
+  const ProgramResult r = stadionProgram({"bench", "flight", "--flights", "1", "--rounds", "1", "--json"});
+  const std::vector<json> objects = objectsIn(r.out);
+  ASSERT_EQ(objects.size(), 1U);
+  EXPECT_EQ(objects[0].at("bench"), "flight");
+}
+
+TEST(ProgramJson, BenchBudgetsPrintsAnObjectALine) {
+  const ProgramResult r = stadionProgram(
+      {"bench", "budgets", "--stall-time", "0.5", "--recovery", "1", "--quiet", "1", "--json"});
+  EXPECT_TRUE(r.status == 0 || r.status == 1) << r.err;  // a busy machine may miss its limits
+  const std::vector<json> objects = objectsIn(r.out);
+  EXPECT_GT(objects.size(), 5U) << r.out;
+  for (const json& object : objects) EXPECT_EQ(object.value("bench", ""), "budgets");
+}
+
+TEST(ProgramJson, EveryBenchTakesIt) {
+  const std::string page = fileContent(STADION_SOURCE_DIR "/docs/options.md");
+  const std::size_t row = page.find("| `--json` |");
+  ASSERT_NE(row, std::string::npos);
+  const std::string line = page.substr(row, page.find('\n', row) - row);
+  for (const char* bench : {"overlap", "dynamics", "flight", "detection", "plan", "budgets", "attribution",
+                            "prediction", "recording", "walls", "scale"})
+    EXPECT_TRUE(has(line, std::string("bench ") + bench)) << bench;
+}
+
+TEST(ProgramJson, AWrongCommandLineIsAnObjectToo) {
+  for (const std::vector<std::string>& words :
+       std::vector<std::vector<std::string>>{{"bench", "--json", "flight", "x.json"},
+                                             {"hash", "--json"},
+                                             {"run", "show.evs", "--json", "--wals", "cave4"},
+                                             {"run", "show.evs", "--json", "--guard=off"}}) {
+    const ProgramResult r = stadionProgram(words);
+    EXPECT_EQ(r.status, 2) << words[0];
+    const std::vector<json> objects = objectsIn(r.out);
+    ASSERT_EQ(objects.size(), 1U) << r.out;
+    EXPECT_FALSE(objects[0].at("error").get<std::string>().empty());
+  }
+}
+
+}  // namespace
+}  // namespace stadion
