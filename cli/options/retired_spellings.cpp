@@ -3,6 +3,7 @@
 #include "cli/options/value_grammar.h"
 
 #include <algorithm>
+#include <filesystem>
 #include <fmt/format.h>
 
 namespace stadion {
@@ -15,6 +16,7 @@ constexpr RetiredSpelling kRetired[] = {
     {"run|cluster", "--trace-events", "", "--trace FILE"},
     {"run|cluster", "--trace", kNodeName,
      "--track NODE; --trace FILE is the event trace, FILE with an ending such as .json"},
+    {"profile|merge-traces", "--trace", kNodeName, "--trace FILE with an ending such as .json"},
     {"profile", "--html", "", "--out DIR, which receives profile.html"},
     {"profile", "--no-draw", "", "--gl none"},
     {"plan", "--svg", "", "--out DIR, which receives plan.svg"},
@@ -37,18 +39,27 @@ constexpr RetiredSpelling kRetired[] = {
     {"bench walls", "--pictures", "", "--out DIR"},
 };
 
-/// Names of nodes have no dots and begin with no slash; files of traces have an ending, or are devices.
+/// A bare word may name a node: no ending, no folder before it. (A folder of that name is a mistake of another kind.)
+bool mayNameNode(std::string_view value) {
+  std::error_code none;
+  return !value.empty() && value.find_first_of("./") == value.npos &&
+         !std::filesystem::is_directory(value, none);
+}
+
 bool isOfKind(std::string_view kind, std::string_view value) {
   if (kind == kNumber) return readDecimal(value).has_value();
   if (kind == kList) return value.find(',') != value.npos;
   if (kind == kWord) return !value.empty() && !value.starts_with('-');
-  if (kind == kNodeName) return !value.empty() && !value.starts_with('/') && value.find('.') == value.npos;
+  if (kind == kNodeName) return mayNameNode(value);
   return kind.empty() || kind == value;
 }
 
 std::string commandIn(std::span<const std::string> words) {
   if (words.empty()) return {};
-  return words[0] == "bench" && words.size() > 1 ? "bench " + words[1] : words[0];
+  if (words[0] != "bench") return words[0];
+  const auto name =
+      std::find_if(words.begin() + 1, words.end(), [](const std::string& w) { return !w.starts_with('-'); });
+  return name == words.end() ? words[0] : "bench " + *name;
 }
 
 }  // namespace

@@ -87,7 +87,7 @@ namespace {
 void addOutputOptions(CommandOptions& options, RunOptions& o) {
   RecordSettings& record = o.settings.record;
   options.add("--out", record.out);
-  options.add("--pictures", o.pictures);
+  options.add("--pictures", o.pictures).notes(o.picturesGiven);
   options.add("--sheets", record.sheets);
   options.add("--hashes", record.hashes);
   options.add("--video", record.video);

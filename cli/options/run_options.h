@@ -27,7 +27,8 @@ struct RunOptions {
   std::string cullDraw = "overlap", predict = "off", wallWorkers = "auto", pin = "auto";
   TraceRequest trace;
   std::vector<double> reach{0.05, 0.25};  ///< --latch-reach [m], [rad]
-  bool stereoGiven = false, cullDrawGiven = false, degradationAsked = false, lateLatch = false;
+  bool stereoGiven = false, cullDrawGiven = false, picturesGiven = false, degradationAsked = false,
+       lateLatch = false;
   bool supervise = false;  ///< another process plays, and is replaced if it crashes
   int endsWith = -1;       ///< the process that started this one; -1: none
   bool json = false;

@@ -62,8 +62,7 @@ void RunOptions::completeUndrawn(Diagnostics& findings) const {
   const RecordSettings& r = settings.record;
   if (settings.play.display) findings.error({}, "--gl none draws nothing that --display could show");
   if (!r.out.empty() && r.pictures.kind != PictureChoice::Kind::None)
-    findings.error({},
-                   "--gl none draws nothing that --out could keep: add --pictures none for the tables alone");
+    findings.error({}, "--gl none draws nothing that --pictures could keep: leave one of them out");
   const auto refuse = [&](bool asked, const char* option) {
     if (asked)
       findings.error({}, std::string(option) + " needs pictures, and --gl none draws none: leave one out");
@@ -120,7 +119,8 @@ void RunOptions::completeMeasuring(Diagnostics& findings) const {
 bool RunOptions::complete(Diagnostics& findings) {
   SessionSettings& s = settings;
   RecordSettings& r = s.record;
-  r.pictures = *PictureChoice::parse(pictures);
+  const bool none = renderer.drawsNothing() && !picturesGiven;  // the default yields
+  r.pictures = *PictureChoice::parse(none ? "none" : pictures);
   if (s.play.display && !r.out.empty())
     findings.error(
         {}, "--display plays live, and --out writes every frame that is asked for; leave one of them out");

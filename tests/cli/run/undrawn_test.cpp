@@ -31,9 +31,12 @@ TEST(ProgramUndrawn, ATrackNeedsNoRasteriser) {
   EXPECT_EQ(track, fileContent(folder.path() / "drawn/track-ball.csv"));
   EXPECT_FALSE(std::filesystem::exists(folder.path() / "undrawn/contact-sheet.png"));
 
-  const ProgramResult refused = run("refused", {"--gl", "none"});
+  const ProgramResult byDefault = run("default", {"--gl", "none"});
+  EXPECT_EQ(byDefault.status, 0) << byDefault.err;
+  EXPECT_EQ(track, fileContent(folder.path() / "default/track-ball.csv"));
+  const ProgramResult refused = run("refused", {"--gl", "none", "--pictures", "last"});
   EXPECT_EQ(refused.status, 2);
-  EXPECT_NE(refused.err.find("add --pictures none"), std::string::npos) << refused.err;
+  EXPECT_NE(refused.err.find("that --pictures could keep"), std::string::npos) << refused.err;
   for (const char* option : {"--hashes", "--video", "--sheets"}) {
     const ProgramResult r = run("refused", {"--gl", "none", "--pictures", "none", option});
     EXPECT_EQ(r.status, 2) << option;
