@@ -14,6 +14,7 @@ enum ExitCode : int {
   kCheckFailed = 1,          ///< a check or comparison failed
   kBadInput = kRefused,      ///< wrong usage, a wrong file, or a result that was asked for is missing
   kInternalFault = kFailed,  ///< our fault, OpenGL's, or the display was lost
+  kReaderGone = 141,         ///< standard output is no longer read, as if SIGPIPE had ended the program
 };
 
 /// Returns the exit code of a run that ended early for this reason.

@@ -1,7 +1,9 @@
 #include "cli/program.h"
 
 #include "cli/exit_code.h"
+#include "cli/findings_json.h"
 #include "cli/options/command_reference.h"
+#include "cli/options/option_table.h"
 #include "cli/options/retired_spellings.h"
 #include "engine/plain_text/suggestion.h"
 #include "pipeline/sound/sound_libraries.h"
@@ -10,6 +12,7 @@
 #include "show/recording/crash_report.h"
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cerrno>
 #include <csignal>
 #include <cstdio>
@@ -17,6 +20,7 @@
 #include <exception>
 #include <fcntl.h>
 #include <new>
+#include <poll.h>
 #include <stdexcept>
 #include <unistd.h>
 
@@ -32,13 +36,41 @@ void occupyStandardStreams() {
       ::open("/dev/null", stream == STDIN_FILENO ? O_WRONLY : O_RDONLY);
 }
 
+/// With --json, standard output is an object also if the command line is wrong.
+void printErrorAsJson(const std::string& error, const std::vector<std::string>& words) {
+  if (std::ranges::find(words, "--json") == words.end()) return;
+  printJson({{"error", error}});
+}
+
+int refuse(const std::string& error, const std::vector<std::string>& words) {
+  std::fprintf(stderr, "stadion: %s\n", error.c_str());
+  printErrorAsJson(error, words);
+  return kBadInput;
+}
+
+/// Whether standard output is a pipe that no process reads any more.
+bool readerIsGone() {
+  pollfd output{STDOUT_FILENO, POLLOUT, 0};
+  return ::poll(&output, 1, 0) == 1 && (output.revents & (POLLERR | POLLHUP)) != 0;
+}
+
+/// Returns the exit status of a command that ended with `code`, when all its output has been written or is lost.
+int finishOutput(int code) {
+  const bool lostBefore = std::ferror(stdout) != 0;
+  if (std::fflush(stdout) == 0 && !lostBefore) return code;
+  const int why = errno;
+  if (readerIsGone()) return code == kOk ? kReaderGone : code;  // `| head` has seen enough: no fault
+  std::fprintf(stderr, "stadion: the standard output cannot be written%s\n",
+               lostBefore ? "" : (std::string(": ") + std::strerror(why)).c_str());
+  return code == kOk ? kBadInput : code;
+}
+
 int runCommand(int argc, char** argv, const AddCommands& addCommands,
                std::optional<unsigned> rasteriserThreads) {
   CLI::App app("Stadion plays immersive shows written in the EVS world description language on stereo walls.",
                "stadion");
-  app.footer("Exit codes: 0 ok, 1 a check or comparison failed, 2 bad usage or bad input, 3 internal fault,\n"
-             "4 in a cluster: the leader has other files, 130 or 143 stopped by SIGINT or SIGTERM.\n"
-             "Start with:  ./stadion run scripts/kick.evs --out pictures");
+  app.footer(std::string("Exit codes: ") + kExitStatusText +
+             "\nStart with:  ./stadion run scripts/kick.evs --out pictures");
   app.require_subcommand(1);
   app.set_version_flag("--version", std::string("stadion ") + kVersion);
   int code = kOk;
@@ -53,8 +85,8 @@ int runCommand(int argc, char** argv, const AddCommands& addCommands,
     std::fprintf(stderr, "stadion: %s\n", e.what());
     return kBadInput;
   }
-  if (const auto retired = retiredSpellingIn(words))
-    return std::fprintf(stderr, "stadion: %s\n", retired->c_str()), kBadInput;
+  if (const auto retired = retiredSpellingIn(words)) return refuse(*retired, words);
+  if (const auto wrong = flagWithValueIn(words)) return refuse(*wrong, words);
   try {
     app.parse(argc, argv);
   } catch (const CLI::RequiredError& e) {
@@ -65,9 +97,12 @@ int runCommand(int argc, char** argv, const AddCommands& addCommands,
                    didYouMean(argv[1], known).c_str());
     }
     app.exit(e);
+    printErrorAsJson(e.what(), words);
     return kBadInput;
   } catch (const CLI::ParseError& e) {
-    return app.exit(e) == 0 ? kOk : kBadInput;
+    if (app.exit(e) == 0) return kOk;
+    printErrorAsJson(e.what(), words);
+    return kBadInput;
   }
   return code;
 }
@@ -86,10 +121,7 @@ int runProgram(int argc, char** argv, const AddCommands& addCommands) {
       return kBadInput;
     }
     quietOpenAl();
-    const int code = runCommand(argc, argv, addCommands, rasteriserThreads);
-    if (std::fflush(stdout) == 0 && !std::ferror(stdout)) return code;
-    std::fprintf(stderr, "stadion: the standard output cannot be written: %s\n", std::strerror(errno));
-    return code == kOk ? kBadInput : code;
+    return finishOutput(runCommand(argc, argv, addCommands, rasteriserThreads));
   } catch (const std::bad_alloc&) {
     std::fprintf(stderr, "stadion: out of memory\n");
     return kInternalFault;

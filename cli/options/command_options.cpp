@@ -109,7 +109,10 @@ std::string signature(const OptionRow& row, const ValueGrammar& g, const std::st
 
 void describe(CLI::Option& option, const OptionRow& row, const ValueGrammar& g, const std::string& standard) {
   option.group(std::string(headingOf(row.group)));
-  if (g.kind == OptionValueKind::Flag) return;
+  if (g.kind == OptionValueKind::Flag) {
+    option.option_text(" ");  // else the column of values shows what it needs or excludes
+    return;
+  }
   option.type_name(g.notation())->option_text(signature(row, g, standard));
   option.check([g](const std::string& text) { return g.mistakeIn(text); });
   if (g.times == ValueTimes::List) option.delimiter(',');
@@ -155,7 +158,7 @@ BoundOption CommandOptions::add(const char* name, Variable& variable, const Opti
     assignAll(words, variable);
     return true;
   };
-  CLI::Option* option = command_.add_option(name, take, row.fullText());
+  CLI::Option* option = command_.add_option(name, take, row.textFor(limits.words));
   describe(*option, row, g, defaultText(g, variable));
   return {command_, *option};
 }

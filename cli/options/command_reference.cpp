@@ -5,12 +5,15 @@
 #include "engine/base/installed_files.h"
 #include "pipeline/platform/child_process.h"
 #include "show/base/version.h"
+#include "show/doctor/doctor.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <chrono>
+#include <filesystem>
 #include <map>
 #include <sstream>
 #include <stdexcept>
@@ -193,7 +196,7 @@ std::string manPage(const CLI::App& program) {
       page += fmt::format(".PP\nIts options are in {}(1).\n", inTroff(other));
   }
   page += ".SH OPTIONS\nAn option means the same in every command.\n" + manOfOptions(usesOf(program));
-  return page + ".SH EXIT STATUS\n.nf\n" + inTroff(program.get_footer()) + "\n.fi\n";
+  return page + ".SH EXIT STATUS\n.nf\n" + inTroff(kExitStatusText) + "\n.fi\n";
 }
 
 /// Those of `words` that begin like the last word of the command line.
@@ -226,9 +229,34 @@ std::vector<std::string> namesIn(const CLI::App& command, bool options) {
   return names;
 }
 
-/// Of the option's value: its words, or which files.
+/// The rooms that ship with Stadion, by the names that take the place of a wall file.
+std::vector<std::string> roomNames() {
+  std::vector<std::string> names;
+  std::error_code none;
+  for (const auto& entry : std::filesystem::directory_iterator(shareFolder() + "/walls", none))
+    if (entry.path().extension() == ".walls") names.push_back(entry.path().stem());
+  std::ranges::sort(names);
+  return names;
+}
+
+std::vector<std::string> topicNames() {
+  const auto topics = doctorTopics();
+  std::vector<std::string> names(topics.begin(), topics.end());
+  names.emplace_back("cluster");
+  return names;
+}
+
+/// What may stand in the place of a file's name. Nothing if only files may.
+std::vector<std::string> namesBesideFiles(std::string_view option) {
+  if (option == "--walls" || option == "WALLS") return roomNames();
+  return option == "--for" ? topicNames() : std::vector<std::string>();
+}
+
+/// Of the option's value: its words, or which files, with the names that may take their place.
 std::string valuesOf(const CLI::Option& option, const OptionRow& row, const std::string& typed) {
-  if (row.value.kind == OptionValueKind::File) return ":files\n";
+  const std::vector<std::string> names = namesBesideFiles(row.name);
+  if (row.value.kind == OptionValueKind::File || !names.empty())
+    return ":files\n" + beginningWith(typed, names);
   if (row.value.kind == OptionValueKind::Folder) return ":folders\n";
   std::vector<std::string> words;
   for (const std::string& word : partsOf(option.get_type_name(), '|'))
@@ -236,16 +264,47 @@ std::string valuesOf(const CLI::Option& option, const OptionRow& row, const std:
   return beginningWith(typed, words);
 }
 
+/// The option and what is typed of its value.
+struct TypedValue {
+  std::string option, value;
+};
+
+/// Returns nothing if the last word is no value of an option. bash makes words of "--pace=f" at the sign: "--pace", "=",
+/// "f".
+std::optional<TypedValue> typedValue(std::span<const std::string> words) {
+  const auto fromEnd = [&](std::size_t i) {
+    return i < words.size() ? words[words.size() - 1 - i] : std::string();
+  };
+  const std::string typed = fromEnd(0);
+  if (typed == "=") return TypedValue{fromEnd(1), ""};
+  if (fromEnd(1) == "=") return TypedValue{fromEnd(2), typed};
+  if (const std::size_t equals = typed.find('='); typed.starts_with("--") && equals != typed.npos)
+    return TypedValue{typed.substr(0, equals), typed.substr(equals + 1)};
+  if (fromEnd(1).starts_with("--")) return TypedValue{fromEnd(1), typed};
+  return std::nullopt;
+}
+
+/// Of the first argument: which files, with the names that may take their place.
+std::string argumentsOf(const CLI::App& command, const std::string& typed) {
+  std::string answer = ":files\n";
+  for (const CLI::Option* option : ownOptions(command))
+    if (option->get_positional())
+      return answer + beginningWith(typed, namesBesideFiles(nameOfOption(*option)));
+  return answer;
+}
+
 std::string completion(const CLI::App& program, std::span<const std::string> words) {
   const std::string typed = words.empty() ? "" : words.back();
   const CLI::App& command = commandOf(program, words.empty() ? words : words.first(words.size() - 1));
-  const std::string before = words.size() < 2 ? "" : words[words.size() - 2];
-  const CLI::Option* option = before.starts_with("--") ? command.get_option_no_throw(before) : nullptr;
-  const OptionRow* row = findOption(before);
-  if (option && row && row->value.kind != OptionValueKind::Flag) return valuesOf(*option, *row, typed);
+  if (const auto given = typedValue(words)) {
+    const CLI::Option* option = command.get_option_no_throw(given->option);
+    const OptionRow* row = findOption(given->option);
+    if (option && row && row->value.kind != OptionValueKind::Flag)
+      return valuesOf(*option, *row, given->value);
+  }
   if (typed.starts_with('-')) return beginningWith(typed, namesIn(command, true));
   const std::vector<std::string> below = namesIn(command, false);
-  return below.empty() ? ":files\n" : beginningWith(typed, below);
+  return below.empty() ? argumentsOf(command, typed) : beginningWith(typed, below);
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 #include "cli/options/option_table.h"
 
 #include <algorithm>
+#include <vector>
 
 namespace stadion {
 // With a name: what it brings in is not for the files that are compiled with this one.
@@ -99,8 +100,8 @@ constexpr OptionRow kRows[] = {
      "osmesa|egl, else cpu",
      Drawing},
     {"--gl", word("auto|osmesa|egl|none"),
-     "implementation of OpenGL: osmesa (software), egl (same pixels), none: nothing is drawn; auto: egl with "
-     "a "
+     "implementation of OpenGL; osmesa: in software; egl: the same pixels; none: nothing is drawn; auto: egl "
+     "with a "
      "graphics card, else osmesa",
      Drawing},
     {"--draw-threads", whole("N", 1, 1024),
@@ -145,10 +146,11 @@ constexpr OptionRow kRows[] = {
 
     {"--out", folder(), "folder for everything that the command writes", Output},
     {"--json", flag(),
-     "prints JSON on standard output, all else on standard error: one object; a bench and tracker print one "
-     "a line",
+     "prints JSON on standard output, all else on standard error: one object; a bench, hash and tracker "
+     "print one a line",
      Output},
-    {"--csv", flag(), "prints the table as CSV: a row for each node, stage, wall and eye", Output},
+    {"--csv", flag(), "prints the table as CSV, not with --json: a row for each node, stage, wall and eye",
+     Output},
     {"--pictures", whole("N", 1, 1e9, "last|all|none"),
      "frames whose pictures are written to --out; N: every Nth", Output},
     {"--sheets", flag(), "adds a contact sheet of all walls to each frame's pictures", Output},
@@ -347,12 +349,45 @@ constexpr OptionRow kRows[] = {
     {"--measured-time", number("S", 1e-3, 3600), "length of the measurement (calibrate)", Internal},
 };
 
+std::vector<std::string_view> partsOf(std::string_view text, std::string_view separator) {
+  std::vector<std::string_view> parts;
+  for (std::size_t end; (end = text.find(separator)) != text.npos; text.remove_prefix(end + separator.size()))
+    parts.push_back(text.substr(0, end));
+  parts.push_back(text);
+  return parts;
+}
+
+/// The explanation of the accepted words alone: of "pair, off: so" with "off" it is "off: so". Empty if all its words
+/// are refused. A part of the text that explains no words stays.
+std::string explanationOf(std::string_view part, std::string_view words, std::string_view accepted) {
+  const std::size_t colon = part.find(": ");
+  if (colon == part.npos) return std::string(part);
+  std::string kept;
+  for (const std::string_view named : partsOf(part.substr(0, colon), ", ")) {
+    const std::string_view word = named.substr(0, named.find(' '));
+    if (!hasWord(words, word)) return std::string(part);
+    if (hasWord(accepted, word)) kept += (kept.empty() ? "" : ", ") + std::string(named);
+  }
+  return kept.empty() ? kept : kept + std::string(part.substr(colon));
+}
+
 }  // namespace option_rows
 
 std::string OptionRow::fullText() const {
   const bool repeats =
       value.times == ValueTimes::Repeated || (value.times == ValueTimes::Several && !isPositional());
   return std::string(text) + (repeats ? "; may be repeated" : "");
+}
+
+std::string OptionRow::textFor(std::string_view accepted) const {
+  const std::string all = fullText();
+  if (accepted.empty() || accepted == value.words) return all;
+  std::string text;
+  for (const std::string_view part : option_rows::partsOf(all, "; ")) {
+    const std::string kept = option_rows::explanationOf(part, value.words, accepted);
+    if (!kept.empty()) text += (text.empty() ? "" : "; ") + kept;
+  }
+  return text;
 }
 
 std::span<const OptionRow> optionTable() {
@@ -363,6 +398,17 @@ const OptionRow* findOption(std::string_view name) {
   const std::span<const OptionRow> rows = optionTable();
   const auto row = std::ranges::find(rows, name, &OptionRow::name);
   return row == rows.end() ? nullptr : &*row;
+}
+
+std::optional<std::string> flagWithValueIn(std::span<const std::string> words) {
+  for (const std::string& word : words) {
+    if (word == "--") break;
+    const std::string name = word.substr(0, word.find('='));
+    const OptionRow* row = name.size() < word.size() ? findOption(name) : nullptr;
+    if (row && !row->isPositional() && row->value.kind == OptionValueKind::Flag)
+      return name + " takes no value; \"" + word.substr(name.size() + 1) + "\" was given";
+  }
+  return std::nullopt;
 }
 
 std::string_view headingOf(OptionGroup group) {

@@ -4,7 +4,9 @@
 
 #include "cli/options/value_grammar.h"
 
+#include <optional>
 #include <span>
+#include <string>
 
 namespace stadion {
 
@@ -35,11 +37,15 @@ struct OptionRow {
   bool isInternal() const { return group == OptionGroup::Internal; }
   /// The text, and that the option may be repeated.
   std::string fullText() const;
+  /// Without explanations of words that a command does not accept. `accepted`: "pair|off"; empty: all.
+  std::string textFor(std::string_view accepted) const;
 };
 
 std::span<const OptionRow> optionTable();
 /// Null if there is no such row.
 const OptionRow* findOption(std::string_view name);
+/// Returns the message about a flag with a value, such as --json=x, among the words of a command line, if there is one.
+std::optional<std::string> flagWithValueIn(std::span<const std::string> words);
 /// The heading in help and documents. Empty for internal options.
 std::string_view headingOf(OptionGroup group);
 

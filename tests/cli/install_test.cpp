@@ -73,6 +73,19 @@ TEST_F(ProgramInstall, BashCompletesAnOption) {
   EXPECT_EQ(runProgram({{"bash", "-c", line}, {path()}}).out, "--stress-max\n");
 }
 
+// It makes words of --pace=f at the sign, and of a room's name a file that is not there.
+TEST_F(ProgramInstall, BashCompletesAValue) {
+  const auto completed = [&](const std::string& words, const char* cursor) {
+    const std::string line = "source " + prefix() +
+                             "/share/bash-completion/completions/stadion; COMP_WORDS=(stadion " + words +
+                             "); COMP_CWORD=" + cursor + "; _stadion 2>/dev/null; echo \"${COMPREPLY[@]}\"";
+    return runProgram({{"bash", "-c", line}, {path()}}).out;
+  };
+  EXPECT_EQ(completed("run --pace = f", "4"), "free float\n");
+  EXPECT_EQ(completed("run --pace =", "3"), "free lock float\n");
+  EXPECT_EQ(completed("run --walls cave", "3"), "cave4 cave6\n");
+}
+
 TEST_F(ProgramInstall, NamesNoPathOfTheCheckout) {
   for (const char* program : {"/bin/stadion", "/lib/stadion/stadion-import", "/lib/stadion/stadion-wall"})
     EXPECT_FALSE(has(fileContent(prefix() + program), kRoot + "/")) << program;

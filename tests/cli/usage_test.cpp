@@ -28,6 +28,21 @@ TEST(ProgramUsage, NoArgumentsAtAllIsBadUsage) {
   EXPECT_EQ(stadionProgram({}).status, 2);
 }
 
+TEST(ProgramUsage, AReaderThatHasSeenEnoughIsNoFault) {
+  const auto ends = [](const std::string& output) {
+    return runProgram({{"/bin/bash", "-c", "\"$@\" " + output + "; echo status ${PIPESTATUS[0]} >&2", "bash",
+                        stadionPath(), "run", testShow("bodies.evs"), "--asset-root", assetFolder(),
+                        "--walls", "desktop", "--size", "32x24", "--look", "plain", "--frames", "2"}})
+        .err;
+  };
+  const std::string closed = ends("| true");
+  EXPECT_TRUE(has(closed, "status 141") || has(closed, "status 0")) << closed;
+  EXPECT_FALSE(has(closed, "cannot be written")) << closed;
+  const std::string full = ends(">/dev/full");
+  EXPECT_TRUE(has(full, "the standard output cannot be written: No space left on device")) << full;
+  EXPECT_TRUE(has(full, "status 2")) << full;
+}
+
 TEST(ProgramUsage, HelpIsNotAnError) {
   const ProgramResult r = stadionProgram({"run", "--help"});
   EXPECT_EQ(r.status, 0);
