@@ -54,12 +54,18 @@ bool isOfKind(std::string_view kind, std::string_view value) {
   return kind.empty() || kind == value;
 }
 
-std::string commandIn(std::span<const std::string> words) {
+struct CommandPlace {
+  std::string command;   ///< "run", "bench walls"
+  std::size_t last = 0;  ///< the word that ends its name
+};
+
+/// The name of a bench may stand behind options.
+CommandPlace commandIn(std::span<const std::string> words) {
   if (words.empty()) return {};
-  if (words[0] != "bench") return words[0];
-  const auto name =
-      std::find_if(words.begin() + 1, words.end(), [](const std::string& w) { return !w.starts_with('-'); });
-  return name == words.end() ? words[0] : "bench " + *name;
+  if (words[0] == "bench")
+    for (std::size_t i = 1; i < words.size(); ++i)
+      if (!words[i].starts_with('-')) return {"bench " + words[i], i};
+  return {words[0]};
 }
 
 }  // namespace
@@ -69,12 +75,13 @@ std::span<const RetiredSpelling> retiredSpellings() {
 }
 
 std::optional<std::string> retiredSpellingIn(std::span<const std::string> words) {
-  const std::string command = commandIn(words);
+  const auto [command, last] = commandIn(words);
   for (std::size_t i = 1; i < words.size() && words[i] != "--"; ++i) {
     const std::string_view word = words[i];
     if (!word.starts_with("--")) continue;
     const std::size_t equals = word.find('=');
-    const std::string_view next = i + 1 < words.size() ? std::string_view(words[i + 1]) : "";
+    const std::size_t behind = i + 1 == last ? i + 2 : i + 1;
+    const std::string_view next = behind < words.size() ? std::string_view(words[behind]) : "";
     const std::string_view option = word.substr(0, equals),
                            value = equals == word.npos ? next : word.substr(equals + 1);
     for (const RetiredSpelling& r : kRetired)

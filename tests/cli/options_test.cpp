@@ -164,7 +164,8 @@ TEST(RetiredSpellings, LeavePresentOnesAlone) {
     EXPECT_FALSE(finds({command, "show.evs", "--trace", "/tmp"})) << command;
     EXPECT_TRUE(finds({command, "show.evs", "--trace", "ball"})) << command;
   }
-  EXPECT_TRUE(finds({"bench", "--json", "x.json", "flight"}));
+  EXPECT_TRUE(finds({"bench", "--json", "flight", "x.json"}));
+  EXPECT_FALSE(finds({"bench", "--json", "flight"}));
 }
 
 TEST(ValueGrammar, AMistakeNamesTheValueAndWhatIsAllowed) {
