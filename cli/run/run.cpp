@@ -67,8 +67,7 @@ std::vector<std::string> playerWords(int descriptor) {
   std::ifstream file("/proc/self/cmdline", std::ios::binary);
   std::vector<std::string> words;
   for (std::string word; std::getline(file, word, '\0');) words.push_back(word);
-  std::erase_if(words,
-                [](const std::string& w) { return w == "--supervise" || w.starts_with("--supervise="); });
+  std::erase(words, "--supervise");
   words.front() = std::filesystem::canonical("/proc/self/exe").string();
   const auto run = std::ranges::find(words, "run");
   const std::vector<std::string> own{"--supervised", std::to_string(descriptor), "--ends-with",
