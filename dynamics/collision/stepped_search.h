@@ -1,6 +1,6 @@
 #pragma once
-/// The contact scheme of the paper (Gaitatzes et al., Towards Immersive Dynamics): move, test, subdivide, back
-/// up. `impact=paper` of a dynamics node.
+/// The contact scheme of the paper (Georgios Papaioannou, on the interactive dynamics of EVS): move, test,
+/// subdivide, back up. `impact=paper` of a dynamics node.
 ///
 /// Method   the sides move one step and are tested there. If they overlap, the step is halved until the sides
 ///          cannot move farther than the tolerance in what is left of it. Then the last time at which they
