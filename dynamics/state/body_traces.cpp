@@ -19,6 +19,15 @@ void BodyTraces::trace(RigidBody& b, bool traced, bool awaited, double tau) {
   }
 }
 
+/// When the frame began the body stood or was slow, so that nothing noted its way.
+void BodyTraces::expectPartings(RigidBody& b, double tau) {
+  if (b.trace.awaited || memory_.waiting().empty()) return;
+  bool waits = false;
+  memory_.eachWith({true, b.id},
+                   [&](const ContactMemory::Key& pair) { waits = waits || memory_.waitingOf(pair); });
+  if (waits) trace(b, b.trace.traced, true, tau);
+}
+
 void BodyTraces::addPart(RigidBody& b, ArcPiece part) {
   part.jump = std::exchange(b.trace.put, false);
   // What lasts for no time is no part of a way.
@@ -85,7 +94,8 @@ void BodyTraces::find(bool goesOn) {
   for (const ContactMemory::Waiting& w : memory_.waiting()) {
     RigidBody *a = w.pair.first.isBody ? objects_.body(w.pair.first.id) : nullptr,
               *b = objects_.body(w.pair.second);
-    if (mayGo(a) + mayGo(b) < w.slack) continue;
+    const double way = mayGo(a) + mayGo(b);
+    if (way == 0 || way < w.slackAt(time_.t0())) continue;
     for (RigidBody* one : {a, b}) {
       if (!one || one->trace.awaited) continue;
       one->trace.awaited = true;

@@ -17,6 +17,8 @@ public:
 
   /// From tau on the body is traced for others (`traced`) or to find when it parts (`awaited`), or not.
   void trace(RigidBody& b, bool traced, bool awaited, double tau);
+  /// At tau the body changes at once how it moves: notes its way from then on if one of its pairs may part.
+  void expectPartings(RigidBody& b, double tau);
   /// Notes, if the body is traced, that it follows its present arc from tau on.
   void note(RigidBody& b, double tau);
   /// Notes the path of a held body in this part of a frame.

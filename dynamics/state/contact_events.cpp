@@ -31,6 +31,13 @@ void ContactMemory::update(const Key& pair, F change) {
   if (m.idle() && ++idle_ > 64 + memory_.size() / 2) forgetIdle();
 }
 
+/// The farthest that the pair can have gone grows at least evenly towards `look`, since it only gets faster.
+double ContactMemory::Waiting::slackAt(Nanoseconds time) const {
+  if (time <= seen) return slack;
+  if (!byWay || time >= look) return 0;
+  return slack * (toSeconds(look - time) / toSeconds(look - seen));
+}
+
 ContactMemory::Waiting* ContactMemory::impact(const Key& pair, Nanoseconds time, const Vec3& point,
                                               const Vec3& normal, double speed, double impulse,
                                               std::uint64_t frame, bool awaited) {

@@ -47,13 +47,19 @@ public:
     const std::uint32_t *versionA = nullptr, *versionB = nullptr;  ///< the present versions of both sides
     std::int32_t triangle = -1;                                    ///< triangle of a mesh that was near
     bool sure = false;     ///< at `look` the pair is as far apart as it must be from the side that was near
+    bool byWay = false;    ///< `look` follows from `slack` and how fast the pair can go
     Nanoseconds seen = 0;  ///< up to then it has not parted ...
     double slack = 0;      ///< ... and after that it must go so far to do so [m]
+
+    /// Returns how far the pair must at least go after `time` to part [m]. Expects that no arc has changed
+    /// between the last look and `time`.
+    double slackAt(Nanoseconds time) const;
 
     template <class Self, class Fields>
     static void fields(Self& w, Fields& f) {
       f("pair", w.pair), f("frame", w.frame), f("look", w.look), f("versions", w.versions);
-      f("triangle", w.triangle), f("sure", w.sure), f("seen", w.seen), f("slack", w.slack);
+      f("triangle", w.triangle), f("sure", w.sure), f("seen", w.seen), f("slack", w.slack),
+          f("by way", w.byWay);
     }
   };
   /// Equal for equal memories, up to chance; costs nothing.

@@ -57,6 +57,7 @@ void BodyArcs::setPath(RigidBody& b, double tau, const Path& path, double horizo
     return;
   }
   if (&path != &b.path) b.path = path;
+  const bool starts = standsStill(b.mode) && !standsStill(mode);
   b.mode = mode;
   b.since = time_.instantAt(tau);
   b.age0 = -tau;
@@ -70,6 +71,7 @@ void BodyArcs::setPath(RigidBody& b, double tau, const Path& path, double horizo
   ++b.version;
   if (mode != BodyMode::Flight && !b.contact.inPile) supports_.note(b);
   active_.add(b);
+  if (starts) traces_.expectPartings(b, tau);
   traces_.note(b, tau);
   if (!changes_.immediate())
     changes_.mark(b);  // a change between frames is looked at when the next one begins

@@ -64,6 +64,7 @@ void Impacts::strikeInPile(RigidBody& b, const SolverBody& m, double tau) {
 /// The body goes on with the velocities of m.
 void Impacts::afterImpulse(RigidBody& b, const SolverBody& m, double tau, bool lasting) {
   if (!b.movable()) return;
+  releases_.expectPartings(b, tau);
   const Vec3& p = m.p;
   const Quat& q = m.q;
   if (b.contact.inPile) return strikeInPile(b, m, tau);

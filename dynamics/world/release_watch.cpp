@@ -56,6 +56,11 @@ bool isNoted(const Side& s) {
   return !s.body || !s.body->trace.arcs.empty() || standsStill(s.body->mode);
 }
 
+/// The time from which on a body follows its present arc.
+double arcStart(const Side& s) {
+  return s.body ? -s.body->age0 : -1e300;
+}
+
 /// A side's motion through the frame so far: a body follows its noted path.
 class PastSide {
 public:
@@ -182,9 +187,16 @@ void ReleaseWatch::forgetSlack(ContactSide p) {
   });
 }
 
+/// Until this part of the frame the pair was as foreseen: it has not parted, but it has used up slack.
+void ReleaseWatch::passSkippedFrames(ContactMemory::Waiting& w) const {
+  if (w.seen >= time_.t0()) return;
+  w.slack = w.slackAt(time_.t0()), w.seen = time_.t0();
+}
+
 /// Returns true if the pair has moved too little since the last look to have parted.
 bool ReleaseWatch::stillNear(ContactMemory::Waiting& w, double tau) const {
-  const double from = std::max(time_.from(), time_.tauOf(w.seen));
+  passSkippedFrames(w);
+  const double from = time_.tauOf(w.seen);
   const double length = wayLength(*objects_.side(w.pair.first), from, tau) +
                         wayLength(*objects_.side({true, w.pair.second}), from, tau);
   if (!(length < w.slack)) return false;
@@ -213,8 +225,8 @@ void ReleaseWatch::reportReleases() {
     const double far = b.body->releaseDistance;
     const Gap gap = gapBetween(b, a, time_.now(), {far + 1e-3, 0.7 * far, w.triangle});
     if (gap.distance > far) {
-      due.emplace_back(w.pair, time_.timeAt(whenApart(b, a, far, std::max(time_.from(), time_.tauOf(w.seen)),
-                                                      time_.now())));
+      const double from = std::max({time_.tauOf(w.seen), arcStart(a), arcStart(b)});
+      due.emplace_back(w.pair, time_.timeAt(whenApart(b, a, far, from, time_.now())));
       continue;
     }
     w.triangle = gap.triangle;
@@ -261,7 +273,7 @@ void ReleaseWatch::awaitRelease(ContactMemory::Waiting& w, const Side& a, const 
   w.versionA = a.body ? &a.body->version : &a.collider->version, w.versionB = &b.body->version;
   w.versions = *w.versionA + *w.versionB;
   w.sure = false;
-  w.seen = time_.timeAt(tau), w.slack = distance;
+  w.seen = time_.timeAt(tau), w.slack = distance, w.byWay = false;
   BallFlight::Stay stay;
   if (const auto flight = a.still() ? flightOf(b, tau) : std::nullopt) {
     const double far = b.body->releaseDistance;
@@ -274,8 +286,10 @@ void ReleaseWatch::awaitRelease(ContactMemory::Waiting& w, const Side& a, const 
     w.triangle = stay.triangle, w.sure = stay.sure;
   }
   constexpr double kForever = 1e6;  // [s]
-  w.look = time_.timeAt(tau) + (w.sure ? fromSeconds(std::min(stay.seconds, kForever))
-                                       : std::max(fromSeconds(stay.seconds), soonest(a, b, distance, tau)));
+  const Nanoseconds stays = fromSeconds(std::min(stay.seconds, kForever)),
+                    goes = w.sure ? 0 : soonest(a, b, distance, tau);
+  w.byWay = goes >= stays;
+  w.look = time_.timeAt(tau) + std::max(stays, goes);
 }
 
 /// An impact at tau has been dealt with: the pair need not be looked at before it can part.

@@ -23,6 +23,8 @@ public:
   void foreseeRelease(ContactMemory::Waiting& w, double tau, std::int32_t triangle);
   /// The pair meets again at tau: reports a release before that.
   void releaseBefore(const ContactMemory::Key& pair, double tau);
+  /// An impulse acts on the body at tau.
+  void expectPartings(RigidBody& b, double tau) { traces_.expectPartings(b, tau); }
   /// Reports the releases of this part of the frame.
   void reportReleases();
   /// A jump of `p` makes all its pairs due.
@@ -35,6 +37,7 @@ private:
   bool noPartNearer(const ContactMemory::Waiting& w, const Side& a, const Side& b) const;
   std::optional<Nanoseconds> whenParted(const ContactMemory::Waiting& w, double tau) const;
   double wayLength(const Side& s, double from, double tau) const;
+  void passSkippedFrames(ContactMemory::Waiting& w) const;
   bool stillNear(ContactMemory::Waiting& w, double tau) const;
 
   const WorldTime& time_;
