@@ -212,6 +212,18 @@ void lintExpiry(const Declaration& node, LintScope& scope) {
       scope.warn(node, "eventmessage", "without a duration, this field never posts expired");
 }
 
+/// A node in another file may be a body.
+void lintAnchor(const Declaration& node, LintScope& scope) {
+  if (!node.has("anchor")) return;
+  const auto carrier = node.reference("attach");
+  if (!carrier) return scope.warn(node, "anchor", "the anchor has no effect without attach");
+  if (node.choice<FieldAnchor>("anchor") != FieldAnchor::Mass || !scope.useOf(*carrier)) return;
+  const Declaration named = scope.document()[carrier->declaration];
+  if (named.kind() != NodeKind("dynobject"))
+    scope.warn(node, "anchor",
+               fmt::format("anchor=mass has no effect: {} is no body", LintScope::called(named)));
+}
+
 void lintField(const Declaration& node, LintScope& scope) {
   const NodeUse& use = scope.useOf(node);
   const bool linear = node.kind() == "forcelinear";
@@ -224,8 +236,7 @@ void lintField(const Declaration& node, LintScope& scope) {
   }
   if (node.has("tracker") && !node.has("strengthaxis"))
     scope.warn(node, "tracker", "the tracker has no effect without strengthaxis");
-  if (node.has("anchor") && !node.has("attach"))
-    scope.warn(node, "anchor", "the anchor has no effect without attach");
+  lintAnchor(node, scope);
   lintExpiry(node, scope);
   if (node.name().empty() || (scope.alone() && !use.hooked))
     scope.warn(node, "name", fmt::format("{} is never hooked to a body", LintScope::called(node)));

@@ -246,5 +246,21 @@ TEST(ProgramFieldEvents, CheckWarnsOfWhatNeverHappens) {
     EXPECT_NE((r.out + r.err).find(warning), std::string::npos) << r.out << r.err;
 }
 
+TEST(ProgramFieldEvents, CheckWarnsOfAnAnchorInTheMassOfWhatIsNoBody) {
+  const TestFolder folder;
+  const std::string show = folder.write(
+      "anchor.evs", "object( name=lamp, file=football.3ds )\n"
+                    "dynobject( name=b, file=football.3ds, hook=f, hook=g, hook=h )\ndynamics( collidee=b )\n"
+                    "forcespherical( name=f, radius=1, attach=lamp, anchor=mass )\n"
+                    "forcespherical( name=g, radius=1, attach=b, anchor=mass )\n"
+                    "forcespherical( name=h, radius=1, attach=lamp, anchor=origin )\n");
+  const ProgramResult r = stadionProgram({"check", show, "--asset-root", assetFolder()});
+  EXPECT_EQ(r.status, 0) << r.err;
+  const std::string said = r.out + r.err,
+                    warning = "anchor=mass has no effect: the object \"lamp\" is no body";
+  EXPECT_NE(said.find("anchor.evs:4:55: warning: " + warning), std::string::npos) << said;
+  EXPECT_EQ(said.find("no effect", said.find(warning) + warning.size()), std::string::npos) << said;
+}
+
 }  // namespace
 }  // namespace stadion
