@@ -141,8 +141,13 @@ private:
   void visitAll(Quat& q) { visitAll(q.coeffs()); }
   void visitAll(Pose& X) { visitAll(X.p), visitAll(X.q); }
   void visitAll(Affine& X) {
-    for (int c = 0; c < 4; ++c)
+    const std::string_view outer = std::exchange(outer_, name_);
+    name_ = "axes";
+    for (int c = 0; c < 3; ++c)
       for (int r = 0; r < 3; ++r) visit(X.matrix()(r, c));
+    name_ = "position";
+    for (int r = 0; r < 3; ++r) visit(X.matrix()(r, 3));
+    name_ = std::exchange(outer_, outer);
   }
   void visitAll(NodeRef& r) { visit(r.load), visit(r.position); }
   template <class A, class B>

@@ -69,15 +69,19 @@ std::optional<Diagnostic> saveState(Scene& scene, const std::string& file) {
   return writeFile(file, bytes);
 }
 
-std::string fieldsIn(const std::string& file) {
-  const Result<std::string> read = readPlainFile(file, kMostStateBytes);
-  const std::string bytes = read ? read.value() : "";
+/// Of the bytes of a file.
+static std::string fieldsOf(const std::string& bytes) {
   std::uint64_t size = 0;
   if (!bytes.ends_with(kFieldsMagic) || bytes.size() < kFieldsMagic.size() + sizeof size) return "";
   const std::size_t end = bytes.size() - kFieldsMagic.size() - sizeof size;
   std::memcpy(&size, bytes.data() + end, sizeof size);
   return size <= end ? bytes.substr(end - static_cast<std::size_t>(size), static_cast<std::size_t>(size))
                      : "";
+}
+
+std::string fieldsIn(const std::string& file) {
+  const Result<std::string> read = readPlainFile(file, kMostStateBytes);
+  return read ? fieldsOf(read.value()) : "";
 }
 
 Result<std::optional<SavedStateDifference>> compareState(Scene& scene, const std::string& file) {
@@ -89,6 +93,13 @@ Result<std::optional<SavedStateDifference>> compareState(Scene& scene, const std
         Severity::Error, {file, 0, 0}, "is no state; stadion hash SHOW --save-state FILE writes one", {}};
   std::uint64_t files = 0;
   std::memcpy(&files, bytes.data() + kStateMagic.size(), sizeof files);
+  const std::string ours = namedFields(scene), theirs = fieldsOf(bytes);
+  if (!theirs.empty()) {
+    const std::string here = frameOf(ours), there = frameOf(theirs);
+    if (here != there) return std::optional(SavedStateDifference{"the frame", here, there});
+    if (files != SceneSnapshot::filesOf(scene))
+      if (auto found = namedDifference(ours, theirs)) return found;
+  }
   const auto* state = reinterpret_cast<const std::uint8_t*>(bytes.data() + kStateHead);
   return savedStateDifference(scene, files, {state, bytes.size() - kStateHead});
 }

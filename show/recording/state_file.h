@@ -5,6 +5,7 @@
 /// Errors   of files, with their names.
 
 #include "engine/scene/scene.h"
+#include "show/recording/named_difference.h"
 
 #include <cstdint>
 #include <optional>
@@ -13,18 +14,14 @@
 
 namespace stadion {
 
-/// The first difference between two states: "ball (kick.evs:27), velocity", and both values.
-struct SavedStateDifference {
-  std::string where, here, there;
-};
-
 /// `files` and `state` are SceneSnapshot::filesOf() and save() of the other scene.
 std::optional<SavedStateDifference> savedStateDifference(Scene& scene, std::uint64_t files,
                                                          std::span<const std::uint8_t> state);
 
 /// Writes the scene's state: its bytes, and its fields by name, which other builds can compare too.
 std::optional<Diagnostic> saveState(Scene& scene, const std::string& file);
-/// Compares the scene with a state that saveState() wrote after the same frame.
+/// Compares the scene with a state that saveState() wrote. If the frames differ, they are the difference. If
+/// scripts or models differ, fields are compared by name.
 Result<std::optional<SavedStateDifference>> compareState(Scene& scene, const std::string& file);
 /// The fields by name in a file of saveState(): "@NODE<tab>FILE:LINE", and below it "FIELD<tab>VALUE" a line;
 /// fields that are zero are left out. Empty if the file has none.

@@ -16,7 +16,7 @@ namespace {
 
 constexpr std::size_t kKeptStates = 1024;        ///< frames of a case
 constexpr std::size_t kKeptDigits = 8;           ///< of each
-constexpr std::size_t kKeptFields = 4;           ///< frames of a case whose fields are kept
+constexpr std::size_t kKeptFields = 4;           ///< frames of a case whose fields are kept, beside the first
 constexpr std::size_t kMostKeptBytes = 1 << 17;  ///< of all of them
 
 /// `PROGRAM hash SHOW ...`, as the case is played.
@@ -60,30 +60,6 @@ std::string differenceIn(const std::string& out, const std::string& file) {
   return "";
 }
 
-struct Field {
-  std::string node, where;  ///< its path, and its number if several have the same; file and line
-  std::string name, value;
-};
-
-/// The fields of a text of fieldsIn().
-std::vector<Field> fieldsOf(const std::string& text) {
-  std::vector<Field> all;
-  std::map<std::string, int> seen;
-  std::string node, where;
-  std::istringstream lines(text);
-  for (std::string line; std::getline(lines, line);) {
-    const std::size_t tab = std::min(line.find('\t'), line.size());
-    const std::string first = line.substr(0, tab), second = tab < line.size() ? line.substr(tab + 1) : "";
-    if (!line.starts_with('@')) {
-      all.push_back({node, where, first, second});
-      continue;
-    }
-    const int number = ++seen[first];
-    node = first.substr(1) + (number > 1 ? fmt::format(" #{}", number) : ""), where = second;
-  }
-  return all;
-}
-
 /// Without files and lines: a baseline is compared elsewhere, and scripts are edited.
 std::string withoutPlaces(const std::string& text) {
   std::string kept;
@@ -101,6 +77,15 @@ std::string fieldsAfter(const regression::SuiteCase& c, const StatePlay& play, s
   std::vector<std::string> save = hashWords(c, play, frames);
   save.insert(save.end(), {"--save-state", file});
   return runChild(save, limit, stop).status == 0 ? fieldsIn(file) : "";
+}
+
+/// After how many frames the fields are kept: after the first one, after all, and between.
+std::vector<std::size_t> keptFrames(std::size_t frames) {
+  if (frames == 0) return {};
+  std::vector<std::size_t> counts{1};
+  for (std::size_t part = kKeptFields; part > 0; --part)
+    if (const std::size_t count = frames * part / kKeptFields; count > 0) counts.push_back(count);
+  return counts;
 }
 
 /// The first and the last frame among which the states begin to differ; nothing if no kept one differs.
@@ -161,14 +146,13 @@ std::map<std::uint64_t, std::string> keptFields(const regression::SuiteCase& c, 
                                                 std::size_t frames, std::chrono::seconds limit,
                                                 const std::atomic<bool>& stop) {
   std::map<std::uint64_t, std::string> kept;
-  for (std::size_t part = kKeptFields; part > 0; --part) {
-    const std::size_t count = frames * part / kKeptFields;
-    if (count == 0 || kept.contains(count - 1)) continue;
+  std::size_t left = kMostKeptBytes;
+  for (const std::size_t count : keptFrames(frames)) {
+    if (kept.contains(count - 1)) continue;
     std::string text = withoutPlaces(fieldsAfter(c, play, count, limit, stop));
-    if (text.empty() || text.size() > kMostKeptBytes) break;
-    const bool isLarge = text.size() > kMostKeptBytes / kKeptFields;
+    if (text.empty() || text.size() > left) break;
+    left -= text.size();
     kept[count - 1] = std::move(text);
-    if (isLarge) break;
   }
   return kept;
 }
@@ -180,31 +164,19 @@ std::string stateLocation(const regression::SuiteCase& c, const StatePlay& now, 
   const auto [first, last] = *differing;
   const std::string where = first == last ? fmt::format("first in frame {}", first)
                                           : fmt::format("first in frames {} to {}", first, last);
-  for (auto at = before.fields.lower_bound(last); at != before.fields.end(); ++at) {
+  for (auto at = before.fields.lower_bound(first); at != before.fields.end(); ++at) {
     const auto frames = static_cast<std::size_t>(at->first) + 1;
     const std::string found = firstDifference(fieldsAfter(c, now, frames, limit, stop), at->second);
     if (found.empty()) continue;
-    return where + (at->first == first ? ": " : fmt::format("; after frame {}: ", at->first)) + found;
+    if (at->first <= last) return fmt::format("first in frame {}: {}", at->first, found);
+    return where + fmt::format("; after frame {}: ", at->first) + found;
   }
   return where + "; --against BUILD names node and field";
 }
 
 std::string firstDifference(const std::string& now, const std::string& before) {
-  std::map<std::pair<std::string, std::string>, std::string> theirs;
-  for (Field& f : fieldsOf(before)) theirs[{f.node, f.name}] = std::move(f.value);
-  const auto told = [](const Field& f, const std::string& here, const std::string& there) {
-    const std::string where = f.where.empty() ? "" : " (" + f.where + ")";
-    return fmt::format("{}{}, {} is {} now, {} before", f.node, where, f.name, here, there);
-  };
-  for (const Field& f : fieldsOf(now)) {
-    const auto at = theirs.find({f.node, f.name});
-    const std::string there = at == theirs.end() ? "0" : at->second;
-    if (there != f.value) return told(f, f.value, there);
-    if (at != theirs.end()) theirs.erase(at);
-  }
-  for (const Field& f : fieldsOf(before))
-    if (theirs.contains({f.node, f.name})) return told(f, "0", f.value);
-  return "";
+  const auto d = namedDifference(now, before);
+  return d ? fmt::format("{} is {} now, {} before", d->where, d->here, d->there) : "";
 }
 
 }  // namespace stadion

@@ -248,5 +248,62 @@ TEST(ProgramRegress, SaysInWhichFrameNodeAndFieldStatesBeginToDiffer) {
       << since.out;
 }
 
+/// A show whose ball begins `more` metres farther up, and in a later line.
+std::string ballShow(const TestFolder& folder, const std::string& file, double more) {
+  return folder.write(
+      file, (more > 0 ? "# a remark\n" : "") +
+                std::string("forcelinear( name=gravity, direction=\"0, 0, -1\" )\n"
+                            "usertrigger( sphere=\"0, 0, 0, 5\", eventmessage=\"enter, gravity, enable\" )\n"
+                            "object( name=floor, file=plane.3ds )\n"
+                            "dynobject( name=ball, file=football.3ds, position=\"0, 6, ") +
+                std::to_string(3 + more) +
+                "\", density=0.08, hook=gravity )\ndynamics( collider=floor, collidee=ball )\n");
+}
+
+/// The files differ, too: that must not hide the node.
+TEST(ProgramRegress, ABallThatWasMovedInTheScriptIsNamedInTheFirstFrame) {
+  const TestFolder folder;
+  ballShow(folder, "show.evs", 0);
+  const std::string suite = folder.write(
+      "s.suite", "stadion-suite 1\nsize 32x24\nwalls desktop\nlook plain\ncompare state\nmodes sequential\n"
+                 "case ball\n  show show.evs\n  asset-root " +
+                     assetFolder() + "\n  frames 20\n  input none\n");
+  ASSERT_EQ(regress({suite, "--update"}).status, 0);
+  ballShow(folder, "show.evs", 0.001);
+  const std::regex place(
+      "first in frame 0: ball \\([^;]*:5\\), place\\.position is 0 6 3\\.00[01][0-9]* now, "
+      "0 6 3 before");
+  const ProgramResult since = regress({suite});
+  EXPECT_EQ(since.status, 1) << since.err;
+  EXPECT_TRUE(std::regex_search(since.out, place)) << since.out;
+
+  const std::string old = ballShow(folder, "old.evs", 0), other = folder.path() / "other";
+  folder.write("other", "#!/bin/sh\nexec " + stadionPath() + " $(echo \"$@\" | sed 's#show.evs#old.evs#')\n");
+  std::filesystem::permissions(other, std::filesystem::perms::owner_all);
+  const ProgramResult builds = regress({suite, "--against", other});
+  EXPECT_EQ(builds.status, 1) << builds.err;
+  EXPECT_TRUE(std::regex_search(builds.out, place)) << builds.out;
+}
+
+TEST(ProgramHash, ComparesTheStateOfAnEditedShowAndTellsOtherFramesApart) {
+  const TestFolder folder;
+  const std::string state = folder.path() / "state";
+  const auto hash = [&](const std::string& show, const std::string& frames, const std::string& option) {
+    return stadionProgram(
+        {"hash", show, "--asset-root", assetFolder(), "--input", "none", "--frames", frames, option, state});
+  };
+  const std::string old = ballShow(folder, "old.evs", 0), edited = ballShow(folder, "new.evs", 0.001);
+  ASSERT_EQ(hash(old, "1", "--save-state").status, 0);
+  EXPECT_EQ(hash(old, "1", "--compare-state").status, 0);
+  const ProgramResult moved = hash(edited, "1", "--compare-state");
+  EXPECT_EQ(moved.status, 1);
+  EXPECT_TRUE(
+      std::regex_search(moved.out, std::regex("difference: ball \\(.*new.evs:5\\), place\\.position is ")))
+      << moved.out;
+  const ProgramResult later = hash(old, "4", "--compare-state");
+  EXPECT_EQ(later.status, 1);
+  EXPECT_NE(later.out.find("difference: the frame is 3 here and 0 in "), std::string::npos) << later.out;
+}
+
 }  // namespace
 }  // namespace stadion

@@ -28,5 +28,21 @@ TEST(StateLocation, TellsNodesOfOnePathApart) {
       "part #2 (a.evs:9), level is 3 now, 2 before");
 }
 
+TEST(StateLocation, TakesNodesWithoutANameByTypeAndOrder) {
+  const std::string kept = "@timer:3\non\t1\n@ball\nplace\t1\n@timer:9\non\t2\n";
+  EXPECT_EQ(firstDifference(
+                "@timer:4\ta.evs:4\non\t1\n@ball\ta.evs:5\nplace\t1\n@timer:12\ta.evs:12\non\t2\n", kept),
+            "");
+  EXPECT_EQ(firstDifference(
+                "@timer:4\ta.evs:4\non\t1\n@ball\ta.evs:5\nplace\t1\n@timer:12\ta.evs:12\non\t3\n", kept),
+            "timer:12 (a.evs:12), on is 3 now, 2 before");
+}
+
+TEST(StateLocation, ComparesAPartWithNothingWhereAnOlderBuildHasTheWhole) {
+  EXPECT_EQ(firstDifference("@ball\nplace.axes\t#1\nplace.position\t1 2 3\nspin\t5\n",
+                            "@ball\nplace\t#2\nspin\t4\n"),
+            "ball, spin is 5 now, 4 before");
+}
+
 }  // namespace
 }  // namespace stadion
