@@ -1,5 +1,7 @@
 #include "engine/base/worker_pool.h"
 
+#include "engine/base/running_stage.h"
+
 #include <algorithm>
 #include <exception>
 
@@ -33,9 +35,13 @@ WorkerPool::~WorkerPool() {
 
 void WorkerPool::run(std::size_t count, const std::function<void(std::size_t)>& piece) {
   thrown_.assign(count, nullptr);
+  const std::function<void(std::size_t)> pieceOfStage = [&piece, stage = RunningStage::current()](auto i) {
+    const RunningStage running(stage);
+    piece(i);
+  };
   {
     const std::lock_guard lock(mutex_);
-    piece_ = &piece, count_ = count;
+    piece_ = &pieceOfStage, count_ = count;
     next_ = 0;
     ++round_;
   }

@@ -5,7 +5,7 @@
 ///            caller, take pieces in order, so results must not depend on the thread of a piece. Waking a
 ///            thread takes longer than a small piece: the others are woken only if all pieces of the previous
 ///            run together took longer than that.
-/// Ownership  owns its threads; they sleep between runs.
+/// Ownership  owns its threads; they sleep between runs. At a piece they run the caller's stage.
 /// Errors     run() throws the exceptions of pieces, the first one by number.
 
 #include <atomic>

@@ -480,7 +480,7 @@ bool FrameLoop::openStage(std::size_t wall) {
 bool FrameLoop::warmUpStage(std::size_t wall, const DrawList& list) {
   const Clock::time_point began = Clock::now();
   const std::uint64_t frame = list.ticket.signature.frame;
-  const bool well = attempt("warming up", wall, frame, [&] { return stages_.warmUp(wall, list); });
+  const bool well = attemptGuarded("warming up", wall, frame, [&] { return stages_.warmUp(wall, list); });
   warmUps_[wall] += millisecondsSince(began);
   if (!well) broken_ = true;
   return well;

@@ -4,7 +4,7 @@
 /// Order      the pieces of the wall that came first are taken first, in order. Results must not depend on
 ///            the thread of a piece.
 /// Threads    run() may be called on any number of threads at a time. A caller works at its own pieces while
-///            fewer threads than the pool's number are at work.
+///            fewer threads than the pool's number are at work. A thread runs the stage of its job's caller.
 /// Errors     run() throws the first exception of a piece, by number; later pieces are then left out.
 
 #include <condition_variable>

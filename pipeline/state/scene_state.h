@@ -87,8 +87,8 @@ public:
   void guard(WriteGuard& guard);
   /// Before the guard goes.
   void unguard();
-  /// Returns the record at an address that the guard has caught. Call it on the thread that wrote there, in
-  /// its stage.
+  /// Returns the record at an address that the guard has caught. Call it in the stage that wrote there, on
+  /// the thread of its WriteGuard::Stage.
   PublishedPlace placeOf(const void* address) const;
   /// Returns the number of changes noted for slots that were not written since. Each slot has at most one for
   /// each moved instance and one for each object that has left a visible chunk, however long the show runs.

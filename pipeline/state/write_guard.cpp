@@ -1,14 +1,23 @@
 #include "pipeline/state/write_guard.h"
 
+#include "engine/base/running_stage.h"
+#include "pipeline/state/guard_cost.h"
+
 #include <atomic>
 #include <cassert>
 #include <cerrno>
+#include <chrono>
 #include <csignal>
 #include <string_view>
 #include <sys/mman.h>
 #include <unistd.h>
 
 namespace stadion {
+
+struct StageRecord {
+  std::atomic<const void*> firstWrite = nullptr;  ///< its address; null: there was none
+};
+
 namespace {
 
 struct GuardedRange {
@@ -20,13 +29,12 @@ struct GuardedRange {
 GuardedRange guardedRanges[WriteGuard::kMostRanges];
 std::atomic<std::size_t> guardedCount = 0;
 struct sigaction actionBefore {};
+GuardCost guardCost;
 
-/// Of this thread. The handler must find it without a call that may allocate.
-struct StageWrites {
-  volatile bool inStage = false;
-  void* volatile first = nullptr;
-};
-[[gnu::tls_model("initial-exec")]] thread_local constinit StageWrites stageWrites;
+static_assert(std::atomic<const void*>::is_always_lock_free, "the signal handler must not wait");
+
+/// Of the stage that began on this thread.
+thread_local constinit StageRecord ownStage;
 
 constexpr std::string_view kOutside =
     "stadion: --guard: a thread that runs no stage wrote to the published scene\n";
@@ -39,16 +47,26 @@ const GuardedRange* rangeOf(const void* address) {
   return nullptr;
 }
 
+void protect(const GuardedRange& range, int rights) {
+  using Clock = std::chrono::steady_clock;
+  const Clock::time_point began = Clock::now();
+  mprotect(range.at, range.bytes, rights);
+  guardCost.milliseconds += std::chrono::duration<double, std::milli>(Clock::now() - began).count();
+  ++guardCost.calls;
+}
+
 /// In a signal handler. The instruction that failed runs again when it returns.
 extern "C" void noteGuardedWrite(int, siginfo_t* info, void*) {
   const int error = errno;
   const GuardedRange* range = rangeOf(info->si_addr);
   const bool ours = range && info->si_code == SEGV_ACCERR;
-  if (ours && !stageWrites.inStage) {
+  StageRecord* const stage = RunningStage::current();
+  if (ours && !stage) {
     [[maybe_unused]] const auto n = write(STDERR_FILENO, kOutside.data(), kOutside.size());
     _exit(WriteGuard::kOutsideStages);
   }
-  if (ours && !stageWrites.first) stageWrites.first = info->si_addr;
+  const void* none = nullptr;
+  if (ours) stage->firstWrite.compare_exchange_strong(none, info->si_addr);
   if (!ours || mprotect(range->at, range->bytes, PROT_READ | PROT_WRITE) != 0)
     sigaction(SIGSEGV, &actionBefore, nullptr);
   errno = error;
@@ -58,6 +76,7 @@ extern "C" void noteGuardedWrite(int, siginfo_t* info, void*) {
 
 WriteGuard::WriteGuard() {
   assert(guardedCount == 0);
+  guardCost = {};
   struct sigaction ours {};
   ours.sa_sigaction = noteGuardedWrite;
   ours.sa_flags = SA_SIGINFO;
@@ -82,24 +101,28 @@ std::size_t WriteGuard::add(std::byte* at, std::size_t bytes) {
 }
 
 void WriteGuard::open(std::size_t range) const {
-  mprotect(guardedRanges[range].at, guardedRanges[range].bytes, PROT_READ | PROT_WRITE);
+  protect(guardedRanges[range], PROT_READ | PROT_WRITE);
 }
 
 void WriteGuard::close(std::size_t range) const {
-  mprotect(guardedRanges[range].at, guardedRanges[range].bytes, PROT_READ);
+  protect(guardedRanges[range], PROT_READ);
 }
 
 WriteGuard::Stage::Stage() {
-  stageWrites.first = nullptr;
-  stageWrites.inStage = true;
+  ownStage.firstWrite = nullptr;
+  RunningStage::begin(&ownStage);
 }
 
 WriteGuard::Stage::~Stage() {
-  stageWrites.inStage = false;
+  RunningStage::begin(nullptr);
 }
 
 const void* WriteGuard::Stage::written() const {
-  return stageWrites.first;
+  return ownStage.firstWrite;
+}
+
+GuardCost costOfGuard() {
+  return guardCost;
 }
 
 }  // namespace stadion

@@ -2,9 +2,9 @@
 /// Catches writes to memory that is published for reading. The ranges are read-only for the whole process
 /// while they are closed.
 ///
-/// A write by a thread in a Stage is noted for that thread. The range is then opened and the thread goes on,
-/// so that it can report the write itself when its stage ends. A write by any other thread ends the process
-/// with kOutsideStages.
+/// A write by a thread in a Stage, or by a pool's thread that works for it (engine/base/running_stage.h), is
+/// noted. The range is then opened and the thread goes on. So the stage can report the write when it ends. A
+/// write by any other thread ends the process with kOutsideStages.
 ///
 /// One guard at a time. Faults elsewhere are left to the signal handler that was there before.
 ///
@@ -40,7 +40,7 @@ public:
     ~Stage();
     Stage(const Stage&) = delete;
     Stage& operator=(const Stage&) = delete;
-    /// The address of the first write that the guard caught in this stage; null: there was none.
+    /// The address of the first write in this stage, by any of its threads; null: there was none.
     const void* written() const;
   };
 };

@@ -6,7 +6,8 @@
 ///                   Counted from main() on. tell=1: says at the end how often it asked.
 ///   read            of files: most=BYTES at a time (of sockets, too); delay=MS each; error=ERRNO
 ///   write           likewise, and after=BYTES written to such files
-///   protect nth=N   a byte is written to large memory the Nth time that it is made read-only; offset=BYTES
+///   protect nth=N   a byte is written to large memory the Nth time that it is made read-only; offset=BYTES;
+///                   thread=NAME: soon afterwards, by a thread whose name begins so
 ///   clock jump=S    the time of day jumps by so many seconds, as if somebody set it; after=MS
 ///
 /// in=PROGRAM says which program has it (else "stadion"; its children inherit the variable), path=PART which
@@ -36,6 +37,12 @@ public:
     const Word w = word(key);
     return w.at ? std::strtol(w.at, nullptr, 10) : other;
   }
+  /// Whether the key is there, and the text begins with its word.
+  bool begins(const char* text, const char* key) const {
+    const Word w = word(key);
+    return w.at && std::strncmp(text, w.at, w.length) == 0;
+  }
+  bool has(const char* key) const { return word(key).at != nullptr; }
   /// Whether the file is one of those.
   bool concerns(const char* path) const {
     const Word part = word(" path=");

@@ -1,15 +1,19 @@
 /// With --guard, a stage that writes what it may only read ends the run, and is named with the node and field.
 
+#include "engine/base/worker_pool.h"
 #include "engine/core/state_hash.h"
 #include "pipeline/draw_list/list_filling.h"
+#include "pipeline/platform/draw_pool.h"
 #include "show/player/write_watching.h"
 #include "tests/programs/program.h"
 #include "tests/show/player/played_show.h"
 
 #include <gtest/gtest.h>
 
+#include <barrier>
 #include <csignal>
 #include <functional>
+#include <thread>
 #include <utility>
 #include <vector>
 
@@ -119,6 +123,33 @@ TEST_P(WriteGuardTest, NamesAWriteOfCullToASlot) {
 TEST_P(WriteGuardTest, NamesAWriteOfDrawToASlot) {
   const auto run = guardedRun(GetParam(), true, [](WritingStages& s) { s.whileDrawing = moveInSlot; });
   expectWrongWrite(run, "Draw", "the published scene");
+}
+
+TEST_P(WriteGuardTest, NamesAWriteOfADrawPoolsThread) {
+  DrawPool pool(2, DrawPool::Callers::Wait);
+  const auto run = guardedRun(GetParam(), true, [&](WritingStages& s) {
+    s.whileDrawing = [&](const SlotView& view) {
+      pool.run(2, [&](std::size_t piece) {
+        if (piece == 1) moveInSlot(view);
+      });
+    };
+  });
+  expectWrongWrite(run, "Draw", "the published scene");
+}
+
+TEST_P(WriteGuardTest, NamesAWriteOfAWorker) {
+  WorkerPool pool(2);
+  const auto run = guardedRun(GetParam(), true, [&](WritingStages& s) {
+    s.whileCulling = [&](const SlotView& view) {
+      const std::thread::id caller = std::this_thread::get_id();
+      std::barrier both(2);  // each thread has a piece
+      pool.run(2, [&](std::size_t) {
+        both.arrive_and_wait();
+        if (std::this_thread::get_id() != caller) moveInSlot(view);
+      });
+    };
+  });
+  expectWrongWrite(run, "Cull", "the published scene");
 }
 
 TEST_P(WriteGuardTest, NamesAWriteOfDrawToItsList) {
