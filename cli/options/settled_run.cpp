@@ -81,6 +81,10 @@ void RunOptions::completeDrawing(Diagnostics& findings) {
                        "--wall-workers process gives to others: say --wall-workers thread");
   if (wallWorkers == "process" && display)
     findings.error({}, "--display draws into windows of this program: say --wall-workers thread");
+  if (wallWorkers == "process" && s.play.guard)
+    findings.error({},
+                   "--guard watches the stages of this program. A wall process cannot write to the scene, "
+                   "and its writes to its own copies are not watched: say --wall-workers thread");
   if (wallWorkers == "process" && renderer.drawsNothing())
     findings.error({}, "--gl none draws nothing that --wall-workers process could: leave one of them out");
   if (inTurn && (s.play.mostInFlight != 0 || cullDrawGiven))

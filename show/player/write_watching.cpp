@@ -1,17 +1,37 @@
 #include "show/player/write_watching.h"
 
 #include "pipeline/loop/frame_loop.h"
+#include "pipeline/state/guard_cost.h"
 #include "profiling/record/node_names.h"
 
 #include <fmt/format.h>
 
+#include <cmath>
+
 namespace stadion {
+namespace {
+
+/// To four decimals.
+double rounded(double value) {
+  return std::round(1e4 * value) / 1e4;
+}
+
+}  // namespace
 
 std::unique_ptr<WriteWatch> watchWrites(bool asked, const ShowParts& parts, FrameLoopOptions& options) {
   if (!asked) return nullptr;
   auto watch = std::make_unique<WriteWatch>(parts.state, parts.walls.size());
   options.watch = watch.get();
   return watch;
+}
+
+std::map<std::string, double> costOfWatch(std::uint64_t frames, double appMs) {
+  const GuardCost cost = costOfGuard();
+  const double each = frames > 0 ? cost.milliseconds / static_cast<double>(frames) : 0.0;
+  return {
+      {"guard: protect calls", static_cast<double>(cost.calls)},
+      {"guard: protect calls, ms a frame", rounded(each)},
+      {"guard: protect calls, percent of App", rounded(appMs > 0 ? 100 * cost.milliseconds / appMs : 0.0)}};
 }
 
 void nameNode(Failure& failure, const Scene& scene) {

@@ -12,6 +12,7 @@ DrawingNeeds SessionSettings::drawingNeeds(std::size_t walls) const {
   if (draw.processes) return needs;
   if (play.display) needs.here = "--display draws into windows of this program";
   if (show.mode == Mode::Sequential) needs.here = "--mode sequential does everything in one thread";
+  if (play.guard) needs.here = "--guard watches the stages of this program";
   if (record.measuresDrawing()) needs.here = "what is measured looks into the drawing";
   return needs;
 }
