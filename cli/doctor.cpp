@@ -39,11 +39,14 @@ command that mends it (do:). Nothing is changed. Topics:
   video         ffmpeg                                measuring valgrind
   realtime      the right to real-time priority       network   interfaces for clusters and trackers
   clock         a clock that is read quickly
+  measurements  stadion-measure and stadion-bench
+  tests, peers, fuzzing  the Debian packages of ./stadion test, setup peers and fuzz
 
 --for WHAT asks whether something can work here. Exit code 0: it can; 1: it cannot.
 
   SHOW.evs      programs, drawing, and sound if the show has sounds
-  FILE.walls    programs, drawing, displays, and the monitors and X screens that the file names
+  FILE.walls    programs, drawing, displays, and the monitors and X screens that the file names;
+                also the name of a room, such as cave4
   FILE.cluster  programs, network, and the interface that the file names
   cluster       programs, network
   a topic       that topic

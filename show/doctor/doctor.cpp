@@ -12,9 +12,26 @@
 namespace stadion {
 namespace {
 
-constexpr std::array<std::string_view, 11> kTopics{"programs",    "drawing", "gpu",   "displays",
-                                                   "swap-groups", "sound",   "video", "measuring",
-                                                   "realtime",    "network", "clock"};
+constexpr std::array<std::string_view, 15> kTopics{
+    "programs", "drawing", "gpu",   "displays",     "swap-groups", "sound", "video",  "measuring",
+    "realtime", "network", "clock", "measurements", "tests",       "peers", "fuzzing"};
+
+// The launcher installs the same ones.
+constexpr const char* kTestPackages[] = {"xvfb",
+                                         "xserver-xorg-core",
+                                         "xserver-xorg-video-dummy",
+                                         "xserver-xorg-dev",
+                                         "xdotool",
+                                         "imagemagick",
+                                         "chromium",
+                                         "ffmpeg",
+                                         "assimp-testmodels",
+                                         "valgrind",
+                                         "iproute2",
+                                         "procps"};
+constexpr const char* kPeerPackages[] = {"libbullet-dev", "libode-dev", "libmujoco-dev",
+                                         "libopenscenegraph-dev", "libegl-dev"};
+constexpr const char* kFuzzPackages[] = {"clang", "libclang-rt-dev"};
 
 constexpr const char* kClock = "/sys/devices/system/clocksource/clocksource0/";
 
@@ -24,7 +41,11 @@ public:
 
   std::vector<DoctorFinding> findings() {
     programs(), drawing(), gpu(), displays(), swapGroups(), sound(), video(), measuring(), realtime(),
-        network(), clock();
+        network(), clock(), measurements();
+    packages("tests", kTestPackages, "./stadion test skips tests, or installs the packages first");
+    packages("peers", kPeerPackages, "bench dynamics and bench walls compare with no other engine",
+             ", then in a checkout ./stadion setup peers, which builds");
+    packages("fuzzing", kFuzzPackages, "./stadion fuzz cannot build, or installs the packages first");
     for (DoctorFinding& f : found_)
       f.asked = std::ranges::find(needs_.topics, f.topic) != needs_.topics.end();
     return std::move(found_);
@@ -227,6 +248,32 @@ private:
     add("clock", Health::Limited, current,
         "each reading takes about a microsecond; measuring slows shows down",
         hasTsc ? fmt::format("echo tsc | sudo tee {}current_clocksource", folder) : "");
+  }
+
+  void measurements() {
+    std::vector<std::string> missing;
+    for (const char* name : {"stadion-measure", "stadion-bench"})
+      if (probes_.helper(name).empty()) missing.emplace_back(name);
+    if (missing.empty()) return add("measurements", Health::Works, "stadion-measure, stadion-bench");
+    add("measurements", Health::Limited, fmt::format("no {}", fmt::join(missing, ", ")),
+        missing.front() == "stadion-measure" ? "fit, profile, plan, regress, soak and calibrate cannot start"
+                                             : "bench cannot start",
+        missing.back() == "stadion-bench" ? "in a checkout ./stadion bench --help, which builds"
+                                          : "in a checkout ./stadion profile --help, which builds");
+  }
+
+  void packages(const char* topic, std::span<const char* const> wanted, const char* lacks,
+                const char* then = "") {
+    const auto installed = probes_.packages();
+    if (!installed)
+      return add(topic, Health::Limited, "the installed packages are not known: there is no dpkg", lacks,
+                 fmt::format("install what Debian calls {}{}", fmt::join(wanted, " "), then));
+    std::vector<std::string> missing;
+    for (const char* package : wanted)
+      if (!installed->contains(package)) missing.emplace_back(package);
+    if (missing.empty()) return add(topic, Health::Works, fmt::format("{}", fmt::join(wanted, ", ")));
+    add(topic, Health::Limited, fmt::format("no {}", fmt::join(missing, ", ")), lacks,
+        fmt::format("sudo apt-get install {}{}", fmt::join(missing, " "), then));
   }
 
   const DoctorProbes& probes_;

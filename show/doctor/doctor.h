@@ -10,6 +10,7 @@
 
 #include <functional>
 #include <optional>
+#include <set>
 #include <span>
 #include <string>
 #include <string_view>
@@ -56,11 +57,14 @@ struct DoctorProbes {
       monitors;                                       ///< names of the monitors of an X screen
   std::function<Result<std::string>()> windowPixels;  ///< way of pictures into windows without OpenGL
   std::function<std::optional<bool>()> swapGroups;    ///< nothing: not known without a display
-  std::function<bool()> realtime;                     ///< whether a thread may become a real-time thread
+  /// Names of the installed Debian packages; nothing: not known on this machine.
+  std::function<std::optional<std::set<std::string>>()> packages;
+  std::function<bool()> realtime;  ///< whether a thread may become a real-time thread
   std::function<std::vector<NetworkPort>()> network;
   std::function<std::string(const std::string&)> file;  ///< first line of a file; empty: it cannot be read
   std::function<bool(const std::string&)> exists, writable;
 };
+/// They hold a connection to the X server: a server without clients resets, and may refuse the next one.
 DoctorProbes probesOfThisMachine();
 
 /// The requirements of a show.

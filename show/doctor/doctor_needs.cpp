@@ -9,9 +9,17 @@
 #include "show/base/standard_nodes.h"
 
 #include <algorithm>
+#include <filesystem>
 
 namespace stadion {
 namespace {
+
+/// Whether the word names walls that ship with Stadion, such as cave4.
+bool isBuiltInRoom(const std::string& word) {
+  std::error_code unreadable;
+  return word.find('/') == word.npos &&
+         std::filesystem::exists(shareFolder() + "/walls/" + word + ".walls", unreadable);
+}
 
 bool hasSounds(const SourceText& text, const NodeRegistry& types) {
   Diagnostics ignored;  // check reports them
@@ -40,7 +48,7 @@ DoctorNeeds MachineNeeds::needs() const {
 
 bool MachineNeeds::add(const std::string& word, Diagnostics& findings) {
   if (word.ends_with(".evs")) return addShow(word, findings);
-  if (word.ends_with(".walls")) return addWalls(word, findings);
+  if (word.ends_with(".walls") || isBuiltInRoom(word)) return addWalls(word, findings);
   if (word.ends_with(".cluster")) return addCluster(word, findings);
   if (word == "cluster") {
     topics_.insert(topics_.end(), {"programs", "network"});
@@ -53,9 +61,11 @@ bool MachineNeeds::add(const std::string& word, Diagnostics& findings) {
   }
   std::vector<std::string> known(topics.begin(), topics.end());
   known.emplace_back("cluster");
-  findings.error({}, "--for: \"" + word +
-                         "\" is no show (.evs), wall file (.walls), cluster file (.cluster) or topic" +
-                         didYouMean(word, known) + "; stadion doctor --help lists the topics");
+  findings.error(
+      {},
+      "--for: \"" + word +
+          "\" is no show (.evs), wall file (.walls), room (cave4, ...), cluster file (.cluster) or topic" +
+          didYouMean(word, known) + "; stadion doctor --help lists the topics");
   return false;
 }
 

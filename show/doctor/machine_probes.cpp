@@ -22,6 +22,7 @@
 #include <net/if.h>
 #include <netinet/in.h>
 #include <sched.h>
+#include <set>
 #include <sstream>
 #include <sys/resource.h>
 #include <thread>
@@ -76,6 +77,42 @@ Result<std::string> windowPixels() {
   auto system = WindowSystem::open();
   if (!system) return system.error();
   return system.value()->pixelsWay();
+}
+
+/// A connection to the X server of DISPLAY. A server resets when its last client leaves, and then refuses
+/// clients for a moment. Without a server it holds nothing.
+class HeldDisplay {
+public:
+  HeldDisplay() : x_(SharedLibrary::open("libX11.so.6", "libx11-6")) {
+    if (!x_) return;
+    auto* open = x_.value().find<void*(const char*)>("XOpenDisplay");
+    close_ = x_.value().find<int(void*)>("XCloseDisplay");
+    if (open && close_) display_ = open(nullptr);
+  }
+  ~HeldDisplay() {
+    if (display_) close_(display_);
+  }
+  HeldDisplay(const HeldDisplay&) = delete;
+  HeldDisplay& operator=(const HeldDisplay&) = delete;
+
+private:
+  Result<SharedLibrary> x_;  // first: close_ is in it
+  int (*close_)(void*) = nullptr;
+  void* display_ = nullptr;
+};
+
+/// From the records of dpkg: "Package: NAME", and below it "Status: install ok installed".
+std::optional<std::set<std::string>> installedPackages() {
+  std::ifstream file("/var/lib/dpkg/status");
+  if (!file) return std::nullopt;
+  constexpr std::string_view kPackage = "Package: ", kStatus = "Status: ";
+  std::set<std::string> installed;
+  std::string name;
+  for (std::string line; std::getline(file, line);) {
+    if (line.starts_with(kPackage)) name = line.substr(kPackage.size());
+    if (line.starts_with(kStatus) && line.ends_with(" installed")) installed.insert(name);
+  }
+  return installed;
 }
 
 /// Whether the driver of the display has NVIDIA's swap groups.
@@ -141,7 +178,10 @@ DoctorProbes probesOfThisMachine() {
   probes.cpuRenderer = cpuRendererHere;
   probes.softwareGl = [] { return rendererOf(GlProviderKind::OsMesa); };
   probes.hardwareGl = [] { return rendererOf(GlProviderKind::Egl); };
-  probes.sound = soundName, probes.monitors = monitorsOf, probes.swapGroups = hasSwapGroups;
+  probes.sound = soundName, probes.swapGroups = hasSwapGroups, probes.packages = installedPackages;
+  probes.monitors = [held = std::make_shared<HeldDisplay>()](const std::string& screen) {
+    return monitorsOf(screen);
+  };
   probes.windowPixels = windowPixels;
   probes.realtime = mayBeRealtime, probes.network = portsHere, probes.file = firstLineOf;
   probes.exists = [](const std::string& path) { return access(path.c_str(), F_OK) == 0; };

@@ -6,11 +6,27 @@
 #include "show/doctor/doctor_needs.h"
 
 #include <algorithm>
+#include <fstream>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
+#include <set>
+#include <sstream>
 
 namespace stadion {
 namespace {
+
+/// The packages that the launcher installs: its lines testing="...", and so on.
+std::optional<std::set<std::string>> packagesOf(const std::vector<std::string>& lists) {
+  std::ifstream launcher(STADION_SOURCE_DIR "/stadion");
+  std::set<std::string> packages;
+  for (std::string line; std::getline(launcher, line);)
+    for (const std::string& list : lists)
+      if (line.starts_with(list + "=\"")) {
+        std::istringstream names(line.substr(list.size() + 2, line.size() - list.size() - 3));
+        for (std::string name; names >> name;) packages.insert(name);
+      }
+  return packages;
+}
 
 /// A machine on which everything works.
 DoctorProbes wellMachine() {
@@ -27,6 +43,7 @@ DoctorProbes wellMachine() {
   };
   p.windowPixels = [] { return Result<std::string>(std::string("shared memory")); };
   p.swapGroups = [] { return std::optional(true); };
+  p.packages = [] { return packagesOf({"testing", "fuzzing", "peers"}); };
   p.realtime = [] { return true; };
   p.network = [] {
     return std::vector<NetworkPort>{{"lo", "127.0.0.1", true, false, true},
@@ -186,6 +203,39 @@ TEST(Doctor, KnowsWhatAShowNeeds) {
   EXPECT_TRUE(hasSound(*olympia));
   EXPECT_NE(messageOf({"sond"}).find("did you mean \"sound\"?"), std::string::npos) << messageOf({"sond"});
   EXPECT_NE(messageOf({"not-there.walls"}), "");
+}
+
+TEST(Doctor, NamesThePackagesThatTheLauncherInstalls) {
+  DoctorProbes p = wellMachine();
+  p.packages = [] { return std::optional(std::set<std::string>()); };
+  const auto all = examine(p, {});
+  for (const auto& [topic, list] :
+       {std::pair{"tests", "testing"}, {"peers", "peers"}, {"fuzzing", "fuzzing"}}) {
+    const DoctorFinding& f = of(all, topic);
+    EXPECT_EQ(f.health, Health::Limited);
+    EXPECT_TRUE(f.mend.starts_with("sudo apt-get install ")) << f.mend;
+    for (const std::string& package : *packagesOf({list}))
+      EXPECT_NE((f.mend + " ").find(" " + package), std::string::npos) << topic << ": " << package;
+  }
+  p.packages = [] { return std::optional<std::set<std::string>>(); };
+  const auto unknown = examine(p, {});
+  EXPECT_NE(of(unknown, "tests").found.find("no dpkg"), std::string::npos);
+}
+
+TEST(Doctor, SaysHowTheProgramsThatMeasureAreBuilt) {
+  DoctorProbes p = wellMachine();
+  p.helper = [](const std::string& name) { return name == "stadion-bench" ? std::string() : "/lib/" + name; };
+  const auto all = examine(p, {{"measurements"}, {}});
+  EXPECT_EQ(of(all, "measurements").found, "no stadion-bench");
+  EXPECT_EQ(of(all, "measurements").mend, "in a checkout ./stadion bench --help, which builds");
+  EXPECT_FALSE(canWork(all));
+}
+
+TEST(Doctor, TakesTheNameOfARoom) {
+  Diagnostics findings;
+  const auto room = MachineNeeds::read({"cave4"}, findings);
+  ASSERT_TRUE(room);
+  EXPECT_EQ(room->needs().walls.size(), 1U);
 }
 
 TEST(Doctor, ReportsJson) {
