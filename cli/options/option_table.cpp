@@ -382,12 +382,12 @@ std::string OptionRow::fullText() const {
 std::string OptionRow::textFor(std::string_view accepted) const {
   const std::string all = fullText();
   if (accepted.empty() || accepted == value.words) return all;
-  std::string text;
+  std::string shown;
   for (const std::string_view part : option_rows::partsOf(all, "; ")) {
     const std::string kept = option_rows::explanationOf(part, value.words, accepted);
-    if (!kept.empty()) text += (text.empty() ? "" : "; ") + kept;
+    if (!kept.empty()) shown += (shown.empty() ? "" : "; ") + kept;
   }
-  return text;
+  return shown;
 }
 
 std::span<const OptionRow> optionTable() {

@@ -7,23 +7,6 @@
 #include <string>
 
 namespace stadion {
-namespace {
-
-using PieceFunction = std::function<void(std::size_t)>;
-
-/// The pieces of a job, and the stage of its caller.
-struct StagedPiece {
-  const PieceFunction& piece;
-  StageRecord* stage;
-  void operator()(std::size_t i) const { piece(i); }
-};
-
-StageRecord* stageOf(const PieceFunction& job) {
-  const auto* staged = job.target<StagedPiece>();
-  return staged ? staged->stage : nullptr;
-}
-
-}  // namespace
 
 // With fewer threads than requested, or none, the result is the same.
 DrawPool::DrawPool(std::size_t threads, Callers callers)
@@ -49,8 +32,7 @@ DrawPool::~DrawPool() {
 
 void DrawPool::run(std::size_t count, const std::function<void(std::size_t)>& piece) {
   if (count == 0) return;
-  const PieceFunction staged = StagedPiece{piece, RunningStage::current()};
-  Job job{&staged, count, 0, 0, count, nullptr};
+  Job job{&piece, RunningStage::current(), count, 0, 0, count, nullptr};
   const bool works = callers_ == Callers::Work || threads_.empty();
   std::unique_lock lock(mutex_);
   jobs_.push_back(&job);
@@ -82,7 +64,7 @@ void DrawPool::work() {
 }
 
 void DrawPool::take(Job& job, std::unique_lock<std::mutex>& lock) {
-  const RunningStage running(stageOf(*job.piece));
+  const RunningStage running(job.stage);
   const std::size_t i = job.next++;
   ++job.running, ++working_;
   lock.unlock();

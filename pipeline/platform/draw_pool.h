@@ -19,6 +19,8 @@
 
 namespace stadion {
 
+struct StageRecord;
+
 class DrawPool {
 public:
   /// Whether callers of run() work at their pieces, or leave them to the pool: then what a caller does itself
@@ -39,6 +41,7 @@ public:
 private:
   struct Job {
     const std::function<void(std::size_t)>* piece;
+    StageRecord* stage;  ///< of the caller, in which the pool's threads run the pieces
     std::size_t count, next = 0, running = 0;
     std::size_t firstThrown;
     std::exception_ptr thrown;

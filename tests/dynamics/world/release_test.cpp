@@ -13,21 +13,21 @@ namespace {
 using namespace scenes;
 
 constexpr std::array kRates{24., 25., 30., 48., 60., 72., 77., 90., 100., 120., 144., 240., 360.};
-constexpr double kFar = 0.5;  ///< the usual release distance [m]
+constexpr double kReleaseDistance = 0.5;  ///< the usual release distance [m]
 
-enum class Ground { Plane, BoundedPlane, Box, Mesh };
-constexpr std::array kGrounds{Ground::Plane, Ground::BoundedPlane, Ground::Box, Ground::Mesh};
+enum class ReleaseGround { Plane, BoundedPlane, Box, Mesh };
+constexpr std::array kReleaseGrounds{ReleaseGround::Plane, ReleaseGround::BoundedPlane, ReleaseGround::Box, ReleaseGround::Mesh};
 
-ShapeId groundShape(World& w, Ground kind) {
+ShapeId groundShape(World& w, ReleaseGround kind) {
   switch (kind) {
-  case Ground::Plane: return w.addShape(PlaneShape{});
-  case Ground::BoundedPlane: {
+  case ReleaseGround::Plane: return w.addShape(PlaneShape{});
+  case ReleaseGround::BoundedPlane: {
     PlaneShape plane;
     plane.half = {50, 50};
     return w.addShape(plane);
   }
-  case Ground::Box: return w.addShape(BoxShape{{{0, 0, -1}, Quat::Identity()}, {50, 50, 1}});
-  case Ground::Mesh: return w.addShape(MeshShape(TriangleTree(gridMesh(-50, 50, -50, 50, 4, 4))));
+  case ReleaseGround::Box: return w.addShape(BoxShape{{{0, 0, -1}, Quat::Identity()}, {50, 50, 1}});
+  case ReleaseGround::Mesh: return w.addShape(MeshShape(TriangleTree(gridMesh(-50, 50, -50, 50, 4, 4))));
   }
   return {};
 }
@@ -41,14 +41,14 @@ std::vector<Nanoseconds> releasesOf(World& w, BodyId body, double seconds, doubl
   return times;
 }
 
-/// When a body whose underside begins at height `h` has bounced to kFar for the first and the second time.
+/// When a body whose underside begins at height `h` has bounced to kReleaseDistance for the first and the second time.
 /// Expects that it does not turn. [ns]
 std::vector<double> closedForm(double h, double restitution) {
   const double fall = std::sqrt(2 * h / kG);
   double speed = kG * fall * restitution, start = fall;
   std::vector<double> times;
-  while (speed * speed > 2 * kG * kFar) {
-    times.push_back(1e9 * (start + (speed - std::sqrt(speed * speed - 2 * kG * kFar)) / kG));
+  while (speed * speed > 2 * kG * kReleaseDistance) {
+    times.push_back(1e9 * (start + (speed - std::sqrt(speed * speed - 2 * kG * kReleaseDistance)) / kG));
     start += 2 * speed / kG, speed *= restitution;
   }
   return times;
@@ -62,7 +62,7 @@ void expectSame(const std::vector<Nanoseconds>& found, const std::vector<double>
 }
 
 TEST(Release, IsAtItsExactTimeOverEveryGroundAtEveryFrameRate) {
-  for (const Ground ground : kGrounds)
+  for (const ReleaseGround ground : kReleaseGrounds)
     for (const double rate : kRates)
       for (const double h : {2.3, 2.89, 3.7}) {
         World w;
@@ -78,7 +78,7 @@ TEST(Release, IsAtItsExactTimeOverEveryGroundAtEveryFrameRate) {
 TEST(Release, OfEverySolidIsTheSameAtEveryFrameRate) {
   for (const bool turning : {false, true})
     for (const Solid kind : kSolids)
-      for (const Ground ground : {Ground::BoundedPlane, Ground::Box, Ground::Mesh}) {
+      for (const ReleaseGround ground : {ReleaseGround::BoundedPlane, ReleaseGround::Box, ReleaseGround::Mesh}) {
         std::vector<Nanoseconds> first;
         for (const double rate : kRates) {
           World w;
@@ -105,7 +105,7 @@ TEST(Release, OfEverySolidIsTheSameAtEveryFrameRate) {
 std::vector<Nanoseconds> releasesOfAStruckSleeper(double rate, double far) {
   World w;
   const FieldId g = addGravity(w);
-  const ColliderId floor = w.addCollider({groundShape(w, Ground::BoundedPlane), {}, {0.0, 0.0, 0.0}});
+  const ColliderId floor = w.addCollider({groundShape(w, ReleaseGround::BoundedPlane), {}, {0.0, 0.0, 0.0}});
   const BodyId box = addBox(w, g, {.half = {0.2, 0.2, 0.1}, .pose = {{0, 0, 1}, Quat::Identity()}});
   BodyDef ball;
   ball.shape = w.addShape(BallShape{Vec3::Zero(), 0.05});

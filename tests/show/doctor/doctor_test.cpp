@@ -214,7 +214,9 @@ TEST(Doctor, NamesThePackagesThatTheLauncherInstalls) {
     const DoctorFinding& f = of(all, topic);
     EXPECT_EQ(f.health, Health::Limited);
     EXPECT_TRUE(f.mend.starts_with("sudo apt-get install ")) << f.mend;
-    for (const std::string& package : *packagesOf({list}))
+    const auto packages = packagesOf({list});
+    ASSERT_TRUE(packages);
+    for (const std::string& package : *packages)
       EXPECT_NE((f.mend + " ").find(" " + package), std::string::npos) << topic << ": " << package;
   }
   p.packages = [] { return std::optional<std::set<std::string>>(); };
