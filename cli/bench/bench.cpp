@@ -4,6 +4,7 @@
 #include "cli/bench/bench_detection.h"
 #include "cli/bench/bench_dynamics.h"
 #include "cli/bench/bench_flight.h"
+#include "cli/bench/bench_looks.h"
 #include "cli/bench/bench_plan.h"
 #include "cli/bench/bench_prediction.h"
 #include "cli/bench/bench_recording.h"
@@ -71,6 +72,7 @@ void addBenchCommand(CLI::App& app, int& code) {
   addBenchRecording(*command, code);
   addBenchWalls(*command, code);
   addBenchScale(*command, code);
+  addBenchLooks(*command, code);
 }
 
 }  // namespace stadion
