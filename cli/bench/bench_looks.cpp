@@ -172,7 +172,7 @@ void addBenchLooks(CLI::App& bench, int& code) {
       "What does each rung of the ladder of pictures cost, and how far is it from 64 samples a pixel?");
   CommandOptions options(*command);
   options.add("--scenes", o->scenes, {.words = kLooksSceneNames});
-  options.add("--rungs", o->rungs);
+  options.add("--rungs", o->rungs, {.words = bench::kRungNames});
   options.add("--size", o->size);
   options.add("--rounds", o->rounds, {.most = 999});
   options.add("--frames", o->frames, {.most = 600});
@@ -180,7 +180,7 @@ void addBenchLooks(CLI::App& bench, int& code) {
   options.add("--out", o->out);
   options.add("--json", o->json);
   command->footer("--frames is the number of frames over which flicker is measured; 1: it is not.\n"
-                  "--out DIR receives looks.svg and the left eye's pictures, with the reference.");
+                  "--out DIR receives looks.svg and the left eye's pictures: whole, and their worst part side by side.");
   command->callback([o, &code] { code = benchLooks(*o); });
 }
 

@@ -174,7 +174,7 @@ int benchWalls(const CLI::App& command, const BenchWallsOptions& o) {
 }
 
 void addTableTo(CommandOptions& options, BenchWallsOptions& o) {
-  options.add("--scenes", o.scenes);
+  options.add("--scenes", o.scenes, {.words = "a|b|c"});
   options.add("--rounds", o.rounds, {.most = 99});
   options.add("--minutes", o.minutes);
   options.add("--scaling", o.scaling);

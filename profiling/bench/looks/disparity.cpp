@@ -11,8 +11,7 @@ constexpr int kFarthest = 2;          ///< shift of a detail in one eye [pixels]
 constexpr int kMostDisparity = 48;    ///< between the eyes [pixels]
 constexpr std::uint32_t kMargin = 5;  ///< from the edges: shifts and the cubic's neighbours
 constexpr double kLeastContrast = 6;  ///< mean square of the slope [1/pixel^2]
-constexpr double kMostResidual =
-    60;  ///< mean square of what a match leaves, else the block shows something else
+constexpr double kMostResidual = 60;  ///< mean square between eyes; else the block shows something else
 constexpr int kSteps = 8;
 
 bool hasRoom(double x, std::uint32_t y, const Brightness& b) {
@@ -67,17 +66,6 @@ double refinement(const PictureBlock& block, const Brightness& picture, const Br
   return slopes > 0 ? -products / slopes : 0;
 }
 
-double residualAt(const PictureBlock& block, const Brightness& picture, const Brightness& reference,
-                  double shift) {
-  double sum = 0;
-  for (std::uint32_t y = block.y; y < block.y + kSide; ++y)
-    for (std::uint32_t x = block.x; x < block.x + kSide; ++x) {
-      const double d = picture.at(x, y) - reference.between(x - shift, y);
-      sum += d * d;
-    }
-  return sum / (kSide * kSide);
-}
-
 }  // namespace
 
 Brightness::Brightness(const Picture& picture)
@@ -98,14 +86,9 @@ float Brightness::between(double x, std::uint32_t y) const {
 std::optional<double> shiftOf(const PictureBlock& block, const Brightness& picture,
                               const Brightness& reference) {
   if (!hasRoom(block.x, block.y, reference) || contrast(block, reference) < kLeastContrast) return {};
-  const auto offset = bestOffset(block, picture, reference, -kFarthest, kFarthest);
-  if (!offset) return {};
-  double shift = -*offset;
-  for (int step = 0; step < kSteps; ++step) {
-    shift += refinement(block, picture, reference, shift);
-    if (!(std::abs(shift) <= kFarthest)) return {};
-  }
-  if (residualAt(block, picture, reference, shift) > kMostResidual + contrast(block, reference)) return {};
+  double shift = -bestOffset(block, picture, reference, -kFarthest, kFarthest).value_or(0);
+  for (int step = 0; step < kSteps; ++step)
+    shift = std::clamp<double>(shift + refinement(block, picture, reference, shift), -kFarthest, kFarthest);
   return shift;
 }
 

@@ -36,8 +36,8 @@ private:
   std::vector<float> values_;
 };
 
-/// How far the block of the picture lies to the right of the reference's. Nothing if the block has too little
-/// contrast, lies too near to the edge, or shows something else.
+/// How far the block of the picture lies to the right of the reference's, -2 to 2. Nothing if the reference has too
+/// little contrast there, or the block lies too near to the edge: so all pictures are judged by the same blocks.
 std::optional<double> shiftOf(const PictureBlock& block, const Brightness& picture,
                               const Brightness& reference);
 

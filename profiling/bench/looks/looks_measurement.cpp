@@ -3,6 +3,9 @@
 #include "profiling/bench/looks/disparity.h"
 #include "profiling/bench/looks/perceptual_programs.h"
 #include "profiling/bench/looks/picture_errors.h"
+#include "profiling/bench/looks/side_by_side.h"
+
+#include <fmt/format.h>
 
 #include <algorithm>
 
@@ -37,6 +40,10 @@ std::optional<Diagnostic> addDistances(const LooksFiles& files, const std::strin
   row.butteraugli = butteraugliOf({reference, path});
   row.ssimulacra = ssimulacraOf({reference, path});
   return {};
+}
+
+std::string labelOf(const LooksRow& row) {
+  return fmt::format("{}: {:.1f} ms, error {:.2f}", row.rung, row.ms, row.mean);
 }
 
 DrawList leftEyeOf(const DrawList& list) {
@@ -75,11 +82,16 @@ Result<std::vector<LooksRow>> LooksMeasurement::measure(const std::string& scene
   const std::string reference = files.pathOf(scene + "-" + wall + "-reference.png");
   if (!reference.empty())
     if (const auto wrong = writePng(reference, references.value().front())) return *wrong;
+  std::vector<LabelledPicture> beside{{"64 samples", references.value().front()}};
   for (std::size_t r = 0; r < rungs_.size(); ++r) {
     const std::vector<Picture>& views = drawn.value()[r].views;
     addErrors(views, references.value(), rows[r]);
     if (const auto wrong = addDistances(files, reference, views.front(), rows[r])) return *wrong;
+    beside.push_back({labelOf(rows[r]), views.front()});
   }
+  const std::string sheet = files.pathOf(scene + "-" + wall + "-side-by-side.png");
+  if (!sheet.empty())
+    if (const auto wrong = writePng(sheet, sideBySide(beside))) return *wrong;
   return rows;
 }
 
