@@ -204,7 +204,7 @@ TEST_F(ProgramDisplay, AKilledWindowOrServerEndsTheRunAsItShould) {
     if (way.empty())
       display_->breakDown();
     else
-      display_->hands({"search", "--name", "Stadion: one", way[0]});
+      display_->hands({"search", "--sync", "--name", "Stadion: one", way[0]});
     EXPECT_EQ(program.status(), 3) << program.err();
     EXPECT_NE(program.err().find("stadion: the connection to the display is lost: "), std::string::npos)
         << program.err();

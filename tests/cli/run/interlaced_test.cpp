@@ -54,7 +54,7 @@ protected:
   }
 
   void move(int y) {
-    display_->hands({"search", "--name", "Stadion: one", "windowmove", "30", std::to_string(y)});
+    display_->hands({"search", "--sync", "--name", "Stadion: one", "windowmove", "30", std::to_string(y)});
   }
 
   /// Moves a window of that shape about and looks at its rows. Returns what is for the left and the right

@@ -264,7 +264,7 @@ TEST_F(ProgramShowWindows, AWindowOfAnotherSizeIsFilledAndAnUncoveredOneIsShownA
   give(s, *window);
   window->draw(s.panes);
   window->show();
-  display_->hands({"search", "--name", "Stadion: windows", "windowsize", "100", "90"});
+  display_->hands({"search", "--sync", "--name", "Stadion: windows", "windowsize", "100", "90"});
   for (int tries = 0; tries < 100 && window->window().size() != std::array{100u, 90u}; ++tries)
     system_->poll(), std::this_thread::sleep_for(std::chrono::milliseconds(10));
   ASSERT_EQ(window->window().size(), (std::array{100u, 90u}));
