@@ -110,7 +110,7 @@ public:
   Vec3 accumulatedVelocity(BodyId id) const;
 
   /// Advances the world [ns]. `from` is the end of the last call, or any time in the first call. Returns
-  /// false if to < from.
+  /// false, and does nothing, if `from` is another time or if to < from.
   /// `continues`: a further part of the frame that an earlier call began. The caller cuts a frame where
   /// external motion turns, jumps or receives a command. "Start" and "end of the frame" above then mean those
   /// of each part.
