@@ -10,8 +10,9 @@ namespace stadion {
 
 using Double4 = double __attribute__((vector_size(32)));
 
-/// Four numbers that lie anywhere in memory.
-using UnalignedDouble4 = double __attribute__((vector_size(32), aligned(8), may_alias));
+/// Four numbers that lie anywhere in memory. (Behind the `=`, clang ignores the alignment.)
+using UnalignedDouble4 __attribute__((vector_size(32), aligned(8), may_alias)) = double;
+static_assert(alignof(UnalignedDouble4) == alignof(double));
 
 inline void set(Double4& w, const Vec3& v) {
   w = Double4{v.x(), v.y(), v.z(), 0};

@@ -53,7 +53,7 @@ std::set<std::string> commandsInHelp(const std::vector<std::string>& words, cons
   return commands;
 }
 
-TEST(OptionTable, HasEachNameOnceAndNoTextTwice) {
+TEST(ProgramOptionTable, HasEachNameOnceAndNoTextTwice) {
   std::set<std::string_view> names, texts;
   for (const OptionRow& row : optionTable()) {
     EXPECT_TRUE(names.insert(row.name).second) << row.name;
@@ -63,7 +63,7 @@ TEST(OptionTable, HasEachNameOnceAndNoTextTwice) {
   }
 }
 
-TEST(OptionTable, AnOptionMeansTheSameInEveryCommand) {
+TEST(ProgramOptionTable, AnOptionMeansTheSameInEveryCommand) {
   for (const OptionUse& use : allUses()) {
     const OptionRow* row = findOption(use.name);
     ASSERT_TRUE(row) << use.command << " has " << use.name << ", which the table has not";
@@ -76,7 +76,7 @@ TEST(OptionTable, AnOptionMeansTheSameInEveryCommand) {
   }
 }
 
-TEST(OptionTable, EveryCommandIsLookedAtAndEveryRowIsUsed) {
+TEST(ProgramOptionTable, EveryCommandIsLookedAtAndEveryRowIsUsed) {
   std::set<std::string> commands = commandsInHelp({"--help"}, ""), used, names;
   commands.erase("bench");
   for (const std::string& bench : commandsInHelp({"bench", "--help"}, "bench ")) commands.insert(bench);
@@ -86,7 +86,7 @@ TEST(OptionTable, EveryCommandIsLookedAtAndEveryRowIsUsed) {
   for (const OptionRow& row : optionTable()) EXPECT_TRUE(names.contains(std::string(row.name))) << row.name;
 }
 
-TEST(OptionTable, ACommandExplainsOnlyWordsThatItAccepts) {
+TEST(ProgramOptionTable, ACommandExplainsOnlyWordsThatItAccepts) {
   const std::string mode = findOption("--mode")->textFor("pipelined|sequential");
   EXPECT_TRUE(has(mode, "pipelined: ") && has(mode, "; sequential: ") && !has(mode, "all: ")) << mode;
   EXPECT_EQ(findOption("--stereo")->textFor("pair|off"),
@@ -99,7 +99,7 @@ TEST(OptionTable, ACommandExplainsOnlyWordsThatItAccepts) {
   EXPECT_FALSE(has(stadionProgram({"walls", "--help"}).out, "800x800"));
 }
 
-TEST(OptionTable, CommandsTakeTheirOptionsFromIt) {
+TEST(ProgramOptionTable, CommandsTakeTheirOptionsFromIt) {
   for (const auto& entry : std::filesystem::recursive_directory_iterator(STADION_SOURCE_DIR "/cli")) {
     if (entry.path().extension() != ".cpp" || entry.path().filename() == "command_options.cpp") continue;
     const std::string code = fileContent(entry.path());
@@ -108,7 +108,7 @@ TEST(OptionTable, CommandsTakeTheirOptionsFromIt) {
   }
 }
 
-TEST(OptionTable, ThePageOfOptionsIsWhatTheProgramPrints) {
+TEST(ProgramOptionTable, ThePageOfOptionsIsWhatTheProgramPrints) {
   EXPECT_EQ(fileContent(STADION_SOURCE_DIR "/docs/options.md"), stadionProgram({"manual", "options"}).out)
       << "update it: ./stadion manual options > docs/options.md";
 }
@@ -120,7 +120,7 @@ std::string sampleOf(std::string_view value) {
   return value == "<node>" ? "ball" : value.empty() ? "1" : std::string(value);
 }
 
-TEST(RetiredSpellings, AreErrorsThatNameThePresentOne) {
+TEST(ProgramRetiredSpellings, AreErrorsThatNameThePresentOne) {
   for (const RetiredSpelling& r : retiredSpellings()) {
     std::istringstream commands{std::string(r.commands)};
     for (std::string command; std::getline(commands, command, '|');) {
@@ -137,7 +137,7 @@ TEST(RetiredSpellings, AreErrorsThatNameThePresentOne) {
   }
 }
 
-TEST(RetiredSpellings, NameOptionsThatTheCommandHas) {
+TEST(ProgramRetiredSpellings, NameOptionsThatTheCommandHas) {
   std::set<std::pair<std::string, std::string>> present;
   for (const OptionUse& use : allUses()) present.insert({use.command, use.name});
   for (const RetiredSpelling& r : retiredSpellings()) {
@@ -149,7 +149,7 @@ TEST(RetiredSpellings, NameOptionsThatTheCommandHas) {
   }
 }
 
-TEST(RetiredSpellings, LeavePresentOnesAlone) {
+TEST(ProgramRetiredSpellings, LeavePresentOnesAlone) {
   const auto finds = [](const std::vector<std::string>& words) {
     return retiredSpellingIn(words).has_value();
   };
@@ -200,7 +200,7 @@ TEST(ValueGrammar, AllowsWhatItNames) {
     EXPECT_EQ(findOption(option)->value.mistakeIn(value), "") << option;
 }
 
-TEST(Completion, KnowsCommandsOptionsAndValues) {
+TEST(ProgramCompletion, KnowsCommandsOptionsAndValues) {
   const auto complete = [](std::vector<std::string> words) {
     words.insert(words.begin(), "complete");
     return stadionProgram(words).out;
@@ -227,7 +227,7 @@ TEST(Completion, KnowsCommandsOptionsAndValues) {
   EXPECT_EQ(complete({"run", "--ends-"}), "") << "an internal option";
 }
 
-TEST(ManPage, HasEachOptionOnce) {
+TEST(ProgramManPage, HasEachOptionOnce) {
   for (const auto& [name, program] : programs()) {
     const std::string page = runProgram({{program, "manual", "man"}}).out;
     EXPECT_TRUE(page.starts_with(".TH " + name + " 1")) << page.substr(0, 40);
@@ -240,7 +240,7 @@ TEST(ManPage, HasEachOptionOnce) {
   EXPECT_TRUE(has(stadionProgram({"--help"}).out, "5 with --guard"));
 }
 
-TEST(Options, AFlagTakesNoValue) {
+TEST(ProgramOptions, AFlagTakesNoValue) {
   for (const char* flag : {"--json=x", "--guard=off", "--json=true"}) {
     const ProgramResult r = stadionProgram({"run", "show.evs", flag});
     EXPECT_EQ(r.status, 2) << flag;
@@ -248,7 +248,7 @@ TEST(Options, AFlagTakesNoValue) {
   }
 }
 
-TEST(Options, AWrongValueNamesOptionValueAndWhatIsAllowed) {
+TEST(ProgramOptions, AWrongValueNamesOptionValueAndWhatIsAllowed) {
   const ProgramResult r = stadionProgram({"walls", "cave4", "--pattern", "--size", "12x12"});
   EXPECT_EQ(r.status, 2);
   EXPECT_TRUE(has(r.err, "--size: \"12x12\" is not WIDTHxHEIGHT in pixels from 16x16 to 16384x16384"))

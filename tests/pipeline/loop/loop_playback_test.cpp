@@ -22,7 +22,7 @@ public:
   }
   void still(const TimeSignature&, std::size_t slot) override {
     ++stills;
-    CountingStages::app(signatureAt(times.size() - 1, 10), slot);
+    CountingStages::app(signatureAt(times.empty() ? 0 : times.size() - 1, 10), slot);
     if (stills % 5 == 0) playback_.step();
   }
   std::vector<Nanoseconds> times;
