@@ -24,8 +24,11 @@ constexpr double kMostShift = 2e-3;        ///< in a step [m]
 constexpr double kBounceSpeed = 0.5;       ///< slower approaches do not bounce [m/s]
 
 /// Three numbers and the one behind them.
-inline UnalignedDouble4& asDouble4(Vec3& v) {
-  return *reinterpret_cast<UnalignedDouble4*>(v.data());
+inline void load(const Vec3& v, Double4& to) {
+  __builtin_memcpy(&to, v.data(), sizeof to);
+}
+inline void store(const Double4& from, Vec3& v) {
+  __builtin_memcpy(v.data(), &from, sizeof from);
 }
 /// Of the first three.
 inline double dot(const Double4& a, const Double4& b) {
@@ -145,10 +148,12 @@ double PileSolver::relax(PileContact& c) {
 [[gnu::always_inline]] inline double relaxRound(PileContact& c, std::vector<PileBody>& bodies) {
   constexpr Double4 kThree{1, 1, 1, 0};
   PileBody &a = bodies[c.a], &b = bodies[c.b];
-  const Double4 n = asDouble4(c.n), va = asDouble4(a.v), vb = asDouble4(b.v), apart = va - vb;
+  Double4 n, va, vb, wa, wb, before;
+  load(c.n, n), load(a.v, va), load(b.v, vb);
+  const Double4 apart = va - vb;
   const double un = dot(apart, n), pressed = std::max(0.0, c.pressed + (c.floor - un) * c.normalMass);
   if (pressed == 0 && c.pressed == 0) return 0;
-  const Double4 wa = asDouble4(a.omega), wb = asDouble4(b.omega), before = asDouble4(c.held);
+  load(a.omega, wa), load(b.omega, wb), load(c.held, before);
   const Double4 rolls = c.leverA * wa + c.leverB * wb;
   Double4 across, turn;
   cross(rolls, n, across);
@@ -157,11 +162,13 @@ double PileSolver::relax(PileContact& c) {
   if (size > most * most) held *= most / std::sqrt(size);
   const Double4 step = kThree * ((pressed - c.pressed) * n + (held - before));
   held[3] = c.floor;
-  c.pressed = pressed, asDouble4(c.held) = held;
+  c.pressed = pressed;
+  store(held, c.held);
   cross(n, step, turn);
-  asDouble4(a.v) = va + a.inverseMass * step, asDouble4(b.v) = vb - b.inverseMass * step;
-  asDouble4(a.omega) = wa - a.roundInertia * c.leverA * turn;
-  asDouble4(b.omega) = wb - b.roundInertia * c.leverB * turn;
+  store(va + a.inverseMass * step, a.v);
+  store(vb - b.inverseMass * step, b.v);
+  store(wa - a.roundInertia * c.leverA * turn, a.omega);
+  store(wb - b.roundInertia * c.leverB * turn, b.omega);
   const double mass = std::max(a.inverseMass, b.inverseMass);
   return dot(step, step) * mass * mass;
 }
