@@ -33,7 +33,7 @@ foreach(floor engine pipeline dynamics profiling show)
   set_target_properties(stadion_${floor} PROPERTIES EXPORT_NAME ${floor})
   add_library(Stadion::${floor} ALIAS stadion_${floor})
   install(DIRECTORY ${floor} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/stadion COMPONENT development
-    FILES_MATCHING PATTERN "*.h" PATTERN "*_program" EXCLUDE PATTERN bench EXCLUDE)
+    FILES_MATCHING PATTERN "*.h" PATTERN "*_program" EXCLUDE)
 endforeach()
 install(FILES ${PROJECT_BINARY_DIR}/wire.h DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/stadion COMPONENT development)
 

@@ -1,5 +1,6 @@
 /// `stadion bench NAME`: measurements with a limit each.
 
+#include "bench/overlap.h"
 #include "cli/bench/bench_budgets.h"
 #include "cli/bench/bench_detection.h"
 #include "cli/bench/bench_dynamics.h"
@@ -13,7 +14,6 @@
 #include "cli/commands.h"
 #include "cli/exit_code.h"
 #include "cli/options/command_options.h"
-#include "profiling/bench/overlap.h"
 
 #include <CLI/CLI.hpp>
 #include <cmath>

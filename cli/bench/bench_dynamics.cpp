@@ -1,10 +1,10 @@
 #include "cli/bench/bench_dynamics.h"
 
+#include "bench/comparison/comparison_report.h"
+#include "bench/comparison/work_precision_plot.h"
 #include "cli/exit_code.h"
 #include "cli/options/command_options.h"
 #include "engine/plain_text/suggestion.h"
-#include "profiling/bench/comparison/comparison_report.h"
-#include "profiling/bench/comparison/work_precision_plot.h"
 #include "show/output/output_folder.h"
 
 #include <CLI/CLI.hpp>

@@ -1,11 +1,11 @@
 #include "cli/bench/bench_flight.h"
 
+#include "bench/comparison/work_precision_plot.h"
+#include "bench/flight/flight_report.h"
+#include "bench/flight/trajectory_plot.h"
 #include "cli/exit_code.h"
 #include "cli/options/command_options.h"
 #include "engine/base/installed_files.h"
-#include "profiling/bench/comparison/work_precision_plot.h"
-#include "profiling/bench/flight/flight_report.h"
-#include "profiling/bench/flight/trajectory_plot.h"
 #include "show/output/output_folder.h"
 
 #include <CLI/CLI.hpp>
@@ -84,7 +84,7 @@ int benchFlight(const BenchFlightOptions& o) {
     out = std::move(opened.value());
     out->clear();
   }
-  const auto references = bench::referenceFlights(shareFolder() + "/profiling/bench/flight/reference");
+  const auto references = bench::referenceFlights(shareFolder() + "/bench/flight/reference");
   if (!references) {
     std::fprintf(stderr, "stadion: %s\n", format(references.error()).c_str());
     return kInternalFault;

@@ -1,13 +1,13 @@
 #include "cli/bench/bench_looks.h"
 
+#include "bench/looks/looks_measurement.h"
+#include "bench/looks/looks_plot.h"
+#include "bench/looks/perceptual_programs.h"
 #include "cli/bench/looks_scenes.h"
 #include "cli/exit_code.h"
 #include "cli/options/command_options.h"
 #include "cli/terminal.h"
 #include "engine/base/atomic_file.h"
-#include "profiling/bench/looks/looks_measurement.h"
-#include "profiling/bench/looks/looks_plot.h"
-#include "profiling/bench/looks/perceptual_programs.h"
 #include "show/base/stop_signal.h"
 #include "show/base/temporary_folder.h"
 #include "show/output/output_folder.h"
@@ -179,8 +179,9 @@ void addBenchLooks(CLI::App& bench, int& code) {
   options.add("--no-perception", o->noPrograms);
   options.add("--out", o->out);
   options.add("--json", o->json);
-  command->footer("--frames is the number of frames over which flicker is measured; 1: it is not.\n"
-                  "--out DIR receives looks.svg and the left eye's pictures: whole, and their worst part side by side.");
+  command->footer(
+      "--frames is the number of frames over which flicker is measured; 1: it is not.\n"
+      "--out DIR receives looks.svg and the left eye's pictures: whole, and their worst part side by side.");
   command->callback([o, &code] { code = benchLooks(*o); });
 }
 

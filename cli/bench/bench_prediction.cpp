@@ -1,5 +1,6 @@
 #include "cli/bench/bench_prediction.h"
 
+#include "bench/walls/wall_room.h"
 #include "cli/exit_code.h"
 #include "cli/options/command_options.h"
 #include "cli/terminal.h"
@@ -10,7 +11,6 @@
 #include "engine/maths/angles.h"
 #include "engine/maths/functions.h"
 #include "pipeline/record/run_summary.h"
-#include "profiling/bench/walls/wall_room.h"
 #include "show/player/player.h"
 
 #include <CLI/CLI.hpp>

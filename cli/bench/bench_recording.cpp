@@ -1,5 +1,6 @@
 #include "cli/bench/bench_recording.h"
 
+#include "bench/grid_show.h"
 #include "cli/bench/bench_recording_instructions.h"
 #include "cli/exit_code.h"
 #include "cli/options/command_options.h"
@@ -7,7 +8,6 @@
 #include "cli/terminal.h"
 #include "engine/base/atomic_file.h"
 #include "engine/base/installed_files.h"
-#include "profiling/bench/grid_show.h"
 #include "show/base/stop_signal.h"
 #include "show/base/temporary_folder.h"
 #include "show/player/player.h"

@@ -1,11 +1,11 @@
 #include "cli/bench/bench_scale.h"
 
+#include "bench/city_show.h"
 #include "cli/exit_code.h"
 #include "cli/options/command_options.h"
 #include "cli/terminal.h"
 #include "engine/base/prefetch.h"
 #include "pipeline/record/run_summary.h"
-#include "profiling/bench/city_show.h"
 #include "profiling/record/allocations.h"
 #include "show/base/temporary_folder.h"
 #include "show/player/player.h"

@@ -1,5 +1,9 @@
 #include "cli/bench/bench_walls.h"
 
+#include "bench/walls/wall_files.h"
+#include "bench/walls/walls_judge.h"
+#include "bench/walls/walls_plot.h"
+#include "bench/walls/walls_table.h"
 #include "cli/bench/walls_measure.h"
 #include "cli/bench/walls_record_head.h"
 #include "cli/bench/walls_rounds.h"
@@ -8,10 +12,6 @@
 #include "cli/options/renderer_options.h"
 #include "cli/terminal.h"
 #include "engine/base/atomic_file.h"
-#include "profiling/bench/walls/wall_files.h"
-#include "profiling/bench/walls/walls_judge.h"
-#include "profiling/bench/walls/walls_plot.h"
-#include "profiling/bench/walls/walls_table.h"
 #include "show/base/temporary_folder.h"
 #include "show/output/output_folder.h"
 

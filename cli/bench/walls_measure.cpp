@@ -1,10 +1,10 @@
 #include "cli/bench/walls_measure.h"
 
+#include "bench/walls/picture_difference.h"
+#include "bench/walls/wall_room.h"
 #include "cli/terminal.h"
 #include "pipeline/loop/pacer.h"
 #include "pipeline/record/run_summary.h"
-#include "profiling/bench/walls/picture_difference.h"
-#include "profiling/bench/walls/wall_room.h"
 #include "profiling/record/processor_time.h"
 #include "show/player/player.h"
 

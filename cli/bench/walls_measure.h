@@ -1,9 +1,9 @@
 #pragma once
 /// One setting of `stadion bench walls`, measured in this process.
 
+#include "bench/walls/wall_scene.h"
 #include "engine/base/diagnostic.h"
 #include "pipeline/loop/frame_loop.h"
-#include "profiling/bench/walls/wall_scene.h"
 #include "show/player/show_renderer.h"
 
 #include <nlohmann/json.hpp>
@@ -14,7 +14,7 @@
 namespace stadion {
 
 struct WallsSetting {
-  std::string scene = "a";      ///< a, b or c (profiling/bench/walls/wall_scene.h)
+  std::string scene = "a";      ///< a, b or c (bench/walls/wall_scene.h)
   std::string kind = "STRICT";  ///< STRICT: a draw call a node; OPEN: anything that keeps the picture
   Mode mode = Mode::Pipelined;
   std::size_t mostInFlight = 1;    ///< limit of frames in flight (FrameLoopOptions)

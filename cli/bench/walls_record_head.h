@@ -1,8 +1,8 @@
 #pragma once
 /// What a run of `stadion bench walls` here and now is of, for its record.
 
-#include "profiling/bench/walls/walls_program.h"
-#include "profiling/bench/walls/walls_record.h"
+#include "bench/walls/walls_program.h"
+#include "bench/walls/walls_record.h"
 
 namespace stadion {
 

@@ -4,10 +4,10 @@
 ///
 /// Threads  one thread; the machine should have nothing else to do.
 
-#include "profiling/bench/walls/walls_case.h"
-#include "profiling/bench/walls/walls_program.h"
-#include "profiling/bench/walls/walls_record.h"
-#include "profiling/bench/walls/walls_results.h"
+#include "bench/walls/walls_case.h"
+#include "bench/walls/walls_program.h"
+#include "bench/walls/walls_record.h"
+#include "bench/walls/walls_results.h"
 
 #include <functional>
 #include <string>

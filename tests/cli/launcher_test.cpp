@@ -18,7 +18,7 @@ public:
     fs::create_directories(root_.path() / "stubs");
     fs::copy_file(STADION_SOURCE_DIR "/stadion", root_.path() / "stadion");
     for (const char* floor :
-         {"engine", "pipeline", "dynamics", "profiling", "show", "cli", "assets/generator", "tests"})
+         {"engine", "pipeline", "dynamics", "profiling", "show", "bench", "cli", "assets/generator", "tests"})
       write(std::string(floor) + "/x.cpp", "// source\n");
     write("CMakeLists.txt", "# build\n"), write("CMakePresets.json", "{}\n");
     stub("id", "echo ${STUB_UID:-0}");

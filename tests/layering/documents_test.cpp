@@ -65,8 +65,8 @@ std::vector<fs::path> pages() {
   std::vector<fs::path> found;
   for (const auto& entry : fs::directory_iterator(kPages))
     if (entry.path().extension() == ".md") found.push_back(entry.path());
-  for (const char* folder : {"engine", "pipeline", "dynamics", "profiling", "show", "cli", "tests", "docs",
-                             "examples", "scripts", "walls", "assets"})
+  for (const char* folder : {"engine", "pipeline", "dynamics", "profiling", "show", "bench", "cli", "tests",
+                             "docs", "examples", "scripts", "walls", "assets"})
     for (const auto& entry : fs::recursive_directory_iterator(kPages / folder))
       if (entry.path().extension() == ".md") found.push_back(entry.path());
   return found;
@@ -152,7 +152,7 @@ bool names(const fs::path& page, const fs::path& folder) {
 }
 
 TEST(Documents, EachRoomIsOnThePageOfItsFloor) {
-  for (const char* floor : {"engine", "pipeline", "dynamics", "profiling", "show", "cli"}) {
+  for (const char* floor : {"engine", "pipeline", "dynamics", "profiling", "show", "bench", "cli"}) {
     std::set<fs::path> rooms;
     for (const auto& entry : fs::recursive_directory_iterator(kPages / floor))
       if (entry.path().extension() == ".h" || entry.path().extension() == ".cpp")

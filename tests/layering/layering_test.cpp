@@ -55,14 +55,14 @@ const std::vector<Line>& linesBelow(const std::string& folder) {
   return known != read.end() ? known->second : read.emplace(folder, readBelow(folder)).first->second;
 }
 
-const std::vector<std::string> kFloors{"engine", "pipeline", "dynamics", "profiling", "show", "cli"};
+const std::vector<std::string> kFloors{"engine", "pipeline", "dynamics", "profiling", "show", "bench", "cli"};
 
-/// Which floors a file may include. Benches join floors as show/ does.
+/// Which floors a file may include.
 std::set<std::string> allowedFor(const std::string& file) {
   const std::string floor = file.substr(0, file.find('/'));
-  if (floor == "cli") return {"engine", "pipeline", "dynamics", "profiling", "show", "cli"};
+  if (floor == "cli") return {kFloors.begin(), kFloors.end()};
   if (floor == "show") return {"engine", "pipeline", "dynamics", "profiling", "show"};
-  if (file.starts_with("profiling/bench/")) return {"engine", "pipeline", "dynamics", "profiling"};
+  if (floor == "bench") return {"engine", "pipeline", "dynamics", "profiling", "bench"};
   return {"engine", floor};
 }
 
@@ -79,16 +79,11 @@ TEST(Layering, IncludesGoDownAndNeverUpOrSideways) {
       const std::string name = included(line.text, '"', '"');
       if (name.empty()) continue;
       EXPECT_TRUE(allowedFor(line.file).contains(name.substr(0, name.find('/')))) << line.place();
-      // A bench is a room of the top floor: nothing below may know it.
-      if (name.starts_with("profiling/bench/")) {
-        EXPECT_TRUE(line.file.starts_with("cli/") || line.file.starts_with("profiling/bench/"))
-            << line.place();
-      }
     }
 }
 
 TEST(Layering, IncludesAreRelativeToTheRoot) {
-  for (const char* folder : {"engine", "pipeline", "dynamics", "profiling", "show", "cli", "tests"})
+  for (const char* folder : {"engine", "pipeline", "dynamics", "profiling", "show", "bench", "cli", "tests"})
     for (const Line& line : linesBelow(folder)) {
       const std::string name = included(line.text, '"', '"');
       if (name.empty()) continue;
@@ -139,7 +134,7 @@ std::vector<std::string> cycleFrom(const Rooms& rooms, std::vector<std::string> 
 
 TEST(Layering, TheRoomsOfAFloorFormNoCycle) {
   for (const char* part :
-       {"engine", "pipeline", "dynamics", "profiling", "show", "cli", "assets/generator"}) {
+       {"engine", "pipeline", "dynamics", "profiling", "show", "bench", "cli", "assets/generator"}) {
     const Rooms rooms = roomsOf(part);
     for (const auto& [room, others] : rooms) {
       std::set<std::string> seen;
@@ -199,7 +194,8 @@ private:
 // One program may link both: two definitions of one name break the one-definition rule.
 TEST(Layering, NoTwoHeadersDefineClassesOfOneName) {
   std::map<std::string, Line> found;
-  for (const char* folder : {"engine", "pipeline", "dynamics", "profiling", "show", "cli", "tests"}) {
+  for (const char* folder :
+       {"engine", "pipeline", "dynamics", "profiling", "show", "bench", "cli", "tests"}) {
     std::map<std::string, HeaderClasses> headers;
     for (const Line& line : linesBelow(folder))
       if (line.file.ends_with(".h")) headers.try_emplace(line.file, found).first->second.take(line);
@@ -211,7 +207,8 @@ TEST(Layering, NoTwoHeadersDefineClassesOfOneName) {
 TEST(Layering, NoFolderHasMoreThanFortyFiles) {
   constexpr int kMost = 40;
   std::map<std::string, int> files;
-  for (const char* part : {"engine", "pipeline", "dynamics", "profiling", "show", "cli", "assets/generator"})
+  for (const char* part :
+       {"engine", "pipeline", "dynamics", "profiling", "show", "bench", "cli", "assets/generator"})
     for (const auto& entry : fs::recursive_directory_iterator(kRoot / part))
       if (entry.path().extension() == ".h" || entry.path().extension() == ".cpp")
         ++files[fs::relative(entry.path().parent_path(), kRoot).string()];
@@ -224,7 +221,7 @@ TEST(Layering, OnlyTheCommandLineKnowsCli11AndExitCodes) {
     for (const Line& line : linesBelow(floor)) {
       const std::string library = included(line.text, '<', '>');
       // The program of a bench has a command line of its own.
-      if (line.file.starts_with("profiling/bench/")) continue;
+      if (line.file.starts_with("bench/")) continue;
       EXPECT_FALSE(library.starts_with("CLI/")) << line.place();
     }
   }
@@ -250,7 +247,7 @@ std::set<std::string> includersOf(const std::string& prefix) {
 TEST(Layering, EachForeignLibraryHasItsRoom) {
   using Files = std::set<std::string>;
   // The programs of `bench walls` link what they draw with; the product does not know them.
-  const std::string osg = "profiling/bench/walls/osg/osg_walls.cpp", floor = "profiling/bench/walls/floor/";
+  const std::string osg = "bench/walls/osg/osg_walls.cpp", floor = "bench/walls/floor/";
   EXPECT_EQ(includersOf("GL/osmesa"), (Files{"pipeline/target/osmesa_provider.cpp", osg}));
   EXPECT_EQ(includersOf("EGL/"),
             (Files{"pipeline/target/egl_provider.cpp", floor + "headless_context.cpp", osg}));
@@ -264,9 +261,9 @@ TEST(Layering, EachForeignLibraryHasItsRoom) {
   EXPECT_EQ(includersOf("AL/"), Files{"pipeline/sound/sound_device.cpp"});
   EXPECT_EQ(includersOf("fcl/"), Files{"dynamics/shapes/mesh_distance.cpp"});
   EXPECT_EQ(includersOf("GL/gl"), (Files{"pipeline/gl/gl_table.h", floor + "gl.h"}));
-  EXPECT_EQ(includersOf("btBulletDynamicsCommon"), Files{"profiling/bench/dynamics/engine_bullet.cpp"});
-  EXPECT_EQ(includersOf("ode/"), Files{"profiling/bench/dynamics/engine_ode.cpp"});
-  EXPECT_EQ(includersOf("mujoco/"), Files{"profiling/bench/dynamics/engine_mujoco.cpp"});
+  EXPECT_EQ(includersOf("btBulletDynamicsCommon"), Files{"bench/dynamics/engine_bullet.cpp"});
+  EXPECT_EQ(includersOf("ode/"), Files{"bench/dynamics/engine_ode.cpp"});
+  EXPECT_EQ(includersOf("mujoco/"), Files{"bench/dynamics/engine_mujoco.cpp"});
   // assimp lives in a program of its own.
   const Files assimp = includersOf("assimp/");
   EXPECT_FALSE(assimp.empty());
@@ -314,7 +311,7 @@ TEST(Layering, NothingStandsOutsideTheRepository) {
   std::vector<fs::path> files{kRoot / "stadion", kRoot / "CMakeLists.txt", kRoot / "CMakePresets.json",
                               kRoot / ".ci/run"};
   for (const char* folder :
-       {"engine", "pipeline", "dynamics", "profiling", "show", "cli", "tests", "scripts", "walls"})
+       {"engine", "pipeline", "dynamics", "profiling", "show", "bench", "cli", "tests", "scripts", "walls"})
     for (const auto& entry : fs::recursive_directory_iterator(kRoot / folder))
       if (std::set<std::string>{".h", ".cpp", ".txt", ".evs", ".walls", ".input", ".md"}.contains(
               entry.path().extension()))

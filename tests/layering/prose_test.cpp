@@ -87,8 +87,8 @@ bool isProse(const fs::path& file) {
 }
 
 TEST(Prose, NoActorIsHiddenAndNoReplacedWordIsBack) {
-  for (const char* folder : {"engine", "pipeline", "dynamics", "profiling", "show", "cli", "tests", "docs",
-                             "examples", "scripts", "assets/generator", "packaging"})
+  for (const char* folder : {"engine", "pipeline", "dynamics", "profiling", "show", "bench", "cli", "tests",
+                             "docs", "examples", "scripts", "assets/generator", "packaging"})
     for (const auto& entry : fs::recursive_directory_iterator(kHouse / folder)) {
       if (!entry.is_regular_file() || !isProse(entry.path())) continue;
       std::ifstream in(entry.path());

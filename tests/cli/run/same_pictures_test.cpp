@@ -1,8 +1,8 @@
 /// Overlapping the stages changes nothing that anybody can see: the same pictures, byte for byte, and the
 /// same state in every frame, whatever the number of walls.
 
-#include "profiling/bench/grid_show.h"
-#include "profiling/bench/walls/wall_files.h"
+#include "bench/grid_show.h"
+#include "bench/walls/wall_files.h"
 #include "tests/programs/program.h"
 
 #include <algorithm>

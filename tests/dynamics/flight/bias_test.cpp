@@ -2,8 +2,8 @@
 
 #include "dynamics/flight/bias.h"
 
+#include "bench/flight/bodies.h"
 #include "engine/maths/functions.h"
-#include "profiling/bench/flight/bodies.h"
 
 #include <gtest/gtest.h>
 

@@ -2,9 +2,9 @@
 
 #include "dynamics/flight/fit.h"
 
+#include "bench/flight/bodies.h"
 #include "dynamics/flight/least_squares.h"
 #include "engine/maths/angles.h"
-#include "profiling/bench/flight/bodies.h"
 
 #include <algorithm>
 #include <cmath>

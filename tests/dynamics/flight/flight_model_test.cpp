@@ -2,8 +2,8 @@
 
 #include "dynamics/flight/flight_model.h"
 
+#include "bench/flight/bodies.h"
 #include "dynamics/flight/flight_shape.h"
-#include "profiling/bench/flight/bodies.h"
 
 #include <cmath>
 #include <gtest/gtest.h>

@@ -16,7 +16,7 @@
 namespace stadion {
 namespace {
 
-const std::string kFlights = STADION_ROOT "/profiling/bench/flight/reference/";
+const std::string kFlights = STADION_ROOT "/bench/flight/reference/";
 
 /// An eight-sided discus about the z axis (OBJ is +Y up: our z is its y).
 std::string discus() {

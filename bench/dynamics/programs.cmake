@@ -1,0 +1,45 @@
+# One program for each engine that plays the cases: stadion-dyn-ENGINE.
+file(GLOB dynamics_case_sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_LIST_DIR}/*.cpp)
+list(FILTER dynamics_case_sources EXCLUDE REGEX "/engine_[a-z]+\\.cpp$|/program\\.cpp$")
+add_library(stadion_dynamics_cases STATIC ${dynamics_case_sources})
+target_link_libraries(stadion_dynamics_cases PUBLIC stadion_options stadion_sanitize)
+target_precompile_headers(stadion_dynamics_cases REUSE_FROM stadion_precompiled)
+stadion_unity(stadion_dynamics_cases 16)
+set_source_files_properties(${CMAKE_CURRENT_LIST_DIR}/reference_solutions.cpp PROPERTIES
+  SKIP_UNITY_BUILD_INCLUSION ON)  # its test links no engine
+add_custom_target(dynamics_programs)
+
+function(stadion_dynamics_program ENGINE)
+  add_executable(stadion-dyn-${ENGINE} bench/dynamics/program.cpp bench/dynamics/engine_${ENGINE}.cpp)
+  target_link_libraries(stadion-dyn-${ENGINE} PRIVATE stadion_dynamics_cases ${ARGN})
+  add_dependencies(dynamics_programs stadion-dyn-${ENGINE})
+endfunction()
+
+stadion_dynamics_program(stadion stadion_dynamics)
+
+if(STADION_PEERS)
+  find_path(BULLET_INCLUDE btBulletDynamicsCommon.h PATH_SUFFIXES bullet)
+  find_library(BULLET_DYNAMICS BulletDynamics-float64)
+  find_library(BULLET_COLLISION BulletCollision-float64)
+  find_library(BULLET_MATHS LinearMath-float64)
+  if(BULLET_INCLUDE AND BULLET_DYNAMICS AND BULLET_COLLISION AND BULLET_MATHS)
+    stadion_dynamics_program(bullet ${BULLET_DYNAMICS} ${BULLET_COLLISION} ${BULLET_MATHS})
+    target_include_directories(stadion-dyn-bullet SYSTEM PRIVATE ${BULLET_INCLUDE})
+    target_compile_definitions(stadion-dyn-bullet PRIVATE BT_USE_DOUBLE_PRECISION)
+  endif()
+
+  find_path(ODE_INCLUDE ode/ode.h)
+  find_library(ODE_LIBRARY ode)
+  if(ODE_INCLUDE AND ODE_LIBRARY)
+    stadion_dynamics_program(ode ${ODE_LIBRARY})
+    target_include_directories(stadion-dyn-ode SYSTEM PRIVATE ${ODE_INCLUDE})
+    target_compile_definitions(stadion-dyn-ode PRIVATE dIDEDOUBLE)
+  endif()
+
+  find_path(MUJOCO_INCLUDE mujoco/mujoco.h)
+  find_library(MUJOCO_LIBRARY mujoco)
+  if(MUJOCO_INCLUDE AND MUJOCO_LIBRARY)
+    stadion_dynamics_program(mujoco ${MUJOCO_LIBRARY})
+    target_include_directories(stadion-dyn-mujoco SYSTEM PRIVATE ${MUJOCO_INCLUDE})
+  endif()
+endif()
