@@ -1,7 +1,7 @@
 #pragma once
 /// Visits a state field by field, in a fixed order: to hash, save, restore or compare it.
 ///
-/// A class with a state lists its fields once, for all four:
+/// A class with a state usually lists its fields once, for all four:
 ///
 ///     template <class Self, class Fields>
 ///     static void fields(Self& self, Fields& f) {
@@ -9,6 +9,9 @@
 ///       f("due", self.due_);
 ///       f.kept("handle", self.handle_);  // usually follows from other fields: saved, but not hashed
 ///     }
+///
+/// A node whose state other nodes hash in part has a hash() of its own: `dynamics` and `collision` nodes save
+/// their whole world, and hash what their bodies, colliders and fields do not.
 ///
 /// An enumeration in a state begins at 0. lastOf(), in its namespace, returns its last value:
 ///

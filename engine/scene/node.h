@@ -117,9 +117,10 @@ public:
   virtual Rank rank() const { return Rank::Motion; }
   /// Returns true if the node must be visited in the next frame even if no message arrives.
   virtual bool busy() const { return false; }
-  /// Adds every field that the show's future depends on.
+  /// Adds every field that the show's future depends on, unless another node adds it or it follows from such
+  /// fields.
   virtual void hash(StateHash&) const {}
-  /// Visits the same fields and the kept ones, to save, compare or restore them (state_fields.h). For a
+  /// Visits the same fields and all others to be saved, compared or restored (state_fields.h). For a
   /// restored node, resume() is called instead of enter().
   virtual void state(StateFields&) {}
   /// Maps a part number (StateFields::about()) to its node: the bodies of a dynamics node are nodes
