@@ -85,7 +85,7 @@ std::vector<WallsCase> tableCases(const WallsChoice& choice) {
     if (c.engine == "osg" && !choice.osg) return;
     if (c.engine == "floor" && !choice.floor) return;
     // One thread does all work if stages or the floor are compared.
-    if (c.engine == "stadion") c.workers = c.mode == "sequential" ? "thread" : choice.workers;
+    if (c.engine == "stadion") c.drawnBy = c.mode == "sequential" ? "thread" : choice.drawnBy;
     all.push_back(std::move(c));
   };
   for (const std::string& s : choice.scenes) {
@@ -134,7 +134,7 @@ std::vector<WallsCase> scalingCases(const WallsChoice& choice) {
     for (WallsCase c :
          {ourCase("a", false, "STRICT"), osgCase("a", false, "STRICT", "DPC"), floorCase("a", "STRICT")}) {
       c.walls = walls;
-      if (c.engine == "stadion") c.workers = choice.workers;
+      if (c.engine == "stadion") c.drawnBy = choice.drawnBy;
       add(std::move(c));
     }
   return all;

@@ -22,7 +22,7 @@ struct WallsCase {
                       ///< method
   std::string lp{};   ///< LP_NUM_THREADS; empty: the program chooses
   std::string pace = "free";  ///< stadion's
-  std::string workers{};      ///< stadion's --wall-workers; empty: it chooses
+  std::string drawnBy{};      ///< stadion's --wall-workers; empty: it chooses
   std::size_t walls = 4;
   std::uint32_t width = 800, height = 600;
   std::uint64_t warm = 3, frames = 12;
@@ -51,7 +51,7 @@ std::string nameOf(const WallsCase& c);
 struct WallsChoice {
   std::vector<std::string> scenes{"a", "b", "c"};
   bool osg = true, floor = true;  ///< whether they are installed
-  std::string workers{};          ///< for all of Stadion's
+  std::string drawnBy{};          ///< for all of Stadion's
 };
 std::vector<WallsCase> tableCases(const WallsChoice& choice);
 /// Numbers of nodes from a thousand to a million, numbers of walls from one to six.

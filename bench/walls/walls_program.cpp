@@ -23,7 +23,7 @@ std::vector<std::string> ourWords(const WallsCase& c) {
   if (c.engine == "control") return words.insert(words.end(), {"--control"}), words;
   words.insert(words.end(), {"--scene", c.scene, "--class", c.kind, "--mode", c.mode, "--layout",
                              c.flat ? "flat" : "grid", "--pace", c.pace, "--gl", "osmesa"});
-  if (!c.workers.empty()) words.insert(words.end(), {"--wall-workers", c.workers});
+  if (!c.drawnBy.empty()) words.insert(words.end(), {"--wall-workers", c.drawnBy});
   return words;
 }
 
@@ -109,7 +109,7 @@ Result<nlohmann::json> measure(const WallsCase& c, const WallsPrograms& programs
 
 WallsCase ourPictures(const PicturesCase& c) {
   WallsCase ours = ourCase(c.scene, true, c.kind);
-  ours.walls = 6, ours.warm = 2, ours.frames = 3, ours.workers = c.workers;
+  ours.walls = 6, ours.warm = 2, ours.frames = 3, ours.drawnBy = c.drawnBy;
   return ours;
 }
 
@@ -134,7 +134,7 @@ Result<nlohmann::json> comparePictures(const PicturesCase& c, const WallsProgram
                         {"class", c.kind},
                         {"scene", c.scene},
                         {"walls", ours.walls},
-                        {"wall_workers", ours.workers},
+                        {"wall_workers", ours.drawnBy},
                         {"width", ours.width},
                         {"height", ours.height},
                         {"beyond_share", apart.value().worstView},

@@ -27,7 +27,7 @@ Result<nlohmann::json> measure(const WallsCase& c, const WallsPrograms& programs
 
 struct PicturesCase {
   std::string scene, kind;  ///< as in WallsCase
-  std::string workers;      ///< threads or processes that draw Stadion's walls, as in the measurement
+  std::string drawnBy;      ///< threads or processes that draw Stadion's walls, as in the measurement
 };
 /// Returns Stadion's case for a frame of all six walls; its pictures are requested separately.
 WallsCase ourPictures(const PicturesCase& c);

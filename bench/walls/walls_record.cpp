@@ -24,7 +24,7 @@ std::optional<RecordHead> headIn(const nlohmann::json& line) {
   if (!line.is_object() || line.value("record", "") != kKind) return {};
   RecordHead head;
   head.build = line.value("build", ""), head.machine = line.value("machine", "");
-  head.workers = line.value("wall_workers", ""), head.begun = line.value("begun", std::int64_t{0});
+  head.drawnBy = line.value("wall_workers", ""), head.begun = line.value("begun", std::int64_t{0});
   return head;
 }
 
@@ -33,8 +33,8 @@ std::string apart(const RecordHead& then, const RecordHead& now) {
   if (then.build != now.build) return "was measured with another build";
   if (then.machine != now.machine)
     return fmt::format("was measured on another machine ({}; this one is {})", then.machine, now.machine);
-  if (then.workers != now.workers)
-    return fmt::format("was measured with --wall-workers {}, not {}", then.workers, now.workers);
+  if (then.drawnBy != now.drawnBy)
+    return fmt::format("was measured with --wall-workers {}, not {}", then.drawnBy, now.drawnBy);
   if (std::abs(now.begun - then.begun) > kSameRun)
     return fmt::format("was begun {:%Y-%m-%d %H:%M} UTC, more than half a day from now",
                        fmt::gmtime(static_cast<std::time_t>(then.begun)));
@@ -47,7 +47,7 @@ std::string lineOf(const RecordHead& head) {
   return nlohmann::json{{"record", kKind},
                         {"build", head.build},
                         {"machine", head.machine},
-                        {"wall_workers", head.workers},
+                        {"wall_workers", head.drawnBy},
                         {"begun", head.begun}}
       .dump();
 }

@@ -20,7 +20,7 @@ namespace stadion::bench {
 struct RecordHead {
   std::string build;       ///< identifies the build of all measured programs
   std::string machine;     ///< in words; identifies the machine
-  std::string workers;     ///< thread or process: draws Stadion's walls
+  std::string drawnBy;     ///< thread or process: draws Stadion's walls
   std::int64_t begun = 0;  ///< seconds since 1970, UTC
 };
 

@@ -33,7 +33,7 @@ struct BenchWallsOptions {
   std::vector<std::string> scenes{"a", "b", "c"};
   std::size_t rounds = kFewRounds;
   double minutes = 14;
-  std::string workers;  ///< empty: thread for one case, process for the table
+  std::string drawnBy;  ///< empty: thread for one case, process for the table
   bool scaling = false, json = false;
   std::string out, record;
   RendererOptions renderer;
@@ -109,9 +109,9 @@ int benchTable(const BenchWallsOptions& o) {
     out->clear();
   }
   reportMissingPrograms(programs);
-  const std::string workers = o.workers.empty() ? "process" : o.workers;
-  const bench::WallsChoice choice{o.scenes, !programs.osg.empty(), !programs.floor.empty(), workers};
-  WallsRounds how{o.rounds, o.minutes, o.record, recordHead(programs, workers), !o.scaling, o.scenes};
+  const std::string drawnBy = o.drawnBy.empty() ? "process" : o.drawnBy;
+  const bench::WallsChoice choice{o.scenes, !programs.osg.empty(), !programs.floor.empty(), drawnBy};
+  WallsRounds how{o.rounds, o.minutes, o.record, recordHead(programs, drawnBy), !o.scaling, o.scenes};
   if (o.json)
     how.row = [](const nlohmann::json& row) { std::printf("%s\n", row.dump().c_str()), std::fflush(stdout); };
   const auto outcome = playRounds(o.scaling ? scalingCases(choice) : tableCases(choice), programs, how);
@@ -166,7 +166,7 @@ int benchWalls(const CLI::App& command, const BenchWallsOptions& o) {
   if (!o.out.empty()) std::filesystem::create_directories(o.out, unmade), one.pictures = o.out + "/picture";
   if (const std::string why = unwritable(one); !why.empty()) return refuse(why);
   one.flat = o.layout == "flat";
-  if (!o.workers.empty()) one.workers = o.workers;
+  if (!o.drawnBy.empty()) one.drawnBy = o.drawnBy;
   Diagnostics findings;
   one.renderer = o.renderer.settings(findings);
   if (findings.hasErrors()) return exitWith(findings, kBadInput);
@@ -217,7 +217,7 @@ void addBenchWalls(CLI::App& bench, int& code) {
   addTableTo(options, *o);
   addOneTo(options, *o);
   o->renderer.addTo(*command);
-  options.add("--wall-workers", o->workers, {.words = "thread|process"});
+  options.add("--wall-workers", o->drawnBy, {.words = "thread|process"});
   command->footer(
       "--out DIR receives the rows and a plot; with --one its row and the pictures of the next frame, "
       "picture_WALL_EYE.ppm.\n"

@@ -154,7 +154,7 @@ ShowParts showPartsOf(const WallsSetting& s, Player& player, ShowRenderer& rende
   }
   if (s.without == "unseen") parts.quality.leavesOutUnseen = false;
   if (s.without == "small") parts.quality.drawsSmallObjects = false;
-  if (s.workers == "process") parts.workers = WallWorkers{renderer.kind()};
+  if (s.drawnBy == "process") parts.wallProcesses = WallProcesses{renderer.kind()};
   renderer.drawFor(parts);
   return parts;
 }
@@ -184,7 +184,7 @@ void addSetting(const WallsSetting& s, ShowRenderer& renderer, nlohmann::json& t
              {"width", s.width},
              {"height", s.height},
              {"mode", nameOf(s.mode)},
-             {"wall_workers", s.workers},
+             {"wall_workers", s.drawnBy},
              {"frames_under_way", s.mostInFlight},
              {"lp_threads", lp ? lp : "default"},
              {"draw_threads", renderer.threads()},

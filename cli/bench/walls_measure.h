@@ -18,7 +18,7 @@ struct WallsSetting {
   std::string kind = "STRICT";  ///< STRICT: a draw call a node; OPEN: anything that keeps the picture
   Mode mode = Mode::Pipelined;
   std::size_t mostInFlight = 1;    ///< limit of frames in flight (FrameLoopOptions)
-  std::string workers = "thread";  ///< or process
+  std::string drawnBy = "thread";  ///< or process
   std::string without;             ///< OPEN, SUBMIT: without this trick, "unseen" or "small"; empty: with all
   RendererSettings renderer{};
   std::string pace = "free";          ///< or lock: frames begin on ticks of 1/60 s

@@ -2,7 +2,7 @@
 
 #include "engine/core/state_hash.h"
 #include "pipeline/platform/machine.h"
-#include "pipeline/process/wall_worker.h"
+#include "pipeline/process/wall_process.h"
 
 #include <chrono>
 #include <fmt/format.h>
@@ -19,15 +19,15 @@ std::string contentOf(const std::string& file) {
 
 }  // namespace
 
-bench::RecordHead recordHead(const bench::WallsPrograms& programs, const std::string& workers) {
+bench::RecordHead recordHead(const bench::WallsPrograms& programs, const std::string& drawnBy) {
   StateHash build;
   for (const std::string& program :
-       {programs.stadion, worker::wallProgram().string(), programs.osg, programs.floor})
+       {programs.stadion, wall_process::wallProgram().string(), programs.osg, programs.floor})
     build.add(program.empty() ? std::string() : contentOf(program));
   const auto now = std::chrono::system_clock::now().time_since_epoch();
   bench::RecordHead head;
   head.build = fmt::format("{:016x}", build.value());
-  head.machine = textOf(thisMachine()), head.workers = workers;
+  head.machine = textOf(thisMachine()), head.drawnBy = drawnBy;
   head.begun = std::chrono::duration_cast<std::chrono::seconds>(now).count();
   return head;
 }

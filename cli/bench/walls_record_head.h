@@ -6,6 +6,6 @@
 
 namespace stadion {
 
-bench::RecordHead recordHead(const bench::WallsPrograms& programs, const std::string& workers);
+bench::RecordHead recordHead(const bench::WallsPrograms& programs, const std::string& drawnBy);
 
 }  // namespace stadion

@@ -57,7 +57,7 @@ public:
         if (outcome_.results.count("pictures " + scene + " " + kind)) continue;
         std::fprintf(stderr, "pictures of %s, %s\n", scene.c_str(), kind);
         const TemporaryFolder folder;
-        take(bench::comparePictures({scene, kind, how_.head.workers}, programs_, folder.path("")), 0);
+        take(bench::comparePictures({scene, kind, how_.head.drawnBy}, programs_, folder.path("")), 0);
       }
   }
 

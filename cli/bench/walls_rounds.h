@@ -19,7 +19,7 @@ struct WallsRounds {
   std::size_t rounds = 5;
   double minutes = 14;  ///< no further round is begun that would not end by then; the first one always is
   std::string record;   ///< rows are kept in this file, and those that it has are not measured again
-  bench::RecordHead head{};  ///< what this run is of; its workers draw what is compared, too
+  bench::RecordHead head{};  ///< what this run is of; it says how compared walls are drawn, too
   bool pictures = true;
   std::vector<std::string> scenes{};
   std::function<void(const nlohmann::json&)> row{};  ///< each one, as it comes

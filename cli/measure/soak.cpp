@@ -134,7 +134,7 @@ bool Soak::visit(const std::string& show, Way way, std::uint64_t frames) try {
   SoakVisitor visitor;
   ShowParts parts = player->parts(StereoLayout::Off, &visitor);
   if (way == Way::Killed)
-    parts.workers.emplace().renderer = renderer_.kind();
+    parts.wallProcesses.emplace().renderer = renderer_.kind();
   else
     parts.contexts = &kept.contexts;
   renderer_.drawFor(parts);

@@ -15,7 +15,7 @@
 ///
 /// An enumeration in a state begins at 0. lastOf(), in its namespace, returns its last value:
 ///
-///     constexpr Held lastOf(Held) { return Held::All; }
+///     constexpr HeldParts lastOf(HeldParts) { return HeldParts::All; }
 ///
 /// Threads  one at a time.
 /// Bits     numbers are saved by their bits, little end first. A restored value is the same to the bit.

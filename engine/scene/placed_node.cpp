@@ -41,15 +41,15 @@ bool PlacedNode::place(Scene& scene, const Affine& X_WN) {
   return true;
 }
 
-bool PlacedNode::hold(Scene& scene, const Affine& X_WN, Held part) {
+bool PlacedNode::hold(Scene& scene, const Affine& X_WN, HeldParts parts) {
   aboutToChange(scene);
-  if (!scene.placements().hold(placement_, X_WN, part)) return false;
+  if (!scene.placements().holdInWorld(placement_, X_WN, parts)) return false;
   X_PN_ = X_WN;
   return true;
 }
 
 void PlacedNode::rejoin(Scene& scene, const Affine& X_WP) {
-  if (attached() || scene.placements().held(placement_) == Held::Nothing) return;
+  if (attached() || scene.placements().heldParts(placement_) == HeldParts::Nothing) return;
   scene.placements().rejoin(placement_, X_WP);
   leaveFleet(scene);
 }
@@ -60,7 +60,7 @@ void PlacedNode::setHome(Scene& scene, const Affine& X_WN) {
 
 void PlacedNode::resetPlace(Scene& scene) {
   aboutToChange(scene);
-  setFollowing(Held::Nothing, scene);
+  setFollowing(HeldParts::Nothing, scene);
   X_PN_ = attributes_.X_PN;
   scene.placements().setLocal(placement_, X_PN_);
   shown_ = attributes_.shown;
@@ -68,8 +68,8 @@ void PlacedNode::resetPlace(Scene& scene) {
 }
 
 /// While a tracker moves the node, nothing else does.
-void PlacedNode::setFollowing(Held part, Scene& scene) {
-  follow_ = part;
+void PlacedNode::setFollowing(HeldParts parts, Scene& scene) {
+  follow_ = parts;
   scene.placements().setAttached(placement_, isMovedFromOutside());
 }
 
@@ -77,9 +77,9 @@ void PlacedNode::follow(const Message& m, FrameContext& frame) {
   const Nanoseconds when = frame.effective(m);
   if (attached()) trace(when, frame);
   const std::string_view what = m.arguments.empty() ? "all" : std::string_view(m.arguments[0]);
-  setFollowing(what == "position"      ? Held::Position
-               : what == "orientation" ? Held::Orientation
-                                       : Held::All,
+  setFollowing(what == "position"      ? HeldParts::Position
+               : what == "orientation" ? HeldParts::Orientation
+                                       : HeldParts::All,
                frame.scene);
   tracker_ = m.arguments.size() > 1 ? m.arguments[1] : "";
   if (tracker_.empty()) tracker_ = frame.input.find(kFootTracker) ? kFootTracker : kWandTracker;
@@ -90,7 +90,7 @@ void PlacedNode::follow(const Message& m, FrameContext& frame) {
 void PlacedNode::stopFollowing(Nanoseconds when, FrameContext& frame) {
   if (attached() && trace(when, frame))
     hold(frame.scene, placedAt(poseTrack(frame).back().X, frame.scene), follow_);
-  setFollowing(Held::Nothing, frame.scene);
+  setFollowing(HeldParts::Nothing, frame.scene);
 }
 
 void PlacedNode::resetAt(Nanoseconds when, FrameContext& frame) {
@@ -108,14 +108,15 @@ PoseTrack& PlacedNode::poseTrack(FrameContext& frame) const {
 
 /// Where the node is while its tracker is at X_WT: what it does not take over is its own.
 Pose PlacedNode::following(const Pose& X_WT, const Pose& own) const {
-  return {follow_ == Held::Orientation ? own.p : X_WT.p, follow_ == Held::Position ? own.q : X_WT.q};
+  return {follow_ == HeldParts::Orientation ? own.p : X_WT.p,
+          follow_ == HeldParts::Position ? own.q : X_WT.q};
 }
 
 /// Its placement with X_WN as far as it follows, and its own scale.
 Affine PlacedNode::placedAt(const Pose& X_WN, const Scene& scene) const {
   Affine X = scene.placements().world(placement_);
-  if (follow_ != Held::Orientation) X.translation() = X_WN.p;
-  if (follow_ != Held::Position)
+  if (follow_ != HeldParts::Orientation) X.translation() = X_WN.p;
+  if (follow_ != HeldParts::Position)
     X.linear() = X_WN.q.toRotationMatrix() * scaleOf(attributes_.X_PN).asDiagonal();
   return X;
 }

@@ -38,7 +38,7 @@ public:
   /// Places the node below its parent, so that it is at X_WN now.
   bool place(Scene& scene, const Affine& X_WN);
   /// Places the node in World. Its parent does not carry it from now on.
-  bool hold(Scene& scene, const Affine& X_WN, Held part = Held::All);
+  bool hold(Scene& scene, const Affine& X_WN, HeldParts parts = HeldParts::All);
   /// Makes nodes of the static objects below this node, so that it can move. A node that moves the placement
   /// as part of a fleet calls it first. Until leaveFleet(), the pose belongs to the state of that node.
   void makeMovable(Scene& scene);
@@ -46,7 +46,7 @@ public:
   void leaveFleet(Scene& scene);
   /// Lets the parent carry the node again. The node was detached in this frame, when the parent was at X_WP.
   void rejoin(Scene& scene, const Affine& X_WP);
-  bool attached() const { return follow_ != Held::Nothing; }
+  bool attached() const { return follow_ != HeldParts::Nothing; }
   bool follows(std::string_view tracker) const { return attached() && tracker_ == tracker; }
   /// Returns true if a tracker or a dynamics node moves the node. Then no path or fleet does.
   virtual bool isMovedFromOutside() const { return attached(); }
@@ -78,7 +78,7 @@ protected:
 
 private:
   void aboutToChange(Scene& scene);
-  void setFollowing(Held part, Scene& scene);
+  void setFollowing(HeldParts parts, Scene& scene);
   void follow(const Message& m, FrameContext& frame);
   void stopFollowing(Nanoseconds when, FrameContext& frame);
   void resetAt(Nanoseconds when, FrameContext& frame);
@@ -89,7 +89,7 @@ private:
 
   PlaceAttributes attributes_;
   PlacementId placement_ = kNoPlacement;
-  Held follow_ = Held::Nothing;
+  HeldParts follow_ = HeldParts::Nothing;
   std::string tracker_;
   Nanoseconds traced_ = 0;  ///< show time up to which the path along the tracker is known
   bool arrived_ = false;    ///< the node has reached the tracker

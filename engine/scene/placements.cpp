@@ -78,7 +78,7 @@ bool Placements::setLocal(PlacementId id, const Affine& X_PN) {
   if (!X_PN.matrix().allFinite()) return false;
   detach(id);
   X_PN_[id] = X_PN;
-  entries_[id].held = Held::Nothing;
+  entries_[id].heldParts = HeldParts::Nothing;
   markBelow(id, true);
   return true;
 }
@@ -91,11 +91,11 @@ bool Placements::setWorld(PlacementId id, const Affine& X_WN) {
   return setLocal(id, local);
 }
 
-bool Placements::hold(PlacementId id, const Affine& X_WN, Held part) {
+bool Placements::holdInWorld(PlacementId id, const Affine& X_WN, HeldParts parts) {
   if (!X_WN.matrix().allFinite()) return false;
   detach(id);
   X_WH_[id] = X_WN;
-  entries_[id].held = part;
+  entries_[id].heldParts = parts;
   markBelow(id, true);
   return true;
 }
@@ -108,7 +108,7 @@ void Placements::rejoin(PlacementId id, const Affine& X_WP) {
 Affine Placements::local(PlacementId id) const {
   updateLocal(id);
   const Entry& e = entries_[id];
-  if (e.held == Held::Nothing) return X_PN_[id];
+  if (e.heldParts == HeldParts::Nothing) return X_PN_[id];
   return e.parent == kWorldPlacement ? world(id) : Affine(world(e.parent).inverse() * world(id));
 }
 
@@ -125,15 +125,16 @@ void Placements::watch(PlacementId id) {
 }
 
 PlacementId Placements::carrier(PlacementId id) const {
-  return entries_[id].held == Held::All ? kWorldPlacement : entries_[id].parent;
+  return entries_[id].heldParts == HeldParts::All ? kWorldPlacement : entries_[id].parent;
 }
 
 /// Where it is while its parent is at X_WP.
 Affine Placements::carriedBy(PlacementId id, const Affine& X_WP) const {
   const Entry& e = entries_[id];
   Affine X = e.parent == kWorldPlacement ? X_PN_[id] : X_WP * X_PN_[id];
-  if (e.held == Held::All || e.held == Held::Position) X.translation() = X_WH_[id].translation();
-  if (e.held == Held::All || e.held == Held::Orientation) X.linear() = X_WH_[id].linear();
+  if (e.heldParts == HeldParts::All || e.heldParts == HeldParts::Position)
+    X.translation() = X_WH_[id].translation();
+  if (e.heldParts == HeldParts::All || e.heldParts == HeldParts::Orientation) X.linear() = X_WH_[id].linear();
   return X;
 }
 
@@ -141,7 +142,7 @@ const Affine& Placements::world(PlacementId id) const {
   // The matrix that is already one of World, so that X_WN_ needs no copy of it; else null.
   const auto given = [this](PlacementId at) -> const Affine* {
     const Entry& e = entries_[at];
-    if (e.held == Held::All) return &X_WH_[at];
+    if (e.heldParts == HeldParts::All) return &X_WH_[at];
     return standsInWorld(e) ? &X_PN_[at] : nullptr;
   };
   if (const Affine* X_WN = given(id)) return updateLocal(id), *X_WN;
@@ -264,7 +265,7 @@ void Placements::placeDetached(const Fleet& fleet) {
     Entry& e = entries_[id];
     if (e.attached) continue;
     X_PN_[id] = memberOf(fleet, number).affine();
-    e.held = Held::Nothing;
+    e.heldParts = HeldParts::Nothing;
     if (e.firstChild != kNoPlacement || e.watched) {
       markBelow(id, true);
       continue;
@@ -304,7 +305,7 @@ void Placements::state(StateFields& f) {
     if (f.restores()) e.stale = id != kWorldPlacement, e.changed = false;
     if (!e.live) continue;
     f("local", X_PN_[id]);
-    if (e.held != Held::Nothing) f("held at", X_WH_[id]);
+    if (e.heldParts != HeldParts::Nothing) f("held at", X_WH_[id]);
     if (f.restores() && !(X_PN_[id].matrix().allFinite() && X_WH_[id].matrix().allFinite())) f.fail();
   }
   f("free", free_), f("moved", movedWatched_), f("watched", anyWatched_);
@@ -344,7 +345,8 @@ bool Placements::standsTogether() const {
   if (entries_.empty()) return false;
   const Entry& world = entries_[kWorldPlacement];
   if (world.parent != kNoPlacement || world.nextSibling != kNoPlacement ||
-      world.previousSibling != kNoPlacement || world.held != Held::Nothing || world.fleet != kNoFleet)
+      world.previousSibling != kNoPlacement || world.heldParts != HeldParts::Nothing ||
+      world.fleet != kNoFleet)
     return false;
   std::vector<char> seen(entries_.size(), 0);
   std::vector<PlacementId> open{kWorldPlacement};

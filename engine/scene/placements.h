@@ -42,9 +42,9 @@ enum class Hider : std::uint8_t {
 };
 
 /// The parts of a placement's pose that are held in World.
-enum class Held : std::uint8_t { Nothing, Position, Orientation, All };
-constexpr Held lastOf(Held) {
-  return Held::All;
+enum class HeldParts : std::uint8_t { Nothing, Position, Orientation, All };
+constexpr HeldParts lastOf(HeldParts) {
+  return HeldParts::All;
 }
 
 /// Where a member of a fleet is.
@@ -100,12 +100,12 @@ public:
   bool setWorld(PlacementId id, const Affine& X_WN);
   /// Holds the placement at X_WN in World, or only its position or orientation, until setLocal(), setWorld()
   /// or rejoin().
-  bool hold(PlacementId id, const Affine& X_WN, Held part = Held::All);
+  bool holdInWorld(PlacementId id, const Affine& X_WN, HeldParts parts = HeldParts::All);
   /// Attaches the placement to its parent again, as the two stood when the parent was at X_WP.
   void rejoin(PlacementId id, const Affine& X_WP);
   /// Sets whether a tracker or a dynamics node moves the placement. If so, its fleet does not move it.
   void setAttached(PlacementId id, bool attached);
-  Held held(PlacementId id) const { return entries_[id].held; }
+  HeldParts heldParts(PlacementId id) const { return entries_[id].heldParts; }
   const Affine& world(PlacementId id) const;
   Affine local(PlacementId id) const;  ///< relative to its parent now
   /// Where its fleet puts it, with the numbers of takeMovedFleets(); nothing if it is in no fleet.
@@ -141,7 +141,7 @@ private:
   struct Entry {
     PlacementId parent = kNoPlacement, firstChild = kNoPlacement, nextSibling = kNoPlacement,
                 previousSibling = kNoPlacement;
-    Held held = Held::Nothing;
+    HeldParts heldParts = HeldParts::Nothing;
     bool stale = false;    ///< the World matrix must be recomputed
     bool changed = false;  ///< is in changed_
     std::uint8_t hiders = 0;
@@ -157,7 +157,7 @@ private:
     static void fields(Self& e, Fields& f) {
       f("parent", e.parent), f("first child", e.firstChild);
       f("next sibling", e.nextSibling), f("previous sibling", e.previousSibling);
-      f("held", e.held), f("hiders", e.hiders), f("live", e.live), f("attached", e.attached);
+      f("held", e.heldParts), f("hiders", e.hiders), f("live", e.live), f("attached", e.attached);
       f("watched", e.watched), f("watched below", e.watchedBelow);
       f("detached", e.detached), f("fleet", e.fleet), f("member", e.member), f("move", e.move);
     }
@@ -177,7 +177,9 @@ private:
   static constexpr std::size_t kFleetBlock = 64;
 
   /// Returns true if its World matrix is the local one.
-  static bool standsInWorld(const Entry& e) { return e.parent == kWorldPlacement && e.held == Held::Nothing; }
+  static bool standsInWorld(const Entry& e) {
+    return e.parent == kWorldPlacement && e.heldParts == HeldParts::Nothing;
+  }
   Affine carriedBy(PlacementId id, const Affine& X_WP) const;
   void markBelow(PlacementId id, bool moved);
   bool standsTogether() const;

@@ -120,7 +120,7 @@ void WallCull::fill(const SlotView& state, const CullOptions& options, DrawList&
   opaque_.clear(), transparent_.clear(), added_.clear();
   const RoomCull::Visibility room = [&] {
     const SpanScope span(probe, Span::Test);
-    return parts_.room.seen(state, options.eyes);
+    return parts_.room.visibleIn(state, options.eyes);
   }();
   const VisibleSet& seen = room.on(wall_);
   if (!seen.looks) {

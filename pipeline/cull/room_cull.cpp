@@ -5,8 +5,8 @@
 
 namespace stadion {
 
-/// What was found of one frame.
-struct RoomCull::Found {
+/// What the search found in one frame.
+struct RoomCull::SearchedFrame {
   std::size_t slot = 0;
   std::uint64_t written = kNever;  ///< which of the slot's frames; kNever: none that another wall may see
   std::atomic<std::uint32_t> holders = 0;
@@ -16,45 +16,47 @@ struct RoomCull::Found {
 };
 
 RoomCull::Visibility::~Visibility() {
-  if (found_) found_->holders.fetch_sub(1, std::memory_order_release);
+  if (frame_) frame_->holders.fetch_sub(1, std::memory_order_release);
 }
 
 const VisibleSet& RoomCull::Visibility::on(std::size_t wall) const {
-  return found_->walls[wall];
+  return frame_->walls[wall];
 }
 
 RoomCull::RoomCull(std::vector<WallViews> walls, const BoundsKernels& kernels)
-    : walls_(std::move(walls)), search_(kernels) {}
+    : walls_(std::move(walls)), bounds_(kernels) {}
 
 RoomCull::~RoomCull() = default;
 
-RoomCull::Visibility RoomCull::seen(const SlotView& state, const EyeChoice& choice) {
+RoomCull::Visibility RoomCull::visibleIn(const SlotView& state, const EyeChoice& choice) {
   const std::lock_guard lock(mutex_);
   const auto known = std::ranges::find_if(
-      found_, [&](const auto& f) { return f->slot == state.slot && f->written == state.written; });
-  const bool first = known == found_.end();
-  Found& found = first ? take(state) : **known;
-  found.holders.fetch_add(1, std::memory_order_relaxed);
-  Visibility seen(&found);
+      frames_, [&](const auto& f) { return f->slot == state.slot && f->written == state.written; });
+  const bool first = known == frames_.end();
+  SearchedFrame& frame = first ? roomFor(state) : **known;
+  frame.holders.fetch_add(1, std::memory_order_relaxed);
+  Visibility visible(&frame);
   if (first) {
-    lookFor(state, choice, found);
+    search(state, choice, frame);
     if (state.intact())
-      found.written = state.written;
+      frame.written = state.written;
     else
       moving_[state.slot].forget();
   }
-  return seen;
+  return visible;
 }
 
 /// Returns room for a new frame: that of an earlier frame of the slot, which is over unless a wall was late.
-RoomCull::Found& RoomCull::take(const SlotView& state) {
+RoomCull::SearchedFrame& RoomCull::roomFor(const SlotView& state) {
   const auto over = [&](const auto& f) {
     return f->slot == state.slot && f->holders.load(std::memory_order_acquire) == 0;
   };
-  const auto at = std::ranges::find_if(found_, over);
-  Found& found = at != found_.end() ? **at : *found_.emplace_back(std::make_unique<Found>());
-  found.slot = state.slot, found.written = Found::kNever;
-  return found;
+  const auto at = std::ranges::find_if(frames_, over);
+  SearchedFrame& frame =
+      at != frames_.end() ? **at : *frames_.emplace_back(std::make_unique<SearchedFrame>());
+  frame.slot = state.slot;
+  frame.written = SearchedFrame::kNever;
+  return frame;
 }
 
 /// `each(tree, record)`: the instances first; record(index) is null for what is not there.
@@ -90,26 +92,26 @@ void RoomCull::eachPart(const Each& each) const {
   }
 }
 
-void RoomCull::lookFor(const SlotView& state, const EyeChoice& choice, Found& found) {
+void RoomCull::search(const SlotView& state, const EyeChoice& choice, SearchedFrame& frame) {
   volumes_.clear(), wallsOf_.clear();
-  found.walls.resize(walls_.size());
+  frame.walls.resize(walls_.size());
   for (std::uint32_t number = 0; number < walls_.size(); ++number) {
     const WallViews& wall = walls_[number];
-    VisibleSet& seen = found.walls[number];
-    seen.tested = 0, seen.records.clear();
-    seen.from = wall.camera ? wall.camera->view() : std::nullopt;
-    seen.looks = !wall.camera || seen.from;
-    if (!seen.looks) continue;
-    seen.placed = place(*state.viewer, wall, choice, seen.from ? &*seen.from : nullptr);
-    addVolumes(number, seen.placed);
+    VisibleSet& set = frame.walls[number];
+    set.tested = 0, set.records.clear();
+    set.from = wall.camera ? wall.camera->view() : std::nullopt;
+    set.looks = !wall.camera || set.from;
+    if (!set.looks) continue;
+    set.placed = place(*state.viewer, wall, choice, set.from ? &*set.from : nullptr);
+    addVolumes(number, set.placed);
   }
   recordsOf_.clear();
-  for (const std::uint32_t wall : wallsOf_) recordsOf_.push_back(&found.walls[wall].records);
+  for (const std::uint32_t wall : wallsOf_) recordsOf_.push_back(&frame.walls[wall].records);
   eachTree(state, [&](const BoundsTree& tree, const auto& recordAt) {
     eachPart([&](std::size_t first, std::size_t count) {
-      for (const TreeSphere& sphere : search_.find(tree, std::span(volumes_).subspan(first, count)))
+      for (const TreeSphere& sphere : bounds_.find(tree, std::span(volumes_).subspan(first, count)))
         if (const InstanceRecord* r = recordAt(tree.indexOf(sphere.place))) keep(sphere, first, *r);
-      for (std::size_t v = 0; v < count; ++v) found.walls[wallsOf_[first + v]].tested += search_.tested()[v];
+      for (std::size_t v = 0; v < count; ++v) frame.walls[wallsOf_[first + v]].tested += bounds_.tested()[v];
     });
   });
 }
@@ -133,14 +135,14 @@ void RoomCull::keep(const TreeSphere& sphere, std::size_t first, const InstanceR
 
 void RoomCull::reached(const SlotView& state, const EyeChoice& choice, std::size_t wall,
                        std::vector<NodeRef>& owners) {
-  const Visibility held = seen(state, choice);
-  if (!held.on(wall).looks) return;
+  const Visibility visible = visibleIn(state, choice);
+  if (!visible.on(wall).looks) return;
   const std::lock_guard lock(mutex_);
   volumes_.clear(), wallsOf_.clear();
-  addVolumes(static_cast<std::uint32_t>(wall), held.on(wall).placed);
+  addVolumes(static_cast<std::uint32_t>(wall), visible.on(wall).placed);
   eachTree(state, [&](const BoundsTree& tree, const auto& recordAt) {
-    search_.find(tree, volumes_);
-    for (const TreeGroup& group : search_.reached())
+    bounds_.find(tree, volumes_);
+    for (const TreeGroup& group : bounds_.reached())
       for (std::uint32_t place = BoundsLayout::kWide * group.group;
            place < std::min(tree.count, BoundsLayout::kWide * (group.group + 1)); ++place)
         if (const InstanceRecord* r = recordAt(tree.indexOf(place)); r && isShown(*r))

@@ -37,13 +37,13 @@ struct VisibleSet {
 };
 
 class RoomCull {
-  struct Found;
+  struct SearchedFrame;
 
 public:
-  /// Holds what was found, until it goes.
+  /// Keeps the result of a search while it exists.
   class Visibility {
   public:
-    Visibility(Visibility&& o) noexcept : found_(std::exchange(o.found_, nullptr)) {}
+    Visibility(Visibility&& o) noexcept : frame_(std::exchange(o.frame_, nullptr)) {}
     Visibility& operator=(Visibility&&) = delete;
     ~Visibility();
 
@@ -51,8 +51,8 @@ public:
 
   private:
     friend RoomCull;
-    explicit Visibility(Found* found) : found_(found) {}
-    Found* found_;
+    explicit Visibility(SearchedFrame* frame) : frame_(frame) {}
+    SearchedFrame* frame_;
   };
 
   /// Searches for any number of walls, in their order.
@@ -60,15 +60,15 @@ public:
   ~RoomCull();
 
   const WallViews& wall(std::size_t number) const { return walls_[number]; }
-  /// Expects the same choice for all walls of a frame.
-  Visibility seen(const SlotView& state, const EyeChoice& choice = {});
+  /// Returns what the walls may see of the frame. Expects the same choice for all walls of a frame.
+  Visibility visibleIn(const SlotView& state, const EyeChoice& choice = {});
   /// Returns the owners for which the search for `wall` went down to single spheres. Searches again.
   void reached(const SlotView& state, const EyeChoice& choice, std::size_t wall,
                std::vector<NodeRef>& owners);
 
 private:
-  Found& take(const SlotView& state);
-  void lookFor(const SlotView& state, const EyeChoice& choice, Found& found);
+  SearchedFrame& roomFor(const SlotView& state);
+  void search(const SlotView& state, const EyeChoice& choice, SearchedFrame& frame);
   void addVolumes(std::uint32_t wall, const PlacedViews& placed);
   template <class Each>
   void eachPart(const Each& each) const;
@@ -79,9 +79,9 @@ private:
   const std::vector<WallViews> walls_;
   std::mutex mutex_;
   /// One for each slot, and one for each slot that a lost reader still holds.
-  std::vector<std::unique_ptr<Found>> found_;
+  std::vector<std::unique_ptr<SearchedFrame>> frames_;
   std::array<MovingBounds, kSlots> moving_;
-  BoundsSearch search_;
+  BoundsSearch bounds_;
   /// Volumes of the walls whose camera is on: one for each of their screens.
   std::vector<SearchVolume> volumes_;
   std::vector<std::uint32_t> wallsOf_;                          ///< by volume

@@ -1,8 +1,8 @@
 #pragma once
 /// The interface of a renderer: it draws the lists of one wall and returns the pictures.
 ///
-/// A wall and a worker process need no more of a renderer than this. draw/gl_renderer.h draws with OpenGL,
-/// cpu_draw/cpu_renderer.h without.
+/// A wall that this process draws, and a wall process, need no more of a renderer than this.
+/// gl_draw/gl_renderer.h draws with OpenGL, cpu_draw/cpu_renderer.h without.
 ///
 /// Pictures  one for each view of a list, all of the same size. The same list gives the same pixels.
 /// Costs     totals() counts what was drawn. A probe gets the time of each part of a frame.

@@ -19,7 +19,7 @@ constexpr std::size_t kDeepestNesting = 16;
 
 }  // namespace
 
-Loader::Loader(LoaderParts parts) : parts_(std::move(parts)), worker_([this] { work(); }) {}
+Loader::Loader(LoaderParts parts) : parts_(std::move(parts)), thread_([this] { work(); }) {}
 
 Loader::~Loader() {
   {
@@ -27,7 +27,7 @@ Loader::~Loader() {
     ending_ = true;
     changed_.notify_all();
   }
-  worker_.join();
+  thread_.join();
 }
 
 void Loader::request(std::uint32_t number, const std::string& file, NodeRef owner, const Affine& X_WO) {

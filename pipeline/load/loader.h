@@ -2,9 +2,9 @@
 /// Prepares scene files while the show runs, on a thread of its own: reads, checks, imports meshes, builds
 /// nodes, writes the static chunk. App only installs the result.
 ///
-/// Threads   one worker; request, take, dispose and shown are App's.
-/// Errors    Errors in a file go to the report function, on the worker's thread, or on App's when the show is
-///           opened; the show goes on. take() throws the worker's exceptions again, with the file's name.
+/// Threads   one loader thread; request, take, dispose and shown are App's.
+/// Errors    Errors in a file go to the report function, on the loader's thread, or on App's when the show is
+///           opened; the show goes on. take() throws the loader thread's exceptions again, with the file's name.
 ///
 /// A load takes effect when it is due, and take() waits for it. In a live show, a load that is not ready
 /// takes effect in the first frame in which it is ready. That decision is reported, so that it can be
@@ -131,13 +131,13 @@ private:
   std::deque<Garbage> waiting_;                       ///< until their last frame is shown
   std::deque<std::unique_ptr<LoadedScene>> garbage_;  ///< may be freed
   bool ending_ = false;
-  std::map<std::uint32_t, Around> around_;  ///< the worker's own
+  std::map<std::uint32_t, Around> around_;  ///< the loader thread's own
   bool live_ = false;                       ///< from here to `decided_`: used by App only
   LateLoad late_;
   std::function<void(bool)> waitsTold_;
   std::map<std::uint32_t, Nanoseconds> decided_;
   std::map<std::uint32_t, Nanoseconds> awaited_;  ///< due and skipped; the show time of the last skip
-  std::thread worker_;
+  std::thread thread_;
 };
 
 }  // namespace stadion

@@ -17,24 +17,33 @@ std::unique_ptr<WallRenderer> wallRendererFor(const ShowParts& parts) {
   for (const WallViews& wall : parts.walls) sizes.push_back({wall.width, wall.height});
   std::vector<std::string> names;
   for (const WallViews& wall : parts.walls) names.push_back(wall.name);
-  if (!parts.workers && parts.pool)
+  if (!parts.wallProcesses && parts.pool)
     return std::make_unique<CpuWallRenderer>(CpuWallRendererParts{parts.meshes, *parts.pool, std::move(sizes),
                                                                   PictureRung::of(parts.quality),
                                                                   parts.giveUp, parts.probe});
-  if (!parts.workers && parts.provider)
+  if (!parts.wallProcesses && parts.provider)
     return std::make_unique<GlWallRenderer>(
         GlWallRendererParts{*parts.provider, parts.meshes, std::move(sizes), parts.quality, parts.contexts,
                             parts.giveUp, parts.probe, parts.processors, std::move(names), parts.tell});
-  if (!parts.workers) return {};
-  const WallWorkers& w = *parts.workers;
-  PerWallProcessParts workers{
-      parts.meshes,          std::move(sizes), std::move(names), parts.quality, w.renderer,
-      w.rasteriserThreads,   w.everyFrame,     w.rate,           parts.giveUp,  w.tell,
-      worker::wallProgram(), parts.processors};
-  if (parts.quality.look != Look::Plain) return std::make_unique<PerWallProcessRenderer>(std::move(workers));
+  if (!parts.wallProcesses) return {};
+  const WallProcesses& w = *parts.wallProcesses;
+  PerWallProcessParts wallProcesses{parts.meshes,
+                                    std::move(sizes),
+                                    std::move(names),
+                                    parts.quality,
+                                    w.renderer,
+                                    w.rasteriserThreads,
+                                    w.everyFrame,
+                                    w.rate,
+                                    parts.giveUp,
+                                    w.tell,
+                                    wall_process::wallProgram(),
+                                    parts.processors};
+  if (parts.quality.look != Look::Plain)
+    return std::make_unique<PerWallProcessRenderer>(std::move(wallProcesses));
   std::vector<std::uint32_t> views;
   for (const WallViews& wall : parts.walls) views.push_back(static_cast<std::uint32_t>(wall.views.size()));
-  return std::make_unique<PerViewProcessRenderer>(std::move(workers), views);
+  return std::make_unique<PerViewProcessRenderer>(std::move(wallProcesses), views);
 }
 
 void tellCounts(const FrameCounters& counters, FrameProbe& probe) {

@@ -46,8 +46,8 @@ public:
 /// Called with the scene after each App stage, on the App thread.
 using AppObserver = std::function<void(const TimeSignature&, const InputSample&, const Scene&)>;
 
-/// Worker processes draw the walls (process/per_wall_process_renderer.h).
-struct WallWorkers {
+/// Wall processes draw the walls (process/per_wall_process_renderer.h).
+struct WallProcesses {
   RendererKind renderer = RendererKind::OsMesa;
   std::uint32_t rasteriserThreads =
       0;  ///< rasteriser threads of each process; at least one for the CPU renderer
@@ -78,7 +78,7 @@ struct ShowParts {
   SoundPlayer* sounds = nullptr;  ///< null: no sound
   const OperatorControls* controls = nullptr;  ///< null: no operator
   RenderQuality quality{};
-  std::optional<WallWorkers> workers{};  ///< draw instead of this process
+  std::optional<WallProcesses> wallProcesses{};  ///< draw instead of this process
   std::vector<WallPixels> otherWalls{};  ///< walls of the room that other hosts draw: detail levels are
                                          ///< chosen for all walls
   /// By wall: its processors; empty: any. Expects a thread or a process for each wall.

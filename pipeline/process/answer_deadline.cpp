@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace stadion::worker {
+namespace stadion::wall_process {
 
 void AnswerDeadline::took(Milliseconds time) {
   last_[count_++ % kLast] = time;
@@ -16,4 +16,4 @@ std::optional<AnswerDeadline::Milliseconds> AnswerDeadline::limit() const {
   return 1.5 * std::max(frame_, sorted[(known - 1) / 2]);
 }
 
-}  // namespace stadion::worker
+}  // namespace stadion::wall_process

@@ -13,7 +13,7 @@
 #include <cstddef>
 #include <optional>
 
-namespace stadion::worker {
+namespace stadion::wall_process {
 
 class AnswerDeadline {
 public:
@@ -35,4 +35,4 @@ private:
   std::size_t count_ = 0;                   ///< in all
 };
 
-}  // namespace stadion::worker
+}  // namespace stadion::wall_process

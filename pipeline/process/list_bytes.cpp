@@ -6,7 +6,7 @@
 #include <cstring>
 #include <type_traits>
 
-namespace stadion::worker {
+namespace stadion::wall_process {
 namespace {
 
 struct RingHead {
@@ -143,4 +143,4 @@ bool read(std::span<const std::byte> bytes, DrawList& list, ListNews& news) {
   return in.get(news.meshes, head.meshes) && in.get(news.gone, head.gone) && in.atEnd();
 }
 
-}  // namespace stadion::worker
+}  // namespace stadion::wall_process

@@ -15,7 +15,7 @@
 #include <span>
 #include <vector>
 
-namespace stadion::worker {
+namespace stadion::wall_process {
 
 /// The place of a mesh in the segment of meshes (shared_meshes.h). Sent with the first list that shows the
 /// mesh.
@@ -40,4 +40,4 @@ std::size_t write(const DrawList& list, const ListNews& news, StillKeys& known, 
 /// had. Returns false if the bytes are damaged.
 bool read(std::span<const std::byte> bytes, DrawList& list, ListNews& news);
 
-}  // namespace stadion::worker
+}  // namespace stadion::wall_process

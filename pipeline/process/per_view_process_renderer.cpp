@@ -184,7 +184,7 @@ Failure PerViewProcessRenderer::warmUp(std::size_t wall, const DrawList& list) {
 
 DrawOutcome PerViewProcessRenderer::drawView(View& view, bool read) {
   const bool placed = bindsProcesses_ && view.took > kWorthAPlace;
-  std::optional<worker::ProcessorPlaces::Place> place;
+  std::optional<wall_process::ProcessorPlaces::Place> place;
   if (placed) place.emplace(places_, view.took);
   ProcessorSet own;
   if (placed) own.add(place->processor());

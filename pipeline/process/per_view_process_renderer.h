@@ -36,7 +36,7 @@ private:
   DrawOutcome drawView(View& view, bool read);
 
   const ProcessorSet processors_;
-  worker::ProcessorPlaces places_;
+  wall_process::ProcessorPlaces places_;
   bool bindsProcesses_;  ///< to one at a time; else they have threads for more, or processors of their own
   std::vector<std::unique_ptr<Wall>> walls_;
   std::unique_ptr<PerWallProcessRenderer> views_;  ///< draws each view as a wall with one view

@@ -17,7 +17,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 using std::chrono::milliseconds;
-using State = worker::WallWorker::State;
+using State = wall_process::WallProcess::State;
 
 constexpr int kMostStarts = 3;            // for one frame after the first, or to open
 constexpr milliseconds kLookEvery{10};    // whether the run gives up, and whether the process lives
@@ -34,16 +34,16 @@ constexpr milliseconds kForEver{24 * 3600 * 1000};
 }  // namespace
 
 struct PerWallProcessRenderer::Wall {
-  Wall(std::string name_, double rate, worker::WorkerSetting setting, const MeshStore& meshes,
-       worker::SharedMeshes& shared)
+  Wall(std::string name_, double rate, wall_process::WallProcessSetting setting, const MeshStore& meshes,
+       wall_process::SharedMeshes& shared)
       : name(std::move(name_)), process(std::move(setting), meshes, shared), deadline(rate) {}
 
   std::string name;
-  worker::WallWorker process;
+  wall_process::WallProcess process;
   std::string description;
   ViewTotals before{}, totals{};  ///< of the processes before this one; in all
   std::atomic<int> pid = 0;
-  worker::Restarts restarts;
+  wall_process::Restarts restarts;
 
   // By which it is known whether it hangs.
   double processor = -1;      ///< [s]
@@ -53,7 +53,7 @@ struct PerWallProcessRenderer::Wall {
   std::optional<milliseconds> longest{};  ///< that a frame has taken, of any process
 
   // Where the newest frame counts.
-  worker::AnswerDeadline deadline;
+  wall_process::AnswerDeadline deadline;
   bool warm = false;         ///< the process has drawn; what is first takes its compilers, too
   bool waitedFor = true;     ///< false: the other walls go on without it until it answers
   Clock::time_point lost{};  ///< when they began to
@@ -62,13 +62,14 @@ struct PerWallProcessRenderer::Wall {
 PerWallProcessRenderer::PerWallProcessRenderer(PerWallProcessParts parts)
     : parts_(std::move(parts)), sharedMeshes_(parts_.meshes) {
   for (std::size_t i = 0; i < parts_.walls.size(); ++i) {
-    const worker::WorkerSetting setting{parts_.program,
-                                        parts_.renderer,
-                                        parts_.walls[i].width,
-                                        parts_.walls[i].height,
-                                        parts_.quality,
-                                        parts_.rasteriserThreads,
-                                        i < parts_.processors.size() ? parts_.processors[i] : ProcessorSet{}};
+    const wall_process::WallProcessSetting setting{parts_.program,
+                                                   parts_.renderer,
+                                                   parts_.walls[i].width,
+                                                   parts_.walls[i].height,
+                                                   parts_.quality,
+                                                   parts_.rasteriserThreads,
+                                                   i < parts_.processors.size() ? parts_.processors[i]
+                                                                                : ProcessorSet{}};
     walls_.push_back(
         std::make_unique<Wall>(parts_.names[i], parts_.rate, setting, parts_.meshes, sharedMeshes_));
   }
@@ -95,7 +96,7 @@ Failure PerWallProcessRenderer::start(Wall& wall) {
 void PerWallProcessRenderer::died(Wall& wall, const std::string& how) {
   wall.process.stop();
   wall.pid = 0;
-  using worker::Restarts;
+  using wall_process::Restarts;
   switch (wall.restarts.died(Clock::now())) {
   case Restarts::Death::First:
     report(wall, "the process that draws it " + how + "; another one is started");
@@ -131,7 +132,7 @@ milliseconds PerWallProcessRenderer::mostOf(const Wall& wall) const {
 /// Whether it has not used the processor for long, while it had something to do and did not wait for one, or
 /// has used it for far too long. One that opens its context may wait for a disk.
 bool PerWallProcessRenderer::hangs(Wall& wall) {
-  const worker::ProcessStatus& status = wall.process.status();
+  const wall_process::ProcessStatus& status = wall.process.status();
   const auto now = Clock::now();
   if (now - wall.began > mostOf(wall)) return true;
   if (status.state == 'R' || status.processorSeconds != wall.processor)
@@ -142,11 +143,11 @@ bool PerWallProcessRenderer::hangs(Wall& wall) {
 
 /// What the process said, as far as it concerns the run.
 Failure PerWallProcessRenderer::answered(Wall& wall) {
-  const worker::AnswerHead& answer = wall.process.answer();
+  const wall_process::AnswerHead& answer = wall.process.answer();
   wall.processor = -1;
   if (answer.failed) return Reason("wall " + wall.name + ": " + wall.process.text());
-  if (answer.to == worker::Order::Open) wall.description = wall.process.text();
-  if (answer.to == worker::Order::Draw) hasDrawn(wall, answer.totals);
+  if (answer.to == wall_process::Order::Open) wall.description = wall.process.text();
+  if (answer.to == wall_process::Order::Draw) hasDrawn(wall, answer.totals);
   return {};
 }
 

@@ -14,7 +14,7 @@
 
 #include "engine/asset/mesh_store.h"
 #include "pipeline/platform/processor_set.h"
-#include "pipeline/process/wall_worker.h"
+#include "pipeline/process/wall_process.h"
 #include "pipeline/shader/look.h"
 #include "pipeline/wall/wall_renderer.h"
 
@@ -37,7 +37,7 @@ struct PerWallProcessParts {
   std::function<bool()> giveUp{};  ///< once true, drawing ends with RunStopped
   /// Receives reports about a process; called on its wall's Draw thread.
   std::function<void(const std::string&)> tell{};
-  std::filesystem::path program = worker::wallProgram();
+  std::filesystem::path program = wall_process::wallProgram();
   std::vector<ProcessorSet> processors{};  ///< by wall: those that its process may use; none: all of them
 };
 
@@ -78,7 +78,7 @@ private:
   void report(const Wall& wall, const std::string& what) const;
 
   PerWallProcessParts parts_;
-  worker::SharedMeshes sharedMeshes_;
+  wall_process::SharedMeshes sharedMeshes_;
   std::vector<std::unique_ptr<Wall>> walls_;
 };
 

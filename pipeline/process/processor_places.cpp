@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace stadion::worker {
+namespace stadion::wall_process {
 
 ProcessorPlaces::ProcessorPlaces(const ProcessorSet& processors) {
   for (std::size_t i = 0; i < ProcessorSet::kMost; ++i)
@@ -35,4 +35,4 @@ void ProcessorPlaces::giveBack(std::size_t processor) {
   changed_.notify_all();
 }
 
-}  // namespace stadion::worker
+}  // namespace stadion::wall_process

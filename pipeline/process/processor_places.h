@@ -13,7 +13,7 @@
 #include <optional>
 #include <vector>
 
-namespace stadion::worker {
+namespace stadion::wall_process {
 
 class ProcessorPlaces {
 public:
@@ -50,4 +50,4 @@ private:
   std::vector<Waiting*> waiting_;
 };
 
-}  // namespace stadion::worker
+}  // namespace stadion::wall_process

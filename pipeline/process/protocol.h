@@ -16,7 +16,7 @@
 #include <cstddef>
 #include <cstdint>
 
-namespace stadion::worker {
+namespace stadion::wall_process {
 
 constexpr std::uint32_t kMagic = 0x57445453;  // "STDW"
 constexpr std::uint32_t kVersion = 5;
@@ -52,7 +52,7 @@ struct AnswerHead {
   Order to = Order::Open;
   std::uint32_t failed = 0;  ///< the text says why
   std::uint32_t textBytes = 0;
-  ViewTotals totals{};  ///< totals since the worker began; for Draw
+  ViewTotals totals{};  ///< totals since the process began; for Draw
 };
 
-}  // namespace stadion::worker
+}  // namespace stadion::wall_process

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace stadion::worker {
+namespace stadion::wall_process {
 
 Restarts::Death Restarts::died(Clock::time_point now) {
   if (drawn_ >= kSteady) deaths_ = 0;
@@ -20,4 +20,4 @@ bool Restarts::drew() {
   return back;
 }
 
-}  // namespace stadion::worker
+}  // namespace stadion::wall_process

@@ -10,7 +10,7 @@
 #include <chrono>
 #include <cstddef>
 
-namespace stadion::worker {
+namespace stadion::wall_process {
 
 class Restarts {
 public:
@@ -36,4 +36,4 @@ private:
   Clock::time_point next_{};
 };
 
-}  // namespace stadion::worker
+}  // namespace stadion::wall_process

@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <cstring>
 
-namespace stadion::worker {
+namespace stadion::wall_process {
 namespace {
 
 constexpr std::size_t kPage = 4096;  // so that what is given back goes back to the system
@@ -121,4 +121,4 @@ std::unique_ptr<const Mesh> meshOf(std::span<const std::byte> bytes) {
   return std::move(mesh.value());
 }
 
-}  // namespace stadion::worker
+}  // namespace stadion::wall_process

@@ -14,7 +14,7 @@
 #include <mutex>
 #include <optional>
 
-namespace stadion::worker {
+namespace stadion::wall_process {
 
 class SharedMeshes {
 public:
@@ -44,4 +44,4 @@ private:
 /// Reads a mesh; null if the bytes are damaged.
 std::unique_ptr<const Mesh> meshOf(std::span<const std::byte> bytes);
 
-}  // namespace stadion::worker
+}  // namespace stadion::wall_process

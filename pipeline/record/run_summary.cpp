@@ -155,7 +155,7 @@ std::string toText(const RunSummary& s) {
   if (s.groups > 1) text += fmt::format("  the last of {} groups in {:.0f} s\n", s.groups, s.uptimeSeconds);
   text += fmt::format("  walls {}, stereo {}, {} x {} pixels, {}, {} Hz\n", s.walls, s.stereo, s.width,
                       s.height, s.mode, s.rate);
-  if (!s.drawing.workers.empty()) text += fmt::format("  drawn by {}: {}\n", s.drawing.text, s.drawing.why);
+  if (!s.drawing.drawnBy.empty()) text += fmt::format("  drawn by {}: {}\n", s.drawing.text, s.drawing.why);
   if (!s.drawing.chosen.empty())
     text += fmt::format("  renderer {}: {}\n", s.drawing.renderer, s.drawing.chosen);
   if (s.warmUpMs > 0)
@@ -237,11 +237,11 @@ void addShow(Json& j, const RunSummary& s) {
   j["elapsed_seconds"] = s.elapsedSeconds;
   j["groups"] = s.groups;
   j["uptime_seconds"] = s.uptimeSeconds;
-  if (!s.drawing.workers.empty())
+  if (!s.drawing.drawnBy.empty())
     j["how_drawn"] =
         Json{{"renderer", s.drawing.renderer},
              {"renderer_why", s.drawing.chosen},
-             {"wall_workers", s.drawing.workers},
+             {"wall_workers", s.drawing.drawnBy},
              {s.drawing.renderer == "cpu" ? "draw_threads" : "rasteriser_threads", s.drawing.threads},
              {"pinned", s.drawing.pinned},
              {"why", s.drawing.why}};

@@ -126,7 +126,7 @@ struct StressSummary {
 struct DrawingSummary {
   std::string renderer;       ///< cpu or gl
   std::string chosen;         ///< why this renderer; empty: it was asked for
-  std::string workers;        ///< thread or process; empty: nothing was drawn
+  std::string drawnBy;        ///< thread or process; empty: nothing was drawn
   std::uint32_t threads = 0;  ///< threads of the CPU renderer or of OpenGL's rasteriser, in each process
   bool pinned = false;
   std::string why, text;  ///< `text`: the same in words

@@ -51,9 +51,9 @@ DegradationGovernor::DegradationGovernor(GovernorOptions options, const NodeName
     : options_(std::move(options)), names_(names), stress_(options_.stress) {
   // If stages overlap, shortening one does not shorten the other.
   if (options_.pipelined)
-    frame_ = {{true, false, {}, {}}, {false, true, {}, {}}};
+    jointLadders_ = {{true, false, {}, {}}, {false, true, {}, {}}};
   else
-    frame_ = {{true, true, {}, {}}};
+    jointLadders_ = {{true, true, {}, {}}};
 }
 
 // Input from the probe.
@@ -134,8 +134,8 @@ void DegradationGovernor::noteOverrun(Governed& g, std::uint64_t frame, const No
   const std::string others =
       g.untold > 1 ? fmt::format("; {} frames since this was told last", g.untold) : std::string();
   lines_.push_back(fmt::format("over budget: {} took {:.3g} ms of {:g} in frame {}, most of it {}{}",
-                               titleOf(g.of.node), cost.sure.total(), g.report.budget, frame, stageText(cost),
-                               others));
+                               titleOf(g.subject.node), cost.sure.total(), g.report.budget, frame,
+                               stageText(cost), others));
   g.toldAt = now_, g.toldMs = cost.sure.total(), g.untold = 0;
 }
 
@@ -157,7 +157,7 @@ std::optional<Overrun> DegradationGovernor::overrunOf(std::uint64_t frame) const
   for (std::size_t i = 0; i < governed_.size() && i < costs.size(); ++i) {
     const double ms = costs[i].sure.total(), budget = governed_[i].report.budget;
     if (budget > 0 && ms > budget && (!worst || ms - budget > worst->ms - worst->budget))
-      worst = Overrun{titleOf(governed_[i].of.node), ms, budget};
+      worst = Overrun{titleOf(governed_[i].subject.node), ms, budget};
   }
   return worst;
 }
@@ -176,11 +176,11 @@ void DegradationGovernor::judgeFrame(std::uint64_t frame) {
   const double drawn =
       options_.pipelined ? std::max(mostOf(t.cull), mostOf(t.draw)) : sumOf(t.cull) + sumOf(t.draw);
   if (scalable_ && frame >= stressFrom_) stress_.take((options_.pipelined ? drawn : t.app + drawn) / period);
-  for (JointLadder& degradation : frame_) {
-    if (!degradation.policy) continue;
-    const bool stressFirst = degradation.drawn && scalable_ && !stress_.exhausted();
-    if (stressFirst && degradation.policy->wanted() == 0) continue;
-    degradation.policy->take(frame, {(degradation.app ? t.app : 0) + (degradation.drawn ? drawn : 0), 0});
+  for (JointLadder& joint : jointLadders_) {
+    if (!joint.policy) continue;
+    const bool stressFirst = joint.drawn && scalable_ && !stress_.exhausted();
+    if (stressFirst && joint.policy->wanted() == 0) continue;
+    joint.policy->take(frame, {(joint.app ? t.app : 0) + (joint.drawn ? drawn : 0), 0});
   }
   spreadFrameLevels();
 }
@@ -198,10 +198,10 @@ std::uint32_t DegradationGovernor::JointLadder::usefulOf(const std::vector<Degra
 /// Spreads the frame's levels over the ladders of the nodes, the lowest priority first.
 void DegradationGovernor::spreadFrameLevels() {
   for (Governed& g : governed_) g.forFrame = 0;
-  for (const JointLadder& degradation : frame_) {
-    std::uint32_t left = degradation.policy ? degradation.policy->wanted() : 0;
+  for (const JointLadder& joint : jointLadders_) {
+    std::uint32_t left = joint.policy ? joint.policy->wanted() : 0;
     for (const std::size_t i : byPriority_) {
-      const std::uint32_t taken = std::min(left, degradation.usefulOf(governed_[i].of.terms.gives));
+      const std::uint32_t taken = std::min(left, joint.usefulOf(governed_[i].subject.terms.gives));
       governed_[i].forFrame = std::max(governed_[i].forFrame, taken);
       left -= taken;
     }
@@ -211,8 +211,8 @@ void DegradationGovernor::spreadFrameLevels() {
 // App.
 
 bool DegradationGovernor::see(const Scene& scene) {
-  if (seen_ == scene.tree().version()) return false;
-  seen_ = scene.tree().version();
+  if (loadsSeen_ == scene.tree().version()) return false;
+  loadsSeen_ = scene.tree().version();
   auto [nodes, above] = governedNodes(scene);
   const bool scalable = hasLevels(scene);
   const std::lock_guard lock(mutex_);
@@ -220,7 +220,8 @@ bool DegradationGovernor::see(const Scene& scene) {
   std::vector<Governed> known;
   known.swap(governed_);
   for (const GovernedNode& n : nodes) {
-    const auto before = std::ranges::find_if(known, [&](const Governed& g) { return g.of.node == n.node; });
+    const auto before =
+        std::ranges::find_if(known, [&](const Governed& g) { return g.subject.node == n.node; });
     if (before != known.end()) {
       governed_.push_back(std::move(*before));
       known.erase(before);
@@ -237,8 +238,9 @@ bool DegradationGovernor::see(const Scene& scene) {
   byPriority_.clear();
   for (std::size_t i = 0; i < governed_.size(); ++i)
     if (governed_[i].report.levels > 0) byPriority_.push_back(i);
-  std::ranges::stable_sort(byPriority_, {}, [&](std::size_t i) { return governed_[i].of.terms.priority; });
-  for (JointLadder& degradation : frame_) layFrameLadder(degradation);
+  std::ranges::stable_sort(byPriority_, {},
+                           [&](std::size_t i) { return governed_[i].subject.terms.priority; });
+  for (JointLadder& joint : jointLadders_) layFrameLadder(joint);
   spreadFrameLevels();
   tellUncounted();
   std::vector<NodeRef> holders;
@@ -254,37 +256,37 @@ bool DegradationGovernor::see(const Scene& scene) {
 /// Reports once that budgets seem to be kept although some costs are unknown.
 void DegradationGovernor::tellUncounted() {
   const auto g = std::ranges::find_if(
-      governed_, [](const Governed& of) { return of.report.budget > 0 && !of.report.drawCounted; });
+      governed_, [](const Governed& each) { return each.report.budget > 0 && !each.report.drawCounted; });
   if (g == governed_.end() || std::exchange(toldUncounted_, true)) return;
   lines_.push_back(
       fmt::format("the budget of {} counts App and Cull only, as all budgets do while processes draw "
                   "the walls: what drawing takes is known with --wall-workers thread",
-                  titleOf(g->of.node)));
+                  titleOf(g->subject.node)));
 }
 
 /// Builds the ladder from the present nodes. Degradations stay in place if their nodes still exist.
-void DegradationGovernor::layFrameLadder(JointLadder& degradation) {
+void DegradationGovernor::layFrameLadder(JointLadder& joint) {
   FrameLadder ladder;
   std::map<std::pair<NodeRef, std::uint32_t>, std::uint32_t> levelOf;
   for (const std::size_t i : byPriority_)
-    for (std::uint32_t l = 1; l <= degradation.usefulOf(governed_[i].of.terms.gives); ++l) {
-      ladder.push_back({governed_[i].of.node, l});
+    for (std::uint32_t l = 1; l <= joint.usefulOf(governed_[i].subject.terms.gives); ++l) {
+      ladder.push_back({governed_[i].subject.node, l});
       levelOf[ladder.back()] = static_cast<std::uint32_t>(ladder.size());
     }
   std::vector<std::uint32_t> becomes{0};
-  for (const auto& step : degradation.ladder) {
+  for (const auto& step : joint.ladder) {
     const auto at = levelOf.find(step);
     becomes.push_back(at == levelOf.end() ? becomes.back() : std::max(becomes.back(), at->second));
   }
-  degradation.ladder = std::move(ladder);
-  if (degradation.ladder.empty()) return degradation.policy.reset();
+  joint.ladder = std::move(ladder);
+  if (joint.ladder.empty()) return joint.policy.reset();
   std::vector<LevelSavings> savings;
-  for (std::size_t l = 0; l <= degradation.ladder.size(); ++l)
+  for (std::size_t l = 0; l <= joint.ladder.size(); ++l)
     savings.push_back({std::pow(kLevelSaves, static_cast<double>(l)), 1, 1});
-  if (degradation.policy)
-    degradation.policy->relay(std::move(savings), becomes);
+  if (joint.policy)
+    joint.policy->relay(std::move(savings), becomes);
   else
-    degradation.policy.emplace(
+    joint.policy.emplace(
         DegradationPolicy::Options{1e3 / options_.rate, static_cast<std::uint64_t>(std::ceil(options_.rate))},
         std::move(savings));
 }
@@ -299,13 +301,13 @@ FrameDecisions DegradationGovernor::decide(std::uint64_t frame) {
     Governed& g = governed_[i];
     const std::uint32_t wanted = g.wanted(), before = g.applied;
     if (wanted != before) {
-      if (!decisions.add({g.of.node.load, g.of.node.position, wanted})) {
+      if (!decisions.add({g.subject.node.load, g.subject.node.position, wanted})) {
         all = false;
         continue;
       }
       g.applied = wanted;
-      const NodeDegradation was = degradationAt(g.of.terms.gives, before),
-                            is = degradationAt(g.of.terms.gives, wanted);
+      const NodeDegradation was = degradationAt(g.subject.terms.gives, before),
+                            is = degradationAt(g.subject.terms.gives, wanted);
       if (was.hidden != is.hidden || was.lod != is.lod) costs_.drawnOtherwise(i, frame, is.hidden);
       BudgetReport& r = g.report;
       ++r.changes, r.highest = std::max(r.highest, wanted), r.now = wanted;
@@ -313,8 +315,8 @@ FrameDecisions DegradationGovernor::decide(std::uint64_t frame) {
     }
     g.policy.applied(frame);
   }
-  for (JointLadder& degradation : frame_)
-    if (degradation.policy && all) degradation.policy->applied(frame);
+  for (JointLadder& joint : jointLadders_)
+    if (joint.policy && all) joint.policy->applied(frame);
   return decisions;
 }
 
@@ -335,8 +337,8 @@ void DegradationGovernor::applyStress(std::uint64_t frame) {
 }
 
 void DegradationGovernor::tellChange(const Governed& g, std::uint32_t before, std::uint64_t frame) {
-  const std::vector<DegradationStep>& ladder = g.of.terms.gives;
-  const std::string title = titleOf(g.of.node);
+  const std::vector<DegradationStep>& ladder = g.subject.terms.gives;
+  const std::string title = titleOf(g.subject.node);
   if (g.applied > before)
     lines_.push_back(
         fmt::format("from frame {} on {} gives up: {}", frame, title, nameOfLevel(ladder, g.applied)));

@@ -88,7 +88,7 @@ public:
 
 private:
   struct Governed {
-    GovernedNode of;
+    GovernedNode subject;
     DegradationPolicy policy;
     std::uint32_t forFrame = 0;  ///< the level that the whole frame requires
     std::uint32_t applied = 0;
@@ -122,7 +122,7 @@ private:
     std::uint32_t usefulOf(const std::vector<DegradationStep>& gives) const;
   };
   void spreadFrameLevels();
-  void layFrameLadder(JointLadder& degradation);
+  void layFrameLadder(JointLadder& joint);
   void tellUncounted();
   void noteOverrun(Governed& g, std::uint64_t frame, const NodeCost& cost);
   void applyStress(std::uint64_t frame);
@@ -135,9 +135,9 @@ private:
   mutable std::mutex mutex_;
   NodeCosts costs_;
   std::vector<Governed> governed_;
-  std::vector<std::size_t> byPriority_;  ///< nodes that can degrade, the lowest priority first
-  std::vector<JointLadder> frame_;       ///< pipelined: for App, for Cull and Draw; else one for all
-  std::uint64_t sampledUntil_ = 0;       ///< frames before it include the cost of sampling
+  std::vector<std::size_t> byPriority_;    ///< nodes that can degrade, the lowest priority first
+  std::vector<JointLadder> jointLadders_;  ///< pipelined: for App, for Cull and Draw; else one for all
+  std::uint64_t sampledUntil_ = 0;         ///< frames before it include the cost of sampling
   StressFilter stress_;
   std::uint32_t stressApplied_ = 0, highestStress_ = 0;
   std::uint64_t stressChanges_ = 0, stressFrom_ = 0;
@@ -146,8 +146,8 @@ private:
   bool scalable_ = false;                                 ///< the show has nodes that stress affects
   std::map<std::uint64_t, StageTimes> times_;
   std::vector<std::uint64_t> appEnded_, appEndedBefore_, shown_, shownBefore_;
-  std::vector<std::string> lines_;  ///< reports to be sent by the log's thread
-  std::uint64_t seen_ = ~std::uint64_t{0};
+  std::vector<std::string> lines_;               ///< reports to be sent by the log's thread
+  std::uint64_t loadsSeen_ = ~std::uint64_t{0};  ///< version of the scene tree that see() saw last
   std::shared_ptr<const NodeAccounts> accounts_;
   bool toldUncounted_ = false;
   Reports gone_;

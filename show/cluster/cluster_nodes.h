@@ -69,7 +69,7 @@ private:
     bool asked = false;          ///< by us, to end
     bool waitsForFiles = false;  ///< the node was reported as waiting for other files
     Clock::time_point begun{}, notBefore{};
-    worker::Restarts restarts{};
+    wall_process::Restarts restarts{};
     FileDescriptor said{};
     ChildProcess child{};
   };

@@ -71,9 +71,9 @@ Result<CalibrationFigures> measureSetting(const CalibrationRun& run, Diagnostics
   parts.provider = provider.value().get();
   parts.shown = [&] { watch.frameShown(); };
   if (run.setting.processes) {
-    WallWorkers workers;
-    workers.rasteriserThreads = run.setting.rasteriserThreads;
-    parts.workers = workers;
+    WallProcesses wallProcesses;
+    wallProcesses.rasteriserThreads = run.setting.rasteriserThreads;
+    parts.wallProcesses = wallProcesses;
   }
   if (run.setting.pinned) parts.processors = Topology::ofThisMachine().parts(parts.walls.size());
   // As canDraw() does in a run: the rasteriser's threads start here, on all processors.

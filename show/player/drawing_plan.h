@@ -46,7 +46,7 @@ public:
   const std::string& why() const { return chosen_.why; }
   /// "2 threads of the CPU renderer for all walls"
   std::string text(std::size_t walls) const;
-  /// Threads of this program's rasteriser, for in-process and worker-process walls alike.
+  /// Threads of this program's rasteriser, for in-process and wall-process walls alike.
   std::uint32_t rasteriserThreadsHere() const { return here_.setting.rasteriserThreads; }
 
   /// Notes that this program must draw after all.

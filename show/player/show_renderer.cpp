@@ -84,7 +84,7 @@ std::optional<Diagnostic> ShowRenderer::checkSize(std::uint32_t width, std::uint
 
 void ShowRenderer::drawFor(ShowParts& parts) {
   parts.provider = provider_.get();
-  if (threads_ == 0 || parts.workers) return;
+  if (threads_ == 0 || parts.wallProcesses) return;
   if (!pool_) pool_ = std::make_unique<DrawPool>(threads_);
   parts.pool = pool_.get();
 }

@@ -55,7 +55,7 @@ public:
 
   /// Returns why pictures of this size cannot be drawn, or nothing. May make a context.
   std::optional<Diagnostic> checkSize(std::uint32_t width, std::uint32_t height);
-  /// The stages draw with this. Expects that `parts` already says whether worker processes draw. In this
+  /// The stages draw with this. Expects that `parts` already says whether wall processes draw. In this
   /// process the CPU renderer's threads start with the first call; all later stages share them.
   void drawFor(ShowParts& parts);
 

@@ -22,7 +22,8 @@ ShowParts OpenSession::stageParts() {
   ShowParts parts =
       player_->parts(s.draw.layout, state_.cluster ? state_.cluster->inputOf(*player_) : nullptr);
   if (drawing_)
-    parts.workers = s.workers(*player_, drawing_->setting(), renderer_->kind(), reporter_.sayFunction());
+    parts.wallProcesses =
+        s.wallProcesses(*player_, drawing_->setting(), renderer_->kind(), reporter_.sayFunction());
   renderer_->drawFor(parts);
   if (drawing_ && drawing_->setting().pinned)
     parts.processors = Topology::ofThisMachine().parts(parts.walls.size());
@@ -99,7 +100,7 @@ void OpenSession::addDrawing(RunSummary& summary) const {
   const DrawSetting& how = drawing_->setting();
   DrawingSummary& to = summary.drawing;
   to.renderer = renderer_->drawsWithGl() ? "gl" : "cpu", to.chosen = renderer_->why();
-  to.workers = how.processes ? "process" : "thread", to.threads = how.rasteriserThreads;
+  to.drawnBy = how.processes ? "process" : "thread", to.threads = how.rasteriserThreads;
   to.pinned = how.pinned, to.why = drawing_->why();
   to.text = drawing_->text(player_->walls().walls.size());
 }

@@ -17,11 +17,11 @@ DrawingNeeds SessionSettings::drawingNeeds(std::size_t walls) const {
   return needs;
 }
 
-std::optional<WallWorkers> SessionSettings::workers(const Player& player, const DrawSetting& setting,
-                                                    RendererKind renderer,
-                                                    std::function<void(const std::string&)> say) const {
+std::optional<WallProcesses>
+SessionSettings::wallProcesses(const Player& player, const DrawSetting& setting, RendererKind renderer,
+                               std::function<void(const std::string&)> say) const {
   if (!setting.processes) return {};
-  WallWorkers w;
+  WallProcesses w;
   w.rasteriserThreads = setting.rasteriserThreads;
   w.renderer = renderer;
   w.everyFrame = play.everyFrameCounts(player) || !cluster.file.empty();

@@ -23,8 +23,9 @@ struct SessionSettings {
   /// Returns what decides between threads and processes for so many walls.
   DrawingNeeds drawingNeeds(std::size_t walls) const;
   /// The processes that draw the walls; null if this process draws them.
-  std::optional<WallWorkers> workers(const Player& player, const DrawSetting& setting, RendererKind renderer,
-                                     std::function<void(const std::string&)> say) const;
+  std::optional<WallProcesses> wallProcesses(const Player& player, const DrawSetting& setting,
+                                             RendererKind renderer,
+                                             std::function<void(const std::string&)> say) const;
 };
 
 }  // namespace stadion

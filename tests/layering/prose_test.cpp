@@ -54,7 +54,7 @@ std::string replacedWord(const std::string& line) {
       "InWorkers",      "CpuWalls",      "TriangleSieve", "SmallThings",     "LoneClock",
       "OperatorDesk",   "CrowdStep",     "CrowdBody",     "CrowdContact",    "CrowdSolver",
       "CrowdEnergy",    "ContactChoice", "WayOut",        "ReliefPolicy",    "Concession",
-      "Verb::",         "verbNamed"};
+      "Verb::",         "verbNamed",     "WallWorker",    "worker process"};
   const auto isLetter = [&](std::size_t at) {
     return at < line.size() && std::islower(static_cast<unsigned char>(line[at])) != 0;
   };

@@ -141,11 +141,11 @@ TEST(WallsBench, OfPicturesThatHaveNoThousandPixelsThoseOfAllViewsCountTogether)
 }
 
 TEST(WallsBench, PicturesAreComparedOfWhatIsMeasured) {
-  for (const char* workers : {"thread", "process"}) {
-    const auto words = wordsFor(ourPictures({"a", "SUBMIT", workers}), {"stadion", "", ""});
+  for (const char* drawnBy : {"thread", "process"}) {
+    const auto words = wordsFor(ourPictures({"a", "SUBMIT", drawnBy}), {"stadion", "", ""});
     const auto at = std::ranges::find(words, "--wall-workers");
     ASSERT_LT(at + 1, words.end());
-    EXPECT_EQ(*(at + 1), workers);
+    EXPECT_EQ(*(at + 1), drawnBy);
   }
 }
 
@@ -243,7 +243,7 @@ TEST_F(WallsRecordFile, OfAnotherBuildMachineSettingOrDayIsNotGoneOnWith) {
   RecordHead other = kNow;
   other.build = "b2", says(other, "another build");
   other = kNow, other.machine = "a tower", says(other, "another machine (a tower; this one is a box)");
-  other = kNow, other.workers = "thread", says(other, "--wall-workers thread, not process");
+  other = kNow, other.drawnBy = "thread", says(other, "--wall-workers thread, not process");
   other = kNow, other.begun -= 24 * 3600, says(other, "more than half a day");
   EXPECT_NE(wrong(rows.substr(1)).find("is no record"), std::string::npos) << "of a build that wrote no head";
 }

@@ -53,9 +53,9 @@ json visit(const TestFolder& folder, const std::vector<std::string>& more) {
 }
 
 TEST(ProgramLatency, FramesAreDrawnFromTheNewestHeadByThreadsAndByProcesses) {
-  for (const char* workers : {"thread", "process"}) {
+  for (const char* drawnBy : {"thread", "process"}) {
     const TestFolder folder;
-    const json s = visit(folder, {"--late-latch", "--wall-workers", workers});
+    const json s = visit(folder, {"--late-latch", "--wall-workers", drawnBy});
     ASSERT_TRUE(s.is_object());
     const json& latch = s.at("late_latch");
     EXPECT_GT(latch.at("frames"), 0);

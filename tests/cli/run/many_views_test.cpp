@@ -1,4 +1,4 @@
-/// A hall of 64 views: run, profile and worker processes show and report all of them.
+/// A hall of 64 views: run, profile and wall processes show and report all of them.
 
 #include "tests/programs/program.h"
 
@@ -84,7 +84,7 @@ TEST(ProgramManyViews, AreTheSameInBothModes) {
   EXPECT_EQ(views.hashes({"--mode", "pipelined"}), hashes);
 }
 
-TEST(ProgramFullManyViews, AreTheSameFromWorkerProcesses) {
+TEST(ProgramFullManyViews, AreTheSameFromWallProcesses) {
   ManyStereoViews views;
   EXPECT_EQ(views.hashes({"--wall-workers", "process"}), views.hashes({"--mode", "sequential"}));
 }

@@ -116,7 +116,7 @@ TEST(ProgramSameState, EveryFrameHasOneHashWhateverTheModeAndTheWalls) {
       EXPECT_EQ(hashesOf(mode, walls), expected) << mode << walls;
 }
 
-/// In every mode and with every kind of workers: the hash of each frame, and that of a run's last frame.
+/// In every mode and with threads and processes: the hash of each frame, and that of a run's last frame.
 void expectSameState(const std::vector<std::string>& show) {
   const auto with = [&](std::vector<std::string> words, const std::vector<std::string>& more) {
     words.insert(words.end(), show.begin(), show.end());
@@ -138,7 +138,7 @@ void expectSameState(const std::vector<std::string>& show) {
   }
 }
 
-/// In every mode and with every kind of workers: the same files, byte for byte.
+/// In every mode and with threads and processes: the same files, byte for byte.
 void expectSamePicturesInEveryMode(const std::vector<std::string>& show) {
   const std::vector<std::vector<std::string>> ways{{"--mode", "sequential"},
                                                    {"--mode", "pipelined", "--wall-workers", "thread"},

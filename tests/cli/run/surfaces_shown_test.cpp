@@ -23,12 +23,12 @@ struct ShownPixels {
 };
 
 ShownPixels shownOf(const std::string& script, const std::string& walls, const std::string& look,
-                    const std::string& workers, const std::string& size, const std::string& assets) {
+                    const std::string& drawnBy, const std::string& size, const std::string& assets) {
   const TestFolder folder;
   const std::string show = folder.write("show.evs", script), file = folder.write("one.walls", walls);
   const std::string out = folder.path() / "out";
   const ProgramResult r = stadionProgram({"run",      show, "--asset-root",   assets,  "--walls",    file,
-                                          "--look",   look, "--wall-workers", workers, "--size",     size,
+                                          "--look",   look, "--wall-workers", drawnBy, "--size",     size,
                                           "--frames", "2",  "--input",        "none",  "--pictures", "last",
                                           "--out",    out});
   EXPECT_EQ(r.status, 0) << r.err;
@@ -51,13 +51,13 @@ ShownPixels shownOf(const std::string& script, const std::string& walls, const s
 }
 
 struct ShownBy {
-  const char *look, *workers, *size;
+  const char *look, *drawnBy, *size;
 };
 constexpr ShownBy kWays[] = {{"full", "thread", "96x72"},
                              {"plain", "process", "120x90"},
                              {"plain", "thread", "64x48"},
                              {"full", "process", "64x64"}};
-/// Each look and each kind of workers once: the first two of them, or the last two. All of them: 4.
+/// Each look and threads and processes once: the first two of them, or the last two. All of them: 4.
 using Ways = std::span<const ShownBy>;
 const Ways kEachOnce = Ways(kWays).first(2), kEachOnceOtherwise = Ways(kWays).last(2), kAll = kWays;
 
@@ -88,10 +88,10 @@ void expectTheNearerOfTwoSheets(const std::vector<SheetsShown>& cases) {
       const TestFolder folder;
       const std::string script = sheets(folder, distance, gap);
       const ShownPixels found =
-          shownOf(script, distance > 900 ? kOffAxis : std::string("near 0.1\n") + kFront, by.look, by.workers,
+          shownOf(script, distance > 900 ? kOffAxis : std::string("near 0.1\n") + kFront, by.look, by.drawnBy,
                   by.size, folder.path());
-      EXPECT_EQ(found.green, 0u) << distance << " m, " << by.look << ", " << by.workers;
-      EXPECT_GT(found.red, found.all / 10) << distance << " m, " << by.look << ", " << by.workers;
+      EXPECT_EQ(found.green, 0u) << distance << " m, " << by.look << ", " << by.drawnBy;
+      EXPECT_GT(found.red, found.all / 10) << distance << " m, " << by.look << ", " << by.drawnBy;
     }
 }
 
@@ -108,11 +108,11 @@ void expectCardsWithHoles(Ways ways) {
     const ShownPixels found = shownOf(
         "sky( ambient=\"1,1,1\", zenith=\"0.2,0.2,0.8\", horizon=\"0.2,0.2,0.8\", ground=\"0.2,0.2,0.8\" )\n"
         "light( direction=\"0,1,0\" )\nobject( file=mask.gltf, position=\"0, 3, 0.7\" )\n",
-        kFront, by.look, by.workers, by.size, std::string(STADION_SOURCE_DIR) + "/tests/corpus/models");
+        kFront, by.look, by.drawnBy, by.size, std::string(STADION_SOURCE_DIR) + "/tests/corpus/models");
     // The near one's solid half is an eighteenth of the picture, and the far one's is behind it.
     EXPECT_NEAR(double(found.red), double(found.all) / 18, double(found.all) / 200)
-        << by.look << ", " << by.workers;
-    EXPECT_EQ(found.green, 0u) << by.look << ", " << by.workers;
+        << by.look << ", " << by.drawnBy;
+    EXPECT_EQ(found.green, 0u) << by.look << ", " << by.drawnBy;
   }
 }
 
@@ -125,11 +125,11 @@ void expectOnlyTheLampToGlow(Ways ways) {
     const ShownPixels found = shownOf(
         "sky( ambient=\"0.3,0.3,0.3\", zenith=\"0,0,0\", horizon=\"0,0,0\", ground=\"0,0,0\" )\n"
         "light( direction=\"0,1,-0.5\", shadows=off )\nobject( file=lamp.gltf, position=\"0, 3, 1.7\" )\n",
-        kFront, by.look, by.workers, by.size, std::string(STADION_SOURCE_DIR) + "/tests/corpus/models");
+        kFront, by.look, by.drawnBy, by.size, std::string(STADION_SOURCE_DIR) + "/tests/corpus/models");
     // A sixteenth of the object, which is a ninth of the picture.
     EXPECT_NEAR(double(found.green), double(found.all) / 144, double(found.all) / 300)
-        << by.look << ", " << by.workers;
-    EXPECT_EQ(found.bright, 0u) << by.look << ", " << by.workers;
+        << by.look << ", " << by.drawnBy;
+    EXPECT_EQ(found.bright, 0u) << by.look << ", " << by.drawnBy;
   }
 }
 

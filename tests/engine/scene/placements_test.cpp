@@ -36,18 +36,18 @@ TEST_F(PlacementsTree, AParentCarriesItsDescendants) {
 }
 
 TEST_F(PlacementsTree, AHeldPlacementStaysWhenItsParentMoves) {
-  ASSERT_TRUE(placements.hold(child, at(7, 7, 7)));
+  ASSERT_TRUE(placements.holdInWorld(child, at(7, 7, 7)));
   EXPECT_EQ(place(leaf), Vec3(7, 7, 10)) << "the child's child goes with it";
   placements.setLocal(parent, at(5, 0, 0));
   EXPECT_EQ(place(child), Vec3(7, 7, 7));
   EXPECT_EQ(place(leaf), Vec3(7, 7, 10));
-  ASSERT_TRUE(placements.hold(child, at(8, 7, 7)));
+  ASSERT_TRUE(placements.holdInWorld(child, at(8, 7, 7)));
   EXPECT_EQ(place(leaf), Vec3(8, 7, 10));
   EXPECT_EQ(placements.carrier(child), kWorldPlacement);
 }
 
 TEST_F(PlacementsTree, AMovedParentCarriesItsChildAgainAfterAHold) {
-  placements.hold(child, at(7, 7, 7));
+  placements.holdInWorld(child, at(7, 7, 7));
   EXPECT_EQ(place(leaf), Vec3(7, 7, 10));
   placements.setLocal(child, at(0, 4, 0));
   EXPECT_EQ(place(child), Vec3(1, 4, 0));
@@ -55,7 +55,7 @@ TEST_F(PlacementsTree, AMovedParentCarriesItsChildAgainAfterAHold) {
 }
 
 TEST_F(PlacementsTree, APlacementThatRejoinsItsParentStaysWhereItIs) {
-  placements.hold(child, at(7, 7, 7));
+  placements.holdInWorld(child, at(7, 7, 7));
   placements.rejoin(child, placements.world(parent));
   EXPECT_EQ(place(child), Vec3(7, 7, 7));
   placements.setLocal(parent, at(2, 0, 0));
@@ -63,9 +63,9 @@ TEST_F(PlacementsTree, APlacementThatRejoinsItsParentStaysWhereItIs) {
 }
 
 TEST_F(PlacementsTree, AHeldPositionLeavesTheOrientationToTheParent) {
-  placements.hold(child, at(7, 7, 7), Held::All);
+  placements.holdInWorld(child, at(7, 7, 7), HeldParts::All);
   EXPECT_EQ(place(leaf), Vec3(7, 7, 10));
-  placements.hold(child, at(7, 7, 7), Held::Position);
+  placements.holdInWorld(child, at(7, 7, 7), HeldParts::Position);
   placements.setLocal(parent, turned());
   EXPECT_EQ(place(child), Vec3(7, 7, 7));
   EXPECT_EQ(placements.world(child).linear(), turned().linear());
@@ -73,7 +73,7 @@ TEST_F(PlacementsTree, AHeldPositionLeavesTheOrientationToTheParent) {
 }
 
 TEST_F(PlacementsTree, AHeldOrientationLeavesThePositionToTheParent) {
-  placements.hold(child, turned(), Held::Orientation);
+  placements.holdInWorld(child, turned(), HeldParts::Orientation);
   placements.setLocal(parent, at(5, 0, 0));
   EXPECT_EQ(place(child), Vec3(5, 2, 0));
   EXPECT_EQ(placements.world(child).linear(), turned().linear());
@@ -83,7 +83,7 @@ TEST_F(PlacementsTree, AMatrixThatIsNotFiniteIsRefused) {
   const Affine broken = at(std::numeric_limits<double>::quiet_NaN(), 0, 0);
   EXPECT_FALSE(placements.setLocal(child, broken));
   EXPECT_FALSE(placements.setWorld(child, broken));
-  EXPECT_FALSE(placements.hold(child, broken));
+  EXPECT_FALSE(placements.holdInWorld(child, broken));
   EXPECT_EQ(place(leaf), Vec3(1, 2, 3));
 }
 

@@ -79,7 +79,7 @@ void cullOneRoom(Random& random, std::uint32_t count, const auto& radius, CullCo
   c.chunks = {{f.state.arena().add(records), true}};
   RoomCull room(views);
   const SlotView state = f.publish(c);
-  const RoomCull::Visibility seen = room.seen(state);
+  const RoomCull::Visibility seen = room.visibleIn(state);
   for (std::size_t wall = 0; wall < views.size(); ++wall) {
     const PlacedViews placed = place(f.viewer, views[wall], {});
     const Solid left(placed, 0), right(placed, 1);

@@ -21,7 +21,7 @@ std::vector<const InstanceRecord*> sorted(std::vector<const InstanceRecord*> rec
 }
 
 void expectAsSimple(RoomCull& room, const SlotView& state, const std::vector<WallViews>& views) {
-  const RoomCull::Visibility seen = room.seen(state);
+  const RoomCull::Visibility seen = room.visibleIn(state);
   for (std::size_t wall = 0; wall < views.size(); ++wall)
     ASSERT_EQ(sorted(seen.on(wall).records), sorted(test::simplySeen(state, views[wall])))
         << "wall " << wall << ", frame " << state.signature->frame;
@@ -63,7 +63,7 @@ TEST(RoomCull, FindsWhatLookingAtEveryRecordFinds) {
       c.instances.push_back({static_cast<InstanceId>(c.instances.size()), r});
     const SlotView state = f.publish(c);
     ASSERT_NO_FATAL_FAILURE(expectAsSimple(room, state, views)) << "round " << round;
-    const RoomCull::Visibility all = room.seen(state);
+    const RoomCull::Visibility all = room.visibleIn(state);
     for (std::size_t wall = 0; wall < views.size(); ++wall) seen += all.on(wall).records.size();
   }
   EXPECT_GT(seen, 10000U);
@@ -123,7 +123,7 @@ TEST(RoomCull, OnEveryProcessorItFindsTheSameWithTheSameTests) {
       c.instances.push_back({static_cast<InstanceId>(c.instances.size()), r});
     const SlotView state = f.publish(c);
     RoomCull four(views, kFourBounds), eight(views, kEightBounds);
-    const RoomCull::Visibility a = four.seen(state), b = eight.seen(state);
+    const RoomCull::Visibility a = four.visibleIn(state), b = eight.visibleIn(state);
     for (std::size_t wall = 0; wall < views.size(); ++wall) {
       ASSERT_EQ(a.on(wall).records, b.on(wall).records);
       ASSERT_EQ(a.on(wall).tested, b.on(wall).tested);
@@ -178,7 +178,7 @@ TEST(RoomCull, CostsWhatIsSeenNotWhatExists) {
     ChangeSet c;
     c.chunks = {{f.state.arena().add(records), true}};
     RoomCull room(views);
-    const RoomCull::Visibility seen = room.seen(f.publish(c));
+    const RoomCull::Visibility seen = room.visibleIn(f.publish(c));
     tested.push_back(0);
     for (std::size_t wall = 0; wall < views.size(); ++wall) tested.back() += seen.on(wall).tested;
   }
@@ -192,9 +192,9 @@ TEST(RoomCull, SearchesOnceForAllWallsOfAFrame) {
   ChangeSet c;
   c.instances = {{0, thing({0, 5, 0}, 1)}};
   const SlotView state = f.publish(c);
-  const RoomCull::Visibility first = room.seen(state), second = room.seen(state);
+  const RoomCull::Visibility first = room.visibleIn(state), second = room.visibleIn(state);
   EXPECT_EQ(&first.on(0), &second.on(0));
-  const RoomCull::Visibility next = room.seen(f.publish({}));
+  const RoomCull::Visibility next = room.visibleIn(f.publish({}));
   EXPECT_NE(&first.on(0), &next.on(0)) << "another frame";
 }
 
@@ -205,11 +205,11 @@ TEST(RoomCull, AFrameThatIsOverwrittenMeanwhileIsNotKeptForOthers) {
   ChangeSet c;
   c.instances = {{0, thing({0, 5, 0}, 1)}};
   const SlotView late = f.publish(c);
-  const RoomCull::Visibility before = room.seen(late);
+  const RoomCull::Visibility before = room.visibleIn(late);
   ASSERT_EQ(before.on(0).records.size(), 1U);
   c.instances = {{0, thing({0, -5, 0}, 1)}};
   f.state.publish(late.slot, c);
-  const RoomCull::Visibility broken = room.seen(late), now = room.seen(f.state.view(late.slot));
+  const RoomCull::Visibility broken = room.visibleIn(late), now = room.visibleIn(f.state.view(late.slot));
   EXPECT_EQ(&broken.on(0), &before.on(0)) << "what it has found it keeps";
   EXPECT_NE(&now.on(0), &before.on(0));
   EXPECT_EQ(now.on(0).records.size(), 0U);
@@ -217,7 +217,7 @@ TEST(RoomCull, AFrameThatIsOverwrittenMeanwhileIsNotKeptForOthers) {
 
   // A view from before, asked for after: void, and not given to others.
   RoomCull other(views);
-  const RoomCull::Visibility voided = other.seen(late), good = other.seen(f.state.view(late.slot));
+  const RoomCull::Visibility voided = other.visibleIn(late), good = other.visibleIn(f.state.view(late.slot));
   EXPECT_NE(&voided.on(0), &good.on(0));
   EXPECT_EQ(good.on(4).records.size(), 1U);
 }

@@ -376,7 +376,7 @@ TEST(PictureGlow, AMaskedLampHasHolesAndGlowsBetweenThem) {
   }
 }
 
-TEST(ProgramWallWorkers, DrawHolesAndPicturesOfLightAsThisProcessDoes) {
+TEST(ProgramWallProcesses, DrawHolesAndPicturesOfLightAsThisProcessDoes) {
   for (const Look look : {Look::Full, Look::Plain}) {
     MeshStore meshes;
     Material lamp = matt(0.2f, 0.1f, 0.1f);

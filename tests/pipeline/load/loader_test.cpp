@@ -106,7 +106,7 @@ TEST(ThreadsLoader, ALiveShowGoesOnAndTheDecisionIsTold) {
   EXPECT_EQ(show.loader->overdue(), std::vector<std::uint32_t>{1});
   released = true;
   show.request(2);
-  show.loader->take(2);  // the worker has done both
+  show.loader->take(2);  // the loader thread has done both
   EXPECT_FALSE(show.loader->takesEffect(1, 20)) << "decided for this frame";
   Nanoseconds now = 30;
   for (; !show.loader->takesEffect(1, now); ++now) std::this_thread::sleep_for(std::chrono::milliseconds(1));

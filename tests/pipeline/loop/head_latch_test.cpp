@@ -192,7 +192,7 @@ TEST(HeadReach, CullFindsWhatIsSeenFromAnywhereWithin) {
     c.chunks = {{f.state.arena().add(records), true}};
     RoomCull room(views), narrow(bare);
     const SlotView state = f.publish(c);
-    const RoomCull::Visibility seen = room.seen(state), seenBefore = narrow.seen(state);
+    const RoomCull::Visibility seen = room.visibleIn(state), seenBefore = narrow.visibleIn(state);
     for (int move = 0; move < 8; ++move) {
       ViewerRecord there = f.viewer;
       there.set(there.rig(), movedWithin(reach, f.viewer.head(), random));

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace stadion::worker {
+namespace stadion::wall_process {
 namespace {
 
 /// Of a wall with ten frames a second [ms].
@@ -37,4 +37,4 @@ TEST(AnswerDeadline, WhatTakesLessFromNowOnIsNotWaitedForAsBefore) {
 }
 
 }  // namespace
-}  // namespace stadion::worker
+}  // namespace stadion::wall_process

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace stadion::worker {
+namespace stadion::wall_process {
 namespace {
 
 using Death = Restarts::Death;
@@ -46,4 +46,4 @@ TEST(Restarts, OneThatDrawsLongEnoughIsForgiven) {
 }
 
 }  // namespace
-}  // namespace stadion::worker
+}  // namespace stadion::wall_process

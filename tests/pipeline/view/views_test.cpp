@@ -50,7 +50,7 @@ TEST(Views, OfManyWallsAreFoundAsOfFew) {
   for (std::uint32_t i = 0; i < 300; ++i) c.instances.push_back({i, test::thing(random.within(30), 0.5)});
   const SlotView state = f.publish(c);
   RoomCull room(walls);
-  const RoomCull::Visibility seen = room.seen(state);
+  const RoomCull::Visibility seen = room.visibleIn(state);
   std::size_t found = 0;
   for (std::size_t wall = 0; wall < walls.size(); ++wall) {
     const auto records = setOf(seen.on(wall).records);
@@ -73,7 +73,7 @@ TEST(Views, OfOneWallThroughSeveralScreensAreFoundTogetherAndNoneTwice) {
   for (const WallViews& wall : walls) expected.merge(setOf(test::simplySeen(state, wall)));
   // Six walls of six screens: a search ends between two walls, not within one.
   RoomCull room(std::vector<WallViews>(6, allIn(walls)));
-  const RoomCull::Visibility seen = room.seen(state);
+  const RoomCull::Visibility seen = room.visibleIn(state);
   for (std::size_t wall = 0; wall < 6; ++wall) {
     EXPECT_EQ(setOf(seen.on(wall).records), expected);
     EXPECT_EQ(seen.on(wall).records.size(), expected.size()) << "none twice";

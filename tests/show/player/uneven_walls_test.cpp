@@ -49,9 +49,9 @@ TEST_P(ProgramUnevenWalls, DoNotHoldApp) {
   parts.provider = provider.value().get();
   parts.quality.look = Look::Plain;
   if (GetParam()) {
-    parts.workers.emplace();
-    parts.workers->rasteriserThreads = 1, parts.workers->everyFrame = false;
-    parts.workers->tell = [](const std::string&) {};
+    parts.wallProcesses.emplace();
+    parts.wallProcesses->rasteriserThreads = 1, parts.wallProcesses->everyFrame = false;
+    parts.wallProcesses->tell = [](const std::string&) {};
   }
   FrameLoopOptions o;
   o.walls = parts.walls.size(), o.frames = kUnevenFrames, o.rate = 200;

@@ -37,7 +37,7 @@ private:
 constexpr const char* kSteadyWalls = STADION_SOURCE_DIR "/scripts/suites/two.walls";
 
 struct Way {
-  const char* workers;
+  const char* drawnBy;
   Look look;
   const char* walls;
   bool everyFrame;
@@ -93,7 +93,7 @@ std::optional<Asked> askedIn(const Way& way) {
     begin = here, beginWalls = walls;
     if (shown > kWarm && (asked.none() || shown == kWarm + most * kCounted)) enough = true;
   };
-  if (way.workers == std::string("process")) parts.workers.emplace().everyFrame = way.everyFrame;
+  if (way.drawnBy == std::string("process")) parts.wallProcesses.emplace().everyFrame = way.everyFrame;
   ShowStages stages(std::move(parts));
   FrameLoopOptions o = player->loopOptions();
   o.frames = 0, o.end = 0;
@@ -113,7 +113,7 @@ TEST_P(ProgramSteadyRun, AsksForNoMemory) {
   const auto asked = askedIn(GetParam());
   ASSERT_TRUE(asked) << "the show cannot be played";
   EXPECT_GT(asked->warming, 0u);
-  if (GetParam().workers == std::string("process")) {
+  if (GetParam().drawnBy == std::string("process")) {
     EXPECT_GT(asked->warmingWalls, 0u);
   }
   EXPECT_EQ(asked->here, 0u);
@@ -121,7 +121,7 @@ TEST_P(ProgramSteadyRun, AsksForNoMemory) {
 }
 
 std::string nameOf(const ::testing::TestParamInfo<Way>& way) {
-  return std::string(way.param.workers) + "_" + nameOf(way.param.look) +
+  return std::string(way.param.drawnBy) + "_" + nameOf(way.param.look) +
          (way.param.everyFrame ? "" : "_newest");
 }
 

@@ -79,7 +79,7 @@ std::optional<Watched> watch(Look look, const std::string& walls, const Fate& fa
   if (!player || !provider) return {};
   ShowParts parts = player->parts(StereoLayout::Pair);
   parts.provider = provider.value().get();
-  parts.workers.emplace().everyFrame = false;
+  parts.wallProcesses.emplace().everyFrame = false;
   Watched watched;
   watched.swaps.reserve(1 << 16);
   std::atomic<std::size_t> shown = 0;

@@ -17,7 +17,7 @@
 namespace stadion {
 namespace {
 
-using namespace worker;
+using namespace wall_process;
 using Clock = std::chrono::steady_clock;
 
 constexpr std::uint32_t kWidth = 48, kHeight = 36;
@@ -80,7 +80,7 @@ bool same(const std::vector<DrawItem>& a, const std::vector<DrawItem>& b) {
   });
 }
 
-TEST(WallWorkerBytes, ListsArriveAsTheyWere) {
+TEST(WallProcessBytes, ListsArriveAsTheyWere) {
   MeshStore meshes;
   DrawList list = stereoList(meshes);
   addShadows(list);
@@ -110,7 +110,7 @@ TEST(WallWorkerBytes, ListsArriveAsTheyWere) {
   EXPECT_EQ(gotNews.gone, (std::vector<MeshId>{9, 8}));
 }
 
-TEST(WallWorkerBytes, WhatStandsStillTravelsOnce) {
+TEST(WallProcessBytes, WhatStandsStillTravelsOnce) {
   MeshStore meshes;
   DrawList list = stereoList(meshes);
   addShadows(list);
@@ -129,7 +129,7 @@ TEST(WallWorkerBytes, WhatStandsStillTravelsOnce) {
   EXPECT_EQ(write(list, {}, known, segment) - second, list.opaque.size() * sizeof(DrawItem));
 }
 
-TEST(WallWorkerBytes, ListsThatAreCutShortAreRefused) {
+TEST(WallProcessBytes, ListsThatAreCutShortAreRefused) {
   MeshStore meshes;
   DrawList list = stereoList(meshes);
   addShadows(list);
@@ -142,7 +142,7 @@ TEST(WallWorkerBytes, ListsThatAreCutShortAreRefused) {
     EXPECT_FALSE(read({segment.data(), cut}, got, news)) << cut;
 }
 
-TEST(WallWorkerBytes, MeshesArriveWithTheirLevels) {
+TEST(WallProcessBytes, MeshesArriveWithTheirLevels) {
   MeshStore meshes;
   auto ball = test::MeshMaker(test::matt(1, 0, 0)).sphere(1, 8).seal();
   ball->levels.push_back({{0, 1, 2}, {{0, 3, 0}}, 0.25});
@@ -163,7 +163,7 @@ TEST(WallWorkerBytes, MeshesArriveWithTheirLevels) {
   EXPECT_FALSE(shared.take(id + 1, hash));
 }
 
-TEST(WallWorkerBytes, AMeshIsWrittenOnceAndItsPlaceIsFreeAfterItsLastUse) {
+TEST(WallProcessBytes, AMeshIsWrittenOnceAndItsPlaceIsFreeAfterItsLastUse) {
   MeshStore meshes;
   const auto add = [&](double radius) {
     auto mesh = test::MeshMaker(test::matt(1, 0, 0)).sphere(radius, 8).seal();
@@ -182,7 +182,7 @@ TEST(WallWorkerBytes, AMeshIsWrittenOnceAndItsPlaceIsFreeAfterItsLastUse) {
   EXPECT_EQ(shared.take(three, threeHash)->offset, first->offset);
 }
 
-TEST(ProgramWallWorkers, DrawTheSamePictures) {
+TEST(ProgramWallProcesses, DrawTheSamePictures) {
   MeshStore meshes;
   const DrawList list = stereoList(meshes);
   PerWallProcessRenderer drawing(partsFor(meshes, 2));
@@ -201,7 +201,7 @@ TEST(ProgramWallWorkers, DrawTheSamePictures) {
   EXPECT_NE(drawing.drawnBy(0).find("llvmpipe"), std::string::npos);
 }
 
-TEST(ProgramWallWorkers, AProcessForEachEyeDrawsTheSamePictures) {
+TEST(ProgramWallProcesses, AProcessForEachEyeDrawsTheSamePictures) {
   MeshStore meshes;
   DrawList list = stereoList(meshes);
   list.opaque.front().views = 1, list.opaque.back().views = 2;
@@ -226,7 +226,7 @@ TEST(ProgramWallWorkers, AProcessForEachEyeDrawsTheSamePictures) {
   drawing.close(0), drawing.close(1);
 }
 
-TEST(ProgramWallWorkers, NoWallIsDrawnOfWhichOneEyeIsMissing) {
+TEST(ProgramWallProcesses, NoWallIsDrawnOfWhichOneEyeIsMissing) {
   MeshStore meshes;
   const DrawList list = stereoList(meshes);
   auto parts = partsFor(meshes);
@@ -250,7 +250,7 @@ TEST(ProgramWallWorkers, NoWallIsDrawnOfWhichOneEyeIsMissing) {
   drawing.close(0);
 }
 
-TEST(ProgramWallWorkers, AFrameWhoseProcessIsStoppedIsDrawnByAnother) {
+TEST(ProgramWallProcesses, AFrameWhoseProcessIsStoppedIsDrawnByAnother) {
   MeshStore meshes;
   const DrawList list = stereoList(meshes);
   PerWallProcessRenderer drawing(partsFor(meshes));
@@ -263,7 +263,7 @@ TEST(ProgramWallWorkers, AFrameWhoseProcessIsStoppedIsDrawnByAnother) {
   EXPECT_EQ(pictureOf(drawing, 0), drawnHere(meshes, list));
 }
 
-TEST(ProgramWallWorkers, AnEyeWhoseProcessHasNoProgramFailsTheWall) {
+TEST(ProgramWallProcesses, AnEyeWhoseProcessHasNoProgramFailsTheWall) {
   MeshStore meshes;
   auto parts = partsFor(meshes);
   parts.program = "/nowhere/stadion-wall";
@@ -273,7 +273,7 @@ TEST(ProgramWallWorkers, AnEyeWhoseProcessHasNoProgramFailsTheWall) {
   EXPECT_NE(failure->message.find("left eye"), std::string::npos) << failure->message;
 }
 
-TEST(ProgramWallWorkers, ForgetMeshesThatAreGoneAndDrawOthersInTheirPlace) {
+TEST(ProgramWallProcesses, ForgetMeshesThatAreGoneAndDrawOthersInTheirPlace) {
   MeshStore meshes;
   DrawList list = test::plainList();
   PerWallProcessRenderer drawing(partsFor(meshes));
@@ -296,7 +296,7 @@ TEST(ProgramWallWorkers, ForgetMeshesThatAreGoneAndDrawOthersInTheirPlace) {
   EXPECT_EQ(pictures[0], pictures[3]);
 }
 
-TEST(ProgramWallWorkers, AFrameWhoseProcessIsKilledIsDrawnAgain) {
+TEST(ProgramWallProcesses, AFrameWhoseProcessIsKilledIsDrawnAgain) {
   MeshStore meshes;
   const DrawList list = stereoList(meshes);
   auto parts = partsFor(meshes);
@@ -315,7 +315,7 @@ TEST(ProgramWallWorkers, AFrameWhoseProcessIsKilledIsDrawnAgain) {
   EXPECT_EQ(drawing.totals(0)[1].frames, 3u);
 }
 
-TEST(ProgramWallWorkers, AProcessThatDiesBeforeItsPictureIsTakenLosesNothing) {
+TEST(ProgramWallProcesses, AProcessThatDiesBeforeItsPictureIsTakenLosesNothing) {
   MeshStore meshes;
   const DrawList list = stereoList(meshes);
   PerWallProcessRenderer drawing(partsFor(meshes));
@@ -343,7 +343,7 @@ private:
   std::filesystem::path link_ = folder_ / "stadion-wall";
 };
 
-TEST(ProgramWallWorkers, ProcessesThatDieOneAfterTheOtherAreToldOfTwiceAndEndNoLiveRun) {
+TEST(ProgramWallProcesses, ProcessesThatDieOneAfterTheOtherAreToldOfTwiceAndEndNoLiveRun) {
   MeshStore meshes;
   const DrawList list = stereoList(meshes);
   Exchangeable program;
@@ -382,7 +382,7 @@ TEST(ProgramWallWorkers, ProcessesThatDieOneAfterTheOtherAreToldOfTwiceAndEndNoL
   EXPECT_EQ(pictureOf(drawing, 0), drawnHere(meshes, list));
 }
 
-TEST(ProgramWallWorkers, AFrameThatKillsEveryProcessEndsTheRunWithItsNumberAndTheWall) {
+TEST(ProgramWallProcesses, AFrameThatKillsEveryProcessEndsTheRunWithItsNumberAndTheWall) {
   MeshStore meshes;
   DrawList list = stereoList(meshes);
   list.ticket.signature.frame = 77;
@@ -415,7 +415,7 @@ double secondsUntilDrawn(PerWallProcessRenderer& drawing, const DrawList& list, 
   }
 }
 
-TEST(ProgramWallWorkers, WhereTheNewestFrameCountsNoWallWaitsForAProcessThatIsGoneOrStopped) {
+TEST(ProgramWallProcesses, WhereTheNewestFrameCountsNoWallWaitsForAProcessThatIsGoneOrStopped) {
   MeshStore meshes;
   const DrawList list = stereoList(meshes);
   auto parts = partsFor(meshes);
@@ -443,7 +443,7 @@ bool isDead(int pid) {
 }
 
 /// Busy it is all the same.
-TEST(ProgramWallWorkers, AProcessThatGoesRoundInCirclesIsReplaced) {
+TEST(ProgramWallProcesses, AProcessThatGoesRoundInCirclesIsReplaced) {
   if (!std::filesystem::exists(spinningLibrary())) GTEST_SKIP() << "sanitizers let nothing be preloaded";
   MeshStore meshes;
   const DrawList list = stereoList(meshes);
@@ -464,7 +464,7 @@ TEST(ProgramWallWorkers, AProcessThatGoesRoundInCirclesIsReplaced) {
   EXPECT_EQ(pictureOf(drawing, 0), drawnHere(meshes, list));
 }
 
-TEST(ProgramWallWorkers, AProcessIsDeadWhenTheThreadThatDrawsIsThoughOthersLinger) {
+TEST(ProgramWallProcesses, AProcessIsDeadWhenTheThreadThatDrawsIsThoughOthersLinger) {
   MeshStore meshes;
   auto parts = partsFor(meshes);
   parts.program = program().parent_path() / "lingering-program";
@@ -475,7 +475,7 @@ TEST(ProgramWallWorkers, AProcessIsDeadWhenTheThreadThatDrawsIsThoughOthersLinge
       << failure->message;
 }
 
-TEST(ProgramWallWorkers, WhereTheNewestFrameCountsNoWallWaitsForANewProcessFirstFrame) {
+TEST(ProgramWallProcesses, WhereTheNewestFrameCountsNoWallWaitsForANewProcessFirstFrame) {
   MeshStore meshes;
   const DrawList list = stereoList(meshes);
   auto parts = partsFor(meshes);
@@ -490,7 +490,7 @@ TEST(ProgramWallWorkers, WhereTheNewestFrameCountsNoWallWaitsForANewProcessFirst
   EXPECT_EQ(pictureOf(drawing, 0), drawnHere(meshes, list));
 }
 
-TEST(ProgramWallWorkers, WhereTheNewestFrameCountsAViewThatTakesLongerFromNowOnIsSoonWaitedForAgain) {
+TEST(ProgramWallProcesses, WhereTheNewestFrameCountsAViewThatTakesLongerFromNowOnIsSoonWaitedForAgain) {
   MeshStore meshes;
   const DrawList list = stereoList(meshes);
   DrawList dear = list;
@@ -506,7 +506,7 @@ TEST(ProgramWallWorkers, WhereTheNewestFrameCountsAViewThatTakesLongerFromNowOnI
   EXPECT_EQ(pictureOf(drawing, 0), drawnHere(meshes, dear));
 }
 
-TEST(ProgramWallWorkers, AProgramThatIsMissingOrEndsAtOnceIsAFailureThatNamesTheWall) {
+TEST(ProgramWallProcesses, AProgramThatIsMissingOrEndsAtOnceIsAFailureThatNamesTheWall) {
   MeshStore meshes;
   for (const char* name : {"/nowhere/stadion-wall", "/bin/true"}) {
     auto parts = partsFor(meshes);

@@ -23,9 +23,9 @@
 #include <unordered_map>
 #include <vector>
 
-namespace stadion::worker {
+namespace stadion::wall_process {
 
-struct WorkerSetting {
+struct WallProcessSetting {
   std::filesystem::path program;  ///< stadion-wall
   RendererKind renderer = RendererKind::OsMesa;
   std::uint32_t width = 0, height = 0;  ///< size of one view's picture [pixels]
@@ -44,12 +44,12 @@ struct ProcessStatus {
 /// `stadion-wall` of this copy of Stadion (helperProgram).
 std::filesystem::path wallProgram();
 
-class WallWorker {
+class WallProcess {
 public:
-  WallWorker(WorkerSetting setting, const MeshStore& meshes, SharedMeshes& shared);
-  ~WallWorker() { stop(); }
-  WallWorker(const WallWorker&) = delete;
-  WallWorker& operator=(const WallWorker&) = delete;
+  WallProcess(WallProcessSetting setting, const MeshStore& meshes, SharedMeshes& shared);
+  ~WallProcess() { stop(); }
+  WallProcess(const WallProcess&) = delete;
+  WallProcess& operator=(const WallProcess&) = delete;
 
   enum class State {
     Down,     ///< there is no process
@@ -103,7 +103,7 @@ private:
   void updateStatus();
   void isGone(const std::string& how);
 
-  WorkerSetting setting_;
+  WallProcessSetting setting_;
   const MeshStore& meshes_;
   SharedMeshes& sharedMeshes_;
   std::unique_ptr<ChildProcess> process_ = std::make_unique<ChildProcess>();
@@ -121,4 +121,4 @@ private:
   bool reads_ = false, holdsPictures_ = false;  ///< the order gives pictures; the pictures have arrived
 };
 
-}  // namespace stadion::worker
+}  // namespace stadion::wall_process

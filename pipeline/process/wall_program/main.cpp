@@ -24,7 +24,7 @@
 #include <unistd.h>
 #include <unordered_map>
 
-namespace stadion::worker {
+namespace stadion::wall_process {
 namespace {
 
 constexpr int kSocket = STDIN_FILENO;
@@ -72,7 +72,8 @@ void goWithTheShow() {
   }).detach();
 }
 
-class Worker {
+/// The wall, or the view of it, that this process draws.
+class DrawnWall {
 public:
   /// Why there is none, or nothing.
   std::optional<std::string> open(const OrderHead& order, const std::array<int, 3>& segments);
@@ -106,7 +107,7 @@ private:
   std::uint64_t frames_ = 0;
 };
 
-std::optional<std::string> Worker::open(const OrderHead& order, const std::array<int, 3>& segments) {
+std::optional<std::string> DrawnWall::open(const OrderHead& order, const std::array<int, 3>& segments) {
   bytes_ = std::make_unique<SharedSegment>(segments[0], kListReserve, Access::Read);
   sharedMeshes_ = std::make_unique<SharedSegment>(segments[1], kMeshReserve, Access::Read);
   pictures_ = std::make_unique<SharedSegment>(segments[2], kPictureReserve, Access::Write);
@@ -117,7 +118,7 @@ std::optional<std::string> Worker::open(const OrderHead& order, const std::array
 }
 
 /// The threads of the pool run on the processors of the wall, as this one does.
-std::optional<std::string> Worker::openCpu(const OrderHead& order) {
+std::optional<std::string> DrawnWall::openCpu(const OrderHead& order) {
   keepFreedMemory();
   const PictureRung rung = PictureRung::of(order.quality);
   const std::size_t threads = order.processors.empty() ? order.rasteriserThreads : order.processors.size();
@@ -129,7 +130,7 @@ std::optional<std::string> Worker::openCpu(const OrderHead& order) {
   return {};
 }
 
-std::optional<std::string> Worker::openGl(const OrderHead& order) {
+std::optional<std::string> DrawnWall::openGl(const OrderHead& order) {
   setRasteriserThreads(order.rasteriserThreads);
   if (const auto why = pinRasteriser()) return why->message;
   auto provider =
@@ -147,7 +148,7 @@ std::optional<std::string> Worker::openGl(const OrderHead& order) {
   return {};
 }
 
-void Worker::takeNews() {
+void DrawnWall::takeNews() {
   ++frames_;
   for (const MeshId gone : news_.gone)
     if (const auto at = ids_.find(gone); at != ids_.end()) {
@@ -160,13 +161,13 @@ void Worker::takeNews() {
       ids_[place.id] = meshes_.add(std::move(mesh));
 }
 
-void Worker::rename(std::vector<DrawItem>& items) const {
+void DrawnWall::rename(std::vector<DrawItem>& items) const {
   for (DrawItem& item : items)
     if (const auto at = ids_.find(item.mesh); at != ids_.end()) item.mesh = at->second;
 }
 
 /// What stands still came with an earlier list, perhaps.
-void Worker::renameStill() {
+void DrawnWall::renameStill() {
   for (std::size_t i = 0; i < kShadowRings; ++i) {
     auto& still = list_.shadows.rings[i].still;
     if (!still || still == still_[i]) continue;
@@ -176,8 +177,8 @@ void Worker::renameStill() {
   }
 }
 
-void Worker::draw(const OrderHead& order) {
-  if (!worker::read({bytes_->data(), order.listBytes}, list_, news_))
+void DrawnWall::draw(const OrderHead& order) {
+  if (!wall_process::read({bytes_->data(), order.listBytes}, list_, news_))
     return answer(Order::Draw, "the draw list is damaged", true);
   takeNews();
   rename(list_.opaque), rename(list_.transparent);
@@ -188,7 +189,7 @@ void Worker::draw(const OrderHead& order) {
   answer(Order::Draw, problem, renderer_->totals());
 }
 
-std::optional<Diagnostic> Worker::readPictures() {
+std::optional<Diagnostic> DrawnWall::readPictures() {
   for (std::uint32_t view = 0; view < list_.viewCount; ++view) {
     auto* at = reinterpret_cast<std::uint8_t*>(pictures_->data() + view * pictureBytes_);
     if (auto problem = renderer_->read(view, {at, pictureBytes_})) return problem;
@@ -199,25 +200,25 @@ std::optional<Diagnostic> Worker::readPictures() {
 int work() {
   std::signal(SIGINT, SIG_IGN);   // Ctrl-C is for the show
   std::signal(SIGPIPE, SIG_IGN);  // OpenGL may write without a reader
-  Worker worker;
+  DrawnWall wall;
   OrderHead order;
   std::array<int, 3> segments{-1, -1, -1};
   if (!receive(order, segments) || order.order != Order::Open || segments[0] < 0) {
     std::fputs("stadion-wall is started by stadion; there is nothing to run by hand\n", stderr);
     return 2;
   }
-  const auto why = worker.open(order, segments);
-  answer(Order::Open, why ? *why : worker.description(), why.has_value());
+  const auto why = wall.open(order, segments);
+  answer(Order::Open, why ? *why : wall.description(), why.has_value());
   while (!why && receive(order, segments)) {
-    if (order.order == Order::Draw) worker.draw(order);
-    if (order.order == Order::Read) worker.read();
+    if (order.order == Order::Draw) wall.draw(order);
+    if (order.order == Order::Read) wall.read();
   }
   return 0;
 }
 
 }  // namespace
-}  // namespace stadion::worker
+}  // namespace stadion::wall_process
 
 int main() {
-  return stadion::worker::work();
+  return stadion::wall_process::work();
 }

@@ -1,4 +1,4 @@
-#include "pipeline/process/wall_worker.h"
+#include "pipeline/process/wall_process.h"
 #include "engine/base/installed_files.h"
 
 #include <algorithm>
@@ -15,7 +15,7 @@
 #include <unistd.h>
 #include <utility>
 
-namespace stadion::worker {
+namespace stadion::wall_process {
 namespace {
 
 /// Asked many times a second while a wall is drawn: it allocates nothing.
@@ -55,7 +55,7 @@ std::string sentenceOf(int status) {
   return "was killed by signal " + std::to_string(signal) + " (" + ::strsignal(signal) + ")";
 }
 
-std::size_t pictureBytes(const WorkerSetting& s) {
+std::size_t pictureBytes(const WallProcessSetting& s) {
   return std::size_t{s.width} * s.height * 4;
 }
 
@@ -65,13 +65,13 @@ std::filesystem::path wallProgram() {
   return helperProgram("stadion-wall");
 }
 
-WallWorker::WallWorker(WorkerSetting setting, const MeshStore& meshes, SharedMeshes& shared)
+WallProcess::WallProcess(WallProcessSetting setting, const MeshStore& meshes, SharedMeshes& shared)
     : setting_(std::move(setting)), meshes_(meshes), sharedMeshes_(shared),
       list_("stadion-list", kListReserve), pictures_("stadion-pictures", kPictureReserve) {
   pictures_.growTo(pictureBytes(setting_));
 }
 
-std::optional<std::string> WallWorker::start() {
+std::optional<std::string> WallProcess::start() {
   stop();
   int ends[2];
   if (::socketpair(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC, 0, ends) != 0) return std::strerror(errno);
@@ -94,7 +94,7 @@ std::optional<std::string> WallWorker::start() {
   return {};
 }
 
-void WallWorker::stop() {
+void WallProcess::stop() {
   socket_.close();
   std::erase_if(dying_, [](const auto& p) { return p->wait(std::chrono::milliseconds(0)).has_value(); });
   if (process_->running()) {
@@ -108,7 +108,7 @@ void WallWorker::stop() {
 }
 
 /// Sends an order. An order that cannot be sent is never answered; the wait for the answer reports why.
-void WallWorker::order(const OrderHead& head, std::span<const int> descriptors) {
+void WallProcess::order(const OrderHead& head, std::span<const int> descriptors) {
   OrderHead copy = head;
   iovec part{&copy, sizeof copy};
   msghdr message{};
@@ -125,19 +125,19 @@ void WallWorker::order(const OrderHead& head, std::span<const int> descriptors) 
   }
 }
 
-void WallWorker::draw(const DrawList& list, bool read) {
+void WallProcess::draw(const DrawList& list, bool read) {
   OrderHead head;
   head.read = read;
   draw(list, head);
 }
 
-void WallWorker::warmUp(const DrawList& list) {
+void WallProcess::warmUp(const DrawList& list) {
   OrderHead head;
   head.warmUp = 1;
   draw(list, head);
 }
 
-void WallWorker::draw(const DrawList& list, OrderHead head) {
+void WallProcess::draw(const DrawList& list, OrderHead head) {
   const ListNews news = newsFor(list);
   pictures_.growTo(list.viewCount * pictureBytes(setting_));
   head.order = Order::Draw;
@@ -147,7 +147,7 @@ void WallWorker::draw(const DrawList& list, OrderHead head) {
   order(head);
 }
 
-void WallWorker::readPictures() {
+void WallProcess::readPictures() {
   OrderHead head;
   head.order = Order::Read;
   reads_ = true, holdsPictures_ = false;
@@ -155,7 +155,7 @@ void WallWorker::readPictures() {
   order(head);
 }
 
-ListNews WallWorker::newsFor(const DrawList& list) {
+ListNews WallProcess::newsFor(const DrawList& list) {
   ListNews news;
   forgetFreed(news);
   MeshId last = kNoMesh;
@@ -173,7 +173,7 @@ ListNews WallWorker::newsFor(const DrawList& list) {
   return news;
 }
 
-void WallWorker::add(MeshId id, ListNews& news) {
+void WallProcess::add(MeshId id, ListNews& news) {
   if (sent_.contains(id)) return;
   const Mesh* mesh = meshes_.find(id);
   if (!mesh) return;
@@ -183,7 +183,7 @@ void WallWorker::add(MeshId id, ListNews& news) {
   }
 }
 
-void WallWorker::forgetFreed(ListNews& news) {
+void WallProcess::forgetFreed(ListNews& news) {
   const std::uint64_t freed = meshes_.freedCount();
   if (freed == freedCount_) return;
   freedCount_ = freed;
@@ -199,7 +199,7 @@ void WallWorker::forgetFreed(ListNews& news) {
   if (!news.gone.empty()) known_ = {};  // what stands still may name them
 }
 
-bool WallWorker::receive(std::chrono::milliseconds atMost) {
+bool WallProcess::receive(std::chrono::milliseconds atMost) {
   if (state_ == State::Down || state_ == State::Idle) return false;
   pollfd one{socket_.get(), POLLIN, 0};
   const int ready = ::poll(&one, 1, static_cast<int>(atMost.count()));
@@ -227,19 +227,19 @@ bool WallWorker::receive(std::chrono::milliseconds atMost) {
 }
 
 /// Whether it lives: the thread that draws is dead long before the last one, where processors are busy.
-void WallWorker::updateStatus() {
+void WallProcess::updateStatus() {
   status_ = statusOf(pid());
   if (status_.state != 'Z') return;
   isGone(sentenceOf(WIFSIGNALED(status_.end) ? 128 + WTERMSIG(status_.end) : WEXITSTATUS(status_.end)));
 }
 
-void WallWorker::isGone(const std::string& how) {
+void WallProcess::isGone(const std::string& how) {
   end_ = how;
   stop();
 }
 
-std::span<const std::byte> WallWorker::picture(std::uint32_t view) const {
+std::span<const std::byte> WallProcess::picture(std::uint32_t view) const {
   return {pictures_.data() + view * pictureBytes(setting_), pictureBytes(setting_)};
 }
 
-}  // namespace stadion::worker
+}  // namespace stadion::wall_process
