@@ -38,7 +38,9 @@ private:
 double overlapPeriod(Mode mode, const OverlapTimes& times) {
   WaitingStages stages(times);
   FrameLoopOptions options;
-  options.mode = mode, options.walls = times.walls, options.frames = times.frames;
+  options.mode = mode;
+  options.walls = times.walls;
+  options.frames = times.frames;
   const std::atomic<bool> stop = false;
   FrameLoop loop(stages, options, stop);
   loop.run();

@@ -23,8 +23,10 @@ int printReference(const NodeRegistry& types, const std::string& type) {
     std::printf("%s", languageReference(types).c_str());
     return kOk;
   }
-  if (const RegisteredType* known = types.named(type))
-    return std::printf("%s", languageReference(types, *known).c_str()), kOk;
+  if (const RegisteredType* known = types.named(type)) {
+    std::printf("%s", languageReference(types, *known).c_str());
+    return kOk;
+  }
   const auto meant = closest(type, types.names());
   std::fprintf(stderr, "stadion: there is no node type \"%s\"%s\n", type.c_str(),
                meant ? ("; " + didYouMeanOne(type, *meant)).c_str() : "; `stadion nodes` lists them");
@@ -37,8 +39,10 @@ int writeEditorFiles(const NodeRegistry& types, const std::string& folder) {
   for (const auto& [name, content] : {std::pair{"evs.tmLanguage.json", editorGrammar(types)},
                                       std::pair{"evs.completion.json", editorCompletion(types)}}) {
     const std::string path = folder + "/" + name;
-    if (const auto wrong = writeFile(path, content))
-      return std::fprintf(stderr, "%s\n", format(*wrong).c_str()), kBadInput;
+    if (const auto wrong = writeFile(path, content)) {
+      std::fprintf(stderr, "%s\n", format(*wrong).c_str());
+      return kBadInput;
+    }
     std::printf("%s\n", path.c_str());
   }
   return kOk;

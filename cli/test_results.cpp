@@ -23,7 +23,10 @@ std::string plainText(std::string_view xml) {
     std::size_t length = 1;
     char c = xml.front();
     for (const auto& [entity, meaning] : kEntities)
-      if (xml.starts_with(entity)) length = entity.size(), c = meaning;
+      if (xml.starts_with(entity)) {
+        length = entity.size();
+        c = meaning;
+      }
     text += c;
     xml.remove_prefix(length);
   }

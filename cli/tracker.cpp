@@ -99,7 +99,10 @@ void showJson(TrackerDevice& device) {
                                {"buttons", s.buttons},
                                {"axes", s.axes}});
   const FeedCounts c = device.trackers().counts();
-  out["taken"] = c.taken, out["refused"] = c.refused, out["unknown"] = c.unknown, out["late"] = c.late;
+  out["taken"] = c.taken;
+  out["refused"] = c.refused;
+  out["unknown"] = c.unknown;
+  out["late"] = c.late;
   out["not_understood"] = device.misunderstood();
   std::printf("%s\n", out.dump().c_str());
   std::fflush(stdout);

@@ -72,7 +72,10 @@ std::string outputOf(const ProgramCall& call) {
   to.close();
   if (wrong) return {};
   std::string text;
-  if (!readAll(from.get(), call.limit, text)) kill(child, SIGKILL), text.clear();
+  if (!readAll(from.get(), call.limit, text)) {
+    kill(child, SIGKILL);
+    text.clear();
+  }
   while (waitpid(child, nullptr, 0) < 0 && errno == EINTR) {
   }
   return text;

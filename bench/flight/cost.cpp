@@ -138,8 +138,10 @@ Costs measureCosts(int rounds) {
   for (const TimedRun& t : all) {
     if (t.name.ends_with(" x 1000")) continue;
     StepCost s{t.name, median(t.ns), 0, medianRatio(t, free), medianRatio(t, paper), 0};
-    if (const TimedRun* many = find(all, t.name + " x 1000"))
-      s.batch = median(many->ns), s.batchOfOne = medianRatio(*many, t);
+    if (const TimedRun* many = find(all, t.name + " x 1000")) {
+      s.batch = median(many->ns);
+      s.batchOfOne = medianRatio(*many, t);
+    }
     costs.steps.push_back(s);
   }
   addChecks(costs);

@@ -69,7 +69,8 @@ IntegratorResult measure(Thing thing, const Scheme& scheme, int hz,
   for (const ReferenceFlight& f : flights) {
     const FlightErrors e = errorsOf(scheme.fly(f.release, hz), f.path, factsOf(thing).axis);
     const double n = static_cast<double>(flights.size());
-    r.landing += e.landing * e.landing / n, r.attitude += e.attitude / n;
+    r.landing += e.landing * e.landing / n;
+    r.attitude += e.attitude / n;
     // A lost flight gives no number.
     r.worst = std::isnan(e.landing) || e.landing > r.worst ? e.landing : r.worst;
   }
@@ -98,7 +99,11 @@ double Integrators::order(Thing thing, const std::string& scheme) const {
   for (const IntegratorResult& r : results) {
     if (r.thing != thing || r.scheme != scheme || !(r.landing > kRounding && r.landing < kLost)) continue;
     const double u = std::log(r.hz), v = std::log(r.landing);
-    n += 1, x += u, y += v, xx += u * u, xy += u * v;
+    n += 1;
+    x += u;
+    y += v;
+    xx += u * u;
+    xy += u * v;
   }
   return n < 2 ? std::numeric_limits<double>::quiet_NaN() : (x * y - n * xy) / (n * xx - x * x);
 }
@@ -108,8 +113,11 @@ std::vector<Measurement> Integrators::measurements(Thing thing) const {
   for (const IntegratorResult& r : results) {
     if (r.thing != thing || r.hz < 60) continue;
     Measurement m;
-    m.engine = r.scheme, m.caseName = factsOf(thing).name, m.n = r.hz / 60;
-    m.ns = r.ns * m.n, m.m["err"] = r.landing;
+    m.engine = r.scheme;
+    m.caseName = factsOf(thing).name;
+    m.n = r.hz / 60;
+    m.ns = r.ns * m.n;
+    m.m["err"] = r.landing;
     all.push_back(m);
   }
   return all;

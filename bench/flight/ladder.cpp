@@ -62,11 +62,13 @@ SetErrors summaryOf(const std::vector<FlightErrors>& all) {
   SetErrors s;
   const double n = static_cast<double>(std::max<std::size_t>(all.size(), 1));
   for (const FlightErrors& e : all) {
-    s.range += e.range * e.range / n, s.landing += e.landing * e.landing / n;
+    s.range += e.range * e.range / n;
+    s.landing += e.landing * e.landing / n;
     s.landingMost = std::max(s.landingMost, e.landing);
     s.attitude += e.attitude / n;
   }
-  s.range = std::sqrt(s.range), s.landing = std::sqrt(s.landing);
+  s.range = std::sqrt(s.range);
+  s.landing = std::sqrt(s.landing);
   return s;
 }
 

@@ -40,7 +40,8 @@ struct Named {
 Throw releaseOf(const std::string& name, const Trajectory& path) {
   const Named n{name};
   Throw t;
-  t.name = name, t.start = path.front().at;
+  t.name = name;
+  t.start = path.front().at;
   t.thing = n.has("jav_") ? Thing::Javelin : n.has("disc_") ? Thing::Discus : Thing::Ball;
   t.wind = Vec3(n.after("_tail", 0) - n.after("_head", 0), n.after("_xwind", 0), 0);
   return t;
@@ -51,7 +52,9 @@ struct Random {
   std::uint64_t state;
   double between(double low, double high) {
     std::uint64_t z = state += 0x9e3779b97f4a7c15;
-    z = (z ^ z >> 30) * 0xbf58476d1ce4e5b9, z = (z ^ z >> 27) * 0x94d049bb133111eb, z ^= z >> 31;
+    z = (z ^ z >> 30) * 0xbf58476d1ce4e5b9;
+    z = (z ^ z >> 27) * 0x94d049bb133111eb;
+    z ^= z >> 31;
     return low + (high - low) * static_cast<double>(z >> 11) * 0x1p-53;
   }
 };
@@ -85,7 +88,8 @@ FlightAir Throw::air() const {
 Throw thrown(Thing thing, double speed, double gamma, double alpha, double roll, const Vec3& w_A,
              const Vec3& wind) {
   Throw t;
-  t.thing = thing, t.wind = wind;
+  t.thing = thing;
+  t.wind = wind;
   const double g = gamma * kDegree;
   t.start.p = Vec3(0, 0, factsOf(thing).height);
   t.start.v = speed * Vec3(std::cos(g), 0, std::sin(g));

@@ -17,7 +17,8 @@ double distanceOf(const Throw& t) {
   FlightState s{t.start.p, t.start.v, t.start.q, momentumOf(f.body, f.axis, t.start.q, t.start.w)};
   const Trajectory path = flyBy(t, kRate, [&](RigidFlight& r) {
     stepper.step(s);
-    r.p = s.p, r.v = s.v;
+    r.p = s.p;
+    r.v = s.v;
   });
   const Vec3 end = path.back().at.p;
   return std::sqrt(end.x() * end.x() + end.y() * end.y());
@@ -40,7 +41,11 @@ double climb(Angles& a) {
           Angles b = a;
           b[i] += way * stride;
           const double d = discusDistance(b);
-          if (d > best + 1e-6) best = d, a = b, better = true;
+          if (d > best + 1e-6) {
+            best = d;
+            a = b;
+            better = true;
+          }
         }
     }
   return best;
@@ -53,7 +58,12 @@ PublishedThrows measurePublishedThrows() {
   for (const double roll : {0.0, 30.0, -30.0}) {  // there may be several summits
     Angles a{37, 30, roll};
     const double d = climb(a);
-    if (d > p.discusRange) p.discusRange = d, p.gamma = a[0], p.pitch = a[1], p.roll = a[2];
+    if (d > p.discusRange) {
+      p.discusRange = d;
+      p.gamma = a[0];
+      p.pitch = a[1];
+      p.roll = a[2];
+    }
   }
   p.javelinRange = distanceOf(thrown(Thing::Javelin, 30, 34, 0, 0, Vec3::Zero(), Vec3::Zero()));
   p.checks.push_back({"discus, best throw at 25 m/s and 42 rad/s (69.39 m +- 5 %)", p.discusRange,

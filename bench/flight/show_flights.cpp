@@ -82,8 +82,10 @@ public:
   OpenedShow(const fs::path& script, const fs::path& assets) {
     AssetRoots forImporter = AssetRoots::ofScript(script);
     roots_ = AssetRoots::ofScript(script);
-    roots_.add(assets), forImporter.add(assets);
-    addEngineNodes(types_), addDynamicsNodes(types_);
+    roots_.add(assets);
+    forImporter.add(assets);
+    addEngineNodes(types_);
+    addDynamicsNodes(types_);
     services_.set(DynamicsServices({}, &roots_));
     importer_ = std::make_unique<Importer>(Importer::installedProgram(), std::move(forImporter));
     loader_ =
@@ -120,7 +122,10 @@ RigidFlight motionOf(Scene& scene, std::size_t i) {
   if (!node) return {Vec3::Constant(NAN), Vec3::Zero(), Quat::Identity(), Vec3::Zero()};
   const BodyState& s = node->state();
   RigidFlight f;
-  f.p = s.p, f.v = s.v, f.q = s.pose.q, f.w = s.pose.q.conjugate() * s.omega;
+  f.p = s.p;
+  f.v = s.v;
+  f.q = s.pose.q;
+  f.w = s.pose.q.conjugate() * s.omega;
   return f;
 }
 
@@ -143,7 +148,8 @@ std::vector<std::vector<RigidFlight>> play(Scene& scene, std::size_t count) {
 
 Diagnostic inFile(const fs::path& file, std::string what) {
   Diagnostic wrong;
-  wrong.where.file = file.string(), wrong.message = std::move(what);
+  wrong.where.file = file.string();
+  wrong.message = std::move(what);
   return wrong;
 }
 
@@ -153,7 +159,8 @@ Result<ShowFlights> ShowFlights::ofOlympia(const fs::path& repository) {
   ShowFlights show;
   show.assets_ = repository / "assets";
   NodeRegistry types;
-  addEngineNodes(types), addDynamicsNodes(types);
+  addEngineNodes(types);
+  addDynamicsNodes(types);
   for (const auto& [name, body] :
        {std::pair("javelin", &show.javelin_), std::pair("discus", &show.discus_)}) {
     const fs::path file = repository / fmt::format("scripts/olympia/game_{}.evs", name);

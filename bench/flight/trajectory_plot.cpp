@@ -67,9 +67,14 @@ std::string drawPath(const Trajectory& path, const View& v, const char* colour, 
 View viewOf(const std::vector<DrawnFlight>& flights, int up, double scale, double top) {
   double low = 0, high = 1;
   for (const DrawnFlight& f : flights)
-    for (const TrajectorySample& s : f.path)
-      low = std::min(low, s.at.p[up]), high = std::max(high, s.at.p[up]);
-  if (up == 1) low -= 1, high += 1;
+    for (const TrajectorySample& s : f.path) {
+      low = std::min(low, s.at.p[up]);
+      high = std::max(high, s.at.p[up]);
+    }
+  if (up == 1) {
+    low -= 1;
+    high += 1;
+  }
   return {up, low, high + 0.5, top + scale * (high + 0.5 - low), scale};
 }
 

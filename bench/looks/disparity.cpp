@@ -47,7 +47,10 @@ std::optional<int> bestOffset(const PictureBlock& block, const Brightness& a, co
   for (int by = least; by <= most; ++by) {
     if (!hasRoom(static_cast<double>(block.x) + by, block.y, b)) continue;
     const double r = residual(block, a, b, by);
-    if (!best || r < bestResidual) best = by, bestResidual = r;
+    if (!best || r < bestResidual) {
+      best = by;
+      bestResidual = r;
+    }
   }
   return best;
 }
@@ -61,7 +64,8 @@ double refinement(const PictureBlock& block, const Brightness& picture, const Br
       const double at = x - shift;
       const double slope = (reference.between(at + 0.5, y) - reference.between(at - 0.5, y));
       const double d = picture.at(x, y) - reference.between(at, y);
-      slopes += slope * slope, products += slope * d;
+      slopes += slope * slope;
+      products += slope * d;
     }
   return slopes > 0 ? -products / slopes : 0;
 }

@@ -23,7 +23,9 @@ double medianOf(std::vector<double> values) {
 void addErrors(const std::vector<Picture>& views, const std::vector<Picture>& references, LooksRow& row) {
   PictureErrors errors;
   for (std::size_t v = 0; v < views.size(); ++v) errors.add(views[v], references[v]);
-  row.mean = errors.mean(), row.p99 = errors.quantile(0.99), row.most = errors.most();
+  row.mean = errors.mean();
+  row.p99 = errors.quantile(0.99);
+  row.most = errors.most();
   row.within8 = errors.within(kJustSeen);
   if (views.size() < 2) return;
   const DisparityErrors apart = disparityErrors({views[0], views[1]}, {references[0], references[1]});
@@ -65,8 +67,10 @@ Result<std::vector<DrawnViews>> LooksMeasurement::drawRounds(const DrawList& lis
       drawn[r] = std::move(views.value());
       if (round > 0) times[r].push_back(drawn[r].ms);
     }
-  for (std::size_t r = 0; r < rungs_.size(); ++r)
-    rows[r].ms = medianOf(times[r]), rows[r].leastMs = *std::ranges::min_element(times[r]);
+  for (std::size_t r = 0; r < rungs_.size(); ++r) {
+    rows[r].ms = medianOf(times[r]);
+    rows[r].leastMs = *std::ranges::min_element(times[r]);
+  }
   return drawn;
 }
 

@@ -54,7 +54,8 @@ std::string looksPlot(const std::vector<LooksRow>& rows) {
   std::vector<std::string> series;
   for (const LooksRow& row : rows) {
     if (!(row.ms > 0)) continue;
-    costs.push_back(row.ms), errors.push_back(std::max(row.mean, kLeastError));
+    costs.push_back(row.ms);
+    errors.push_back(std::max(row.mean, kLeastError));
     if (std::ranges::find(series, seriesName(row)) == series.end()) series.push_back(seriesName(row));
   }
   const LogAxis cost = logAxis(costs, kLeft, kRight), error = logAxis(errors, kBottom, kTop);

@@ -56,7 +56,8 @@ void judgeDefault(const std::vector<LooksRow>& rows, std::vector<LooksLimit>& li
     for (const auto& [ours, openGl] : pairs) {
       const auto a = measure.of(*ours), b = measure.of(*openGl);
       if (!a || !b) continue;
-      farther += *a > *b * kAlike, ++compared;
+      farther += *a > *b * kAlike;
+      ++compared;
     }
     if (compared > 0)
       limits.push_back(
@@ -70,8 +71,10 @@ void judgeBetter(const std::vector<LooksRow>& rows, std::vector<LooksLimit>& lim
   if (pairs.empty()) return;
   double cost = 0, defaultCost = 0, error = 0, defaultError = 0;
   for (const auto& [better, standard] : pairs) {
-    cost += better->leastMs, defaultCost += standard->leastMs;
-    error += better->mean, defaultError += standard->mean;
+    cost += better->leastMs;
+    defaultCost += standard->leastMs;
+    error += better->mean;
+    defaultError += standard->mean;
   }
   limits.push_back(
       {"8 samples: cost, of the default's", defaultCost > 0 ? cost / defaultCost : 0, kBetterCost});

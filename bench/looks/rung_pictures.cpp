@@ -21,7 +21,8 @@ double processorMs(clockid_t clock) {
 /// The projection of pictures that lie (x, y) pixels to the right and up.
 Mat4 movedProjection(const Mat4& projection, double x, double y, PixelSize size) {
   Mat4 by = Mat4::Identity();
-  by(0, 3) = -2 * x / size.width, by(1, 3) = -2 * y / size.height;
+  by(0, 3) = -2 * x / size.width;
+  by(1, 3) = -2 * y / size.height;
   return by * projection;
 }
 

@@ -35,7 +35,10 @@ Crop mostDifferent(const std::vector<LabelledPicture>& pictures) {
       const Crop crop{x, y, width, height};
       std::uint64_t sum = 0;
       for (const LabelledPicture& p : pictures) sum += differenceIn(crop, p.picture, reference);
-      if (sum > most) most = sum, best = crop;
+      if (sum > most) {
+        most = sum;
+        best = crop;
+      }
     }
   return best;
 }

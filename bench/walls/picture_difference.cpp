@@ -64,8 +64,12 @@ Result<ViewsDifference> differenceOfViews(const std::string& prefix, const std::
       }
       const PictureDifference d = difference(p, b.value());
       const double size = static_cast<double>(p.width) * p.height;
-      beyond += d.beyond * size, pixels += size;
-      if (d.beyond > all.worstView) all.worstView = d.beyond, all.view = view;
+      beyond += d.beyond * size;
+      pixels += size;
+      if (d.beyond > all.worstView) {
+        all.worstView = d.beyond;
+        all.view = view;
+      }
       all.worst = std::max(all.worst, d.worst);
     }
   all.frame = pixels > 0 ? beyond / pixels : 0;

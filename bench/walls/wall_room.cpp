@@ -10,9 +10,12 @@ constexpr double kHalf = 1.5;  ///< from the room's middle to each wall [m]
 /// glFrustum's matrix.
 Mat4 frustum(double left, double right, double bottom, double top, double near, double far) {
   Mat4 m = Mat4::Zero();
-  m(0, 0) = 2 * near / (right - left), m(0, 2) = (right + left) / (right - left);
-  m(1, 1) = 2 * near / (top - bottom), m(1, 2) = (top + bottom) / (top - bottom);
-  m(2, 2) = -(far + near) / (far - near), m(2, 3) = -2 * far * near / (far - near);
+  m(0, 0) = 2 * near / (right - left);
+  m(0, 2) = (right + left) / (right - left);
+  m(1, 1) = 2 * near / (top - bottom);
+  m(1, 2) = (top + bottom) / (top - bottom);
+  m(2, 2) = -(far + near) / (far - near);
+  m(2, 3) = -2 * far * near / (far - near);
   m(3, 2) = -1;
   return m;
 }

@@ -16,7 +16,11 @@ std::uint64_t framesOf(const std::string& scene, const std::string& kind) {
 WallsCase caseOf(const std::string& engine, const std::string& scene, bool flat, const std::string& kind,
                  const std::string& mode) {
   WallsCase c;
-  c.engine = engine, c.scene = scene, c.flat = flat, c.kind = kind, c.mode = mode;
+  c.engine = engine;
+  c.scene = scene;
+  c.flat = flat;
+  c.kind = kind;
+  c.mode = mode;
   if (kind == "SUBMIT") c = small(std::move(c));
   c.frames = framesOf(scene, kind);
   return c;
@@ -41,7 +45,8 @@ WallsCase floorCase(const std::string& scene, const std::string& kind, const std
 }
 
 WallsCase small(WallsCase of) {
-  of.width = 32, of.height = 24;
+  of.width = 32;
+  of.height = 24;
   return of;
 }
 
@@ -54,13 +59,19 @@ WallsCase oneWall(WallsCase of) {
 
 WallsCase lockedCase() {
   WallsCase c = ourCase("c", true, "STRICT");
-  c.pace = "lock", c.frames = 150;
+  c.pace = "lock";
+  c.frames = 150;
   return c;
 }
 
 WallsCase controlCase() {
   WallsCase c;
-  c.engine = "control", c.kind = "", c.scene = "", c.mode = "waiting", c.pace = "lock", c.walls = 0,
+  c.engine = "control";
+  c.kind = "";
+  c.scene = "";
+  c.mode = "waiting";
+  c.pace = "lock";
+  c.walls = 0;
   c.frames = 150;
   return c;
 }
@@ -91,21 +102,29 @@ std::vector<WallsCase> tableCases(const WallsChoice& choice) {
   for (const std::string& s : choice.scenes) {
     const bool tiny = s == "c";
     for (const bool flat : tiny ? std::vector<bool>{true, false} : std::vector<bool>{false}) {
-      add(ourCase(s, flat, "STRICT")), add(osgCase(s, flat, "STRICT", "DPC"));
+      add(ourCase(s, flat, "STRICT"));
+      add(osgCase(s, flat, "STRICT", "DPC"));
       add(osgCase(s, flat, "STRICT", "CTPC"));
       if (!tiny) add(ourCase(s, flat, "OPEN"));
       add(osgCase(s, flat, "STRICT", "ST"));
       if (s != "a") add(ourCase(s, flat, "STRICT", "sequential"));
-      add(osgCase(s, flat, "SUBMIT", "DPC")), add(ourCase(s, flat, "SUBMIT"));
-      add(osgCase(s, flat, "SUBMIT", "CTPC")), add(small(ourCase(s, flat, "STRICT")));
+      add(osgCase(s, flat, "SUBMIT", "DPC"));
+      add(ourCase(s, flat, "SUBMIT"));
+      add(osgCase(s, flat, "SUBMIT", "CTPC"));
+      add(small(ourCase(s, flat, "STRICT")));
       if (tiny && flat) continue;  // the floor does not depend on it
-      add(floorCase(s, "STRICT")), add(floorCase(s, "SUBMIT"));
-      add(oneWall(ourCase(s, flat, "STRICT"))), add(oneWall(floorCase(s, "STRICT")));
+      add(floorCase(s, "STRICT"));
+      add(floorCase(s, "SUBMIT"));
+      add(oneWall(ourCase(s, flat, "STRICT")));
+      add(oneWall(floorCase(s, "STRICT")));
     }
     if (s == "a")
       for (const char* way : {"clear", "discard", "instanced", "merged"})
         add(oneWall(floorCase(s, "STRICT", way)));
-    if (tiny) add(controlCase()), add(lockedCase());
+    if (tiny) {
+      add(controlCase());
+      add(lockedCase());
+    }
   }
   return all;
 }
@@ -116,7 +135,8 @@ std::vector<std::size_t> scalingNodes() {
 
 WallsCase scalingCase(std::size_t nodes, const std::string& engine) {
   WallsCase c = engine == "floor" ? floorCase("c", "STRICT") : ourCase("c", true, "STRICT", "sequential");
-  c.nodes = nodes, c.moving = std::min<std::size_t>(100, nodes / 10);
+  c.nodes = nodes;
+  c.moving = std::min<std::size_t>(100, nodes / 10);
   c.far = 12;  // about one in a hundred is visible
   c.frames = 20;
   return c;
@@ -128,8 +148,10 @@ std::vector<WallsCase> scalingCases(const WallsChoice& choice) {
     if (c.engine == "osg" ? choice.osg : c.engine == "floor" ? choice.floor : true)
       all.push_back(std::move(c));
   };
-  for (const std::size_t nodes : scalingNodes())
-    add(scalingCase(nodes, "stadion")), add(scalingCase(nodes, "floor"));
+  for (const std::size_t nodes : scalingNodes()) {
+    add(scalingCase(nodes, "stadion"));
+    add(scalingCase(nodes, "floor"));
+  }
   for (std::size_t walls = 1; walls <= 6; ++walls)
     for (WallsCase c :
          {ourCase("a", false, "STRICT"), osgCase("a", false, "STRICT", "DPC"), floorCase("a", "STRICT")}) {

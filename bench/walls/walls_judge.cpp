@@ -13,8 +13,13 @@ constexpr double kCalm = 1.1;           ///< p99 of a loop that only waits, rela
 WallsFinding found(std::string what, std::optional<double> value, double limit, bool atLeast,
                    const std::string& why) {
   WallsFinding f;
-  f.what = std::move(what), f.limit = limit, f.atLeast = atLeast;
-  if (!value) return f.why = why, f;
+  f.what = std::move(what);
+  f.limit = limit;
+  f.atLeast = atLeast;
+  if (!value) {
+    f.why = why;
+    return f;
+  }
   f.value = *value;
   f.kind = (atLeast ? *value >= limit : *value <= limit) ? Kind::Met : Kind::Missed;
   return f;
@@ -114,7 +119,10 @@ std::string bestOsg(const WallsResults& results, const std::string& scene, bool 
   for (const char* mode : {"DPC", "CTPC"}) {
     const std::string name = nameOf(osgCase(scene, flat, kind, mode));
     const double fps = results.median(name, "fps").value_or(0);
-    if (fps > most) most = fps, best = name;
+    if (fps > most) {
+      most = fps;
+      best = name;
+    }
   }
   return best;
 }

@@ -126,7 +126,8 @@ std::string nodeCurves(const WallsResults& results, double left, double right, d
       const auto ms = results.median(nameOf(scalingCase(nodes, i == 3 ? "floor" : "stadion")), fields[i]);
       if (!ms || *ms <= 0) continue;
       curves[i].points.emplace_back(static_cast<double>(nodes), *ms);
-      times.push_back(*ms), counts.push_back(static_cast<double>(nodes));
+      times.push_back(*ms);
+      counts.push_back(static_cast<double>(nodes));
     }
   const LogAxis x = logAxis(counts, left, right), y = logAxis(times, bottom, top);
   std::string svg = svgText(left, top - 34, "start", "a frame of 4 walls over the number of nodes [ms]",

@@ -20,7 +20,10 @@ Diagnostic problem(const std::string& what) {
 
 std::vector<std::string> ourWords(const WallsCase& c) {
   std::vector<std::string> words{"bench", "walls", "--one"};
-  if (c.engine == "control") return words.insert(words.end(), {"--control"}), words;
+  if (c.engine == "control") {
+    words.insert(words.end(), {"--control"});
+    return words;
+  }
   words.insert(words.end(), {"--scene", c.scene, "--class", c.kind, "--mode", c.mode, "--layout",
                              c.flat ? "flat" : "grid", "--pace", c.pace, "--gl", "osmesa"});
   if (!c.drawnBy.empty()) words.insert(words.end(), {"--wall-workers", c.drawnBy});
@@ -68,13 +71,16 @@ std::vector<std::string> wordsFor(const WallsCase& c, const WallsPrograms& progr
   const std::vector<std::string> own = osg ? osgWords(c) : floor ? floorWords(c) : ourWords(c);
   words.insert(words.end(), own.begin(), own.end());
   const auto add = [&](const char* name, auto value) {
-    words.push_back(name), words.push_back(fmt::format("{}", value));
+    words.push_back(name);
+    words.push_back(fmt::format("{}", value));
   };
   add("--frames", c.frames);
   if (c.engine == "control") return words;
   const bool ours = !osg && !floor;
-  add(ours ? "--wall-count" : "--walls", c.walls), add("--width", c.width), add("--height", c.height),
-      add("--warm", c.warm);
+  add(ours ? "--wall-count" : "--walls", c.walls);
+  add("--width", c.width);
+  add("--height", c.height);
+  add("--warm", c.warm);
   if (c.nodes) add(ours ? "--scene-nodes" : "--nodes", c.nodes);
   if (c.moving) add("--moving", c.moving);
   if (c.far > 0) add("--far", c.far);
@@ -94,10 +100,17 @@ nlohmann::json completed(const WallsCase& c, nlohmann::json row) {
   }
   row["engine"] = c.engine;
   if (c.engine == "control") return row;
-  row["class"] = c.kind, row["scene"] = c.scene;
-  row["walls"] = c.walls, row["width"] = c.width, row["height"] = c.height;
+  row["class"] = c.kind;
+  row["scene"] = c.scene;
+  row["walls"] = c.walls;
+  row["width"] = c.width;
+  row["height"] = c.height;
   row["flat"] = c.flat ? 1 : 0;
-  if (c.nodes) row["nodes"] = c.nodes, row["moving"] = c.moving, row["far"] = c.far;
+  if (c.nodes) {
+    row["nodes"] = c.nodes;
+    row["moving"] = c.moving;
+    row["far"] = c.far;
+  }
   return row;
 }
 
@@ -109,7 +122,10 @@ Result<nlohmann::json> measure(const WallsCase& c, const WallsPrograms& programs
 
 WallsCase ourPictures(const PicturesCase& c) {
   WallsCase ours = ourCase(c.scene, true, c.kind);
-  ours.walls = 6, ours.warm = 2, ours.frames = 3, ours.drawnBy = c.drawnBy;
+  ours.walls = 6;
+  ours.warm = 2;
+  ours.frames = 3;
+  ours.drawnBy = c.drawnBy;
   return ours;
 }
 
@@ -117,7 +133,8 @@ Result<nlohmann::json> comparePictures(const PicturesCase& c, const WallsProgram
                                        const std::string& folder) {
   const WallsCase ours = ourPictures(c);
   WallsCase theirs = osgCase(c.scene, true, c.kind == "SUBMIT" ? c.kind : "STRICT", "ST");
-  theirs.walls = ours.walls, theirs.warm = ours.warm;
+  theirs.walls = ours.walls;
+  theirs.warm = ours.warm;
   theirs.frames = ours.frames + 1;  // OpenSceneGraph counts frames from 1: the frame is the same
   const std::string our = folder + "/stadion", their = folder + "/osg";
   const auto draw = [&](const WallsCase& of, const char* option, const std::string& prefix) {

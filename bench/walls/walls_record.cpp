@@ -15,7 +15,8 @@ constexpr const char* kOther = "give another --record FILE, or delete this one";
 
 Diagnostic wrongIn(const std::string& file, std::size_t line, std::string what) {
   Diagnostic d;
-  d.where.file = file, d.where.line = static_cast<std::uint32_t>(line);
+  d.where.file = file;
+  d.where.line = static_cast<std::uint32_t>(line);
   d.message = std::move(what);
   return d;
 }
@@ -23,8 +24,10 @@ Diagnostic wrongIn(const std::string& file, std::size_t line, std::string what) 
 std::optional<RecordHead> headIn(const nlohmann::json& line) {
   if (!line.is_object() || line.value("record", "") != kKind) return {};
   RecordHead head;
-  head.build = line.value("build", ""), head.machine = line.value("machine", "");
-  head.drawnBy = line.value("wall_workers", ""), head.begun = line.value("begun", std::int64_t{0});
+  head.build = line.value("build", "");
+  head.machine = line.value("machine", "");
+  head.drawnBy = line.value("wall_workers", "");
+  head.begun = line.value("begun", std::int64_t{0});
   return head;
 }
 

@@ -40,8 +40,10 @@ struct Line {
 
 std::vector<Line> linesOf(const ShowFigures& f, const Show& show) {
   double measured = 0, found = 0;
-  for (const StageBreakdown* e : {&f.app, &f.cull, &f.draw})
-    measured += e->measured, found += std::min(e->measured, e->nodes + e->named);
+  for (const StageBreakdown* e : {&f.app, &f.cull, &f.draw}) {
+    measured += e->measured;
+    found += std::min(e->measured, e->nodes + e->named);
+  }
   const double alone = f.alone.nodes + f.alone.named;
   const double both = f.app.measured + f.cull.measured;
   std::vector<Line> lines = {
@@ -100,9 +102,12 @@ int benchAttribution(const BenchAttributionOptions& o) {
   TerminalReporter terminal;
   for (const Show& show : shows) {
     ProfileRunOptions options;
-    options.show.script = show.script, options.show.walls = show.walls, options.show.size = show.size;
+    options.show.script = show.script;
+    options.show.walls = show.walls;
+    options.show.size = show.size;
     options.show.mode = Mode::Sequential;  // so that nothing else of the process is at work meanwhile
-    options.show.frames = o.frames, options.show.assetRoots = {scripts};
+    options.show.frames = o.frames;
+    options.show.assetRoots = {scripts};
     options.renderer = {RendererChoice::Gl, GlProviderKind::OsMesa};  // it draws single nodes
     if (!options.show.complete(findings)) return exitWith(findings, kBadInput);
     Failure failure;

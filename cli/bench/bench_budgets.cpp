@@ -100,7 +100,8 @@ public:
   /// Of a replay of what was recorded: over the state hashes of all frames. Nothing if it cannot be played.
   std::optional<std::uint64_t> replay(Mode mode, Diagnostics& findings) {
     ShowOptions show = showOptions();
-    show.input = folder_.path("live.input"), show.mode = mode;
+    show.input = folder_.path("live.input");
+    show.mode = mode;
     const auto player = Player::create(show, findings, printFindings);
     auto watch = player ? RunWatch::create({}, PlaySettings{.everyFrame = true}, *player, findings) : nullptr;
     if (!watch) return {};
@@ -117,18 +118,22 @@ private:
   ShowOptions showOptions() const {
     ShowOptions show;
     show.script = folder_.path("show.evs");
-    show.walls = "desktop", show.rate = kRate;
+    show.walls = "desktop";
+    show.rate = kRate;
     show.assetRoots = {shareFolder() + "/assets"};
-    show.width = 32, show.height = 24;
+    show.width = 32;
+    show.height = 24;
     return show;
   }
 
   std::unique_ptr<ShowRecording> recordingOf(const Player& player, Diagnostics& findings) {
     RecordingOptions options;
-    options.profile = false, options.log.samples = false;
+    options.profile = false;
+    options.log.samples = false;
     options.keep = BlackBoxOptions{folder_.path("frames"), kRate, player.walls().names(), {}, {}};
     GovernorOptions governor;
-    governor.rate = kRate, governor.walls = player.walls().names();
+    governor.rate = kRate;
+    governor.walls = player.walls().names();
     governor.tell = [this](const std::string& line) { record(line); };
     options.govern = std::move(governor);
     return ShowRecording::create(std::move(options), findings);
@@ -143,7 +148,8 @@ private:
     const std::uint64_t frame = stall_->frame();
     const bool named = line.starts_with("over budget") && line.find("\"game\"") != line.npos;
     if (!named || frame < o_.from() || played_.named) return;
-    played_.named = frame, played_.toldAs = line;
+    played_.named = frame;
+    played_.toldAs = line;
   }
 
   static std::uint64_t historyOf(const RunWatch& watch) {
@@ -227,7 +233,8 @@ void judge(const BenchBudgetsOptions& o, const BudgetRun& p, Report& report) {
   for (std::uint64_t f = from; f < to; ++f) late += !isOnTime(p, f);
   for (const auto& [frame, d] : p.decisions) {
     tries += frame > from && frame < to && d.level < level;
-    level = d.level, last = frame;
+    level = d.level;
+    last = frame;
   }
   report.lateFrames(late, to - from, tries);
   const std::uint64_t quiet = BenchBudgetsOptions::frame(o.seconds() - o.quiet);

@@ -45,9 +45,14 @@ constexpr int kMostAttempts = 3;
 
 SuiteCase crowd(std::size_t rounds) {
   SuiteCase c;
-  c.name = "crowd", c.show = shareFolder() + "/scripts/crowd.evs",
+  c.name = "crowd";
+  c.show = shareFolder() + "/scripts/crowd.evs";
   c.walls = shareFolder() + "/scripts/suites/two.walls";
-  c.size = "32x24", c.stereo = "off", c.frames = kFrames, c.input = "none", c.rounds = rounds;
+  c.size = "32x24";
+  c.stereo = "off";
+  c.frames = kFrames;
+  c.input = "none";
+  c.rounds = rounds;
   return c;
 }
 
@@ -137,7 +142,8 @@ private:
     const auto [plain, planted] = countBoth(toText(tried));
     if (!plain.fault.empty() || !planted.fault.empty() || stop_)
       return printError(plain.fault.empty() ? planted.fault : plain.fault);
-    plain_ = plain.rows, prices_.stages = stageInstructions(plain.rows);
+    plain_ = plain.rows;
+    prices_.stages = stageInstructions(plain.rows);
     const std::string stage = stageOf(tried);
     prices_.iteration = (stageInstructions(planted.rows)[stage] - prices_.stages[stage]) /
                         static_cast<double>(kTriedIterations);

@@ -71,7 +71,10 @@ private:
     script_ = scene.script;
     const bool openGl = std::ranges::any_of(rungs_, [](const bench::NamedRung& r) { return !r.rung; });
     auto pictures = bench::RungPictures::create(show_->meshes(), show_->size(), openGl);
-    if (!pictures) return findings.add(pictures.error()), false;
+    if (!pictures) {
+      findings.add(pictures.error());
+      return false;
+    }
     pictures_ = std::move(pictures.value());
     return true;
   }
@@ -98,7 +101,10 @@ private:
   /// The wall in this frame and in those that follow it.
   std::vector<DrawList> nextLists(const std::string& wall) {
     std::vector<DrawList> lists{show_->listOf(wall)};
-    while (lists.size() < o_.frames) show_->playFrame(), lists.push_back(show_->listOf(wall));
+    while (lists.size() < o_.frames) {
+      show_->playFrame();
+      lists.push_back(show_->listOf(wall));
+    }
     return lists;
   }
 

@@ -66,7 +66,9 @@ public:
   /// False, with the findings, if something of the user's is wrong. `met`: all within the limit.
   bool run(const std::string& script, Diagnostics& findings, bool& met) {
     PlanRunOptions options;
-    options.show.script = script, options.show.walls = "cave6", options.show.size = o_.size;
+    options.show.script = script;
+    options.show.walls = "cave6";
+    options.show.size = o_.size;
     options.show.frames = o_.frames;
     if (!options.show.complete(findings)) return false;
     std::vector<Combination> combinations;
@@ -98,9 +100,11 @@ private:
     if (!measureCosts(options, renderer_, terminal_, costs, findings)) return {};
     plan::Plan p;
     p.machine.cores = std::max(1u, std::thread::hardware_concurrency());
-    p.takesTurns = renderer_.drawsWithGl(), p.waitsInTurn = costs.waitsInTurn;
+    p.takesTurns = renderer_.drawsWithGl();
+    p.waitsInTurn = costs.waitsInTurn;
     p.frames = options.show.frames;
-    p.walls = c.walls, p.pipelined = c.mode == Mode::Pipelined;
+    p.walls = c.walls;
+    p.pipelined = c.mode == Mode::Pipelined;
     return plan::forecastOf(plan::scheduleOf(plan::plannedCosts(costs.runs), p), p);
   }
 

@@ -89,8 +89,10 @@ Errors errorsOf(const HeadPath& path, const BenchPredictionOptions& o, double ah
 std::optional<HeadPath> pathOf(const std::string& file, Diagnostics& findings) {
   auto log = loadInputLog(file, findings);
   if (!log) return {};
-  if (!log->find(kHeadTracker))
-    return findings.error({file, 0, 0}, "the log has no head; record one with --record-input"), std::nullopt;
+  if (!log->find(kHeadTracker)) {
+    findings.error({file, 0, 0}, "the log has no head; record one with --record-input");
+    return std::nullopt;
+  }
   const auto shared = std::make_shared<const InputLog>(std::move(*log));
   return HeadPath{std::filesystem::path(file).filename(), [shared](Nanoseconds t) {
                     InputSample sample;

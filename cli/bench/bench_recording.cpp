@@ -143,7 +143,10 @@ double ratioOf(const std::vector<double>& with, const std::vector<double>& witho
   std::vector<double> ratios;
   for (std::size_t at = kFramesBefore; at + kBlock <= std::min(with.size(), without.size()); at += kBlock) {
     double a = 0, b = 0;
-    for (std::size_t i = at; i < at + kBlock; ++i) a += with[i], b += without[i];
+    for (std::size_t i = at; i < at + kBlock; ++i) {
+      a += with[i];
+      b += without[i];
+    }
     ratios.push_back(a / b);
   }
   return medianOfRounds(std::move(ratios));
@@ -200,8 +203,12 @@ int benchRecording(const BenchRecordingOptions& o) {
   Diagnostics findings;
   if (const auto wrong = writeFile(folder.path("grid.evs"), gridScript())) findings.add(*wrong);
   ShowOptions show;
-  show.script = folder.path("grid.evs"), show.walls = "desktop", show.size = o.size, show.input = "none";
-  show.frames = o.frames + kFramesBefore, show.assetRoots = {shareFolder() + "/scripts"};
+  show.script = folder.path("grid.evs");
+  show.walls = "desktop";
+  show.size = o.size;
+  show.input = "none";
+  show.frames = o.frames + kFramesBefore;
+  show.assetRoots = {shareFolder() + "/scripts"};
   const auto renderer = ShowRenderer::open(o.renderer.settings(findings));
   if (!renderer) findings.add(renderer.error());
   if (findings.hasErrors() || !show.complete(findings)) return exitWith(findings, kBadInput);
@@ -211,7 +218,8 @@ int benchRecording(const BenchRecordingOptions& o) {
     const auto measured = measureRound(show, *renderer.value(), round % 2, findings);
     printFindings(findings);
     if (!measured) return kBadInput;
-    ratios.push_back(measured->ratio), ms = measured->ms;
+    ratios.push_back(measured->ratio);
+    ms = measured->ms;
     std::fprintf(stderr, "round %zu of %zu: %+.2f %%\n", round + 1, o.rounds, 100 * (measured->ratio - 1));
   }
   const double more = medianOfRounds(ratios) - 1;

@@ -82,7 +82,8 @@ void playFrames(Player& player, const BenchScaleOptions& o, Figures& f) {
   ShowStages stages(std::move(parts));
   std::vector<DrawList> lists(walls);
   Elsewhere elsewhere(o.cold);
-  f.app.reserve(o.frames), f.cull.reserve(o.frames);
+  f.app.reserve(o.frames);
+  f.cull.reserve(o.frames);
   for (std::uint64_t frame = 0; frame < kWarm + o.frames; ++frame) {
     const TimeSignature now = signatureAt(frame, player.rate());
     elsewhere.visit();
@@ -94,7 +95,8 @@ void playFrames(Player& player, const BenchScaleOptions& o, Figures& f) {
     const Clock::time_point cull = Clock::now();
     for (std::size_t wall = 0; wall < walls; ++wall) stages.cull(wall, frame % kSlots, lists[wall]);
     if (frame < kWarm) continue;
-    f.app.push_back(appMs), f.cull.push_back(millisecondsSince(cull));
+    f.app.push_back(appMs);
+    f.cull.push_back(millisecondsSince(cull));
     f.allocations += during;
   }
   for (const DrawList& list : lists) f.seen += static_cast<double>(list.opaque.size());
@@ -102,11 +104,16 @@ void playFrames(Player& player, const BenchScaleOptions& o, Figures& f) {
 
 std::optional<Figures> measure(const BenchScaleOptions& o) {
   const TemporaryFolder folder;
-  if (const std::string wrong = bench::writeCity(folder.path(""), o.city); !wrong.empty())
-    return std::fprintf(stderr, "stadion: %s\n", wrong.c_str()), std::nullopt;
+  if (const std::string wrong = bench::writeCity(folder.path(""), o.city); !wrong.empty()) {
+    std::fprintf(stderr, "stadion: %s\n", wrong.c_str());
+    return std::nullopt;
+  }
   ShowOptions show;
-  show.script = folder.path("city.evs"), show.walls = folder.path("city.walls");
-  show.size = "800x600", show.input = "none", show.frames = kWarm + o.frames;
+  show.script = folder.path("city.evs");
+  show.walls = folder.path("city.walls");
+  show.size = "800x600";
+  show.input = "none";
+  show.frames = kWarm + o.frames;
   Diagnostics findings;
   const auto nodes = static_cast<double>(o.city.still + o.city.moving);
   Figures f;

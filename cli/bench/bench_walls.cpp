@@ -163,7 +163,10 @@ int benchWalls(const CLI::App& command, const BenchWallsOptions& o) {
   if (!o.measureOne) return benchTable(o);
   WallsSetting one = o.one;
   std::error_code unmade;  // reported as a picture that cannot be written
-  if (!o.out.empty()) std::filesystem::create_directories(o.out, unmade), one.pictures = o.out + "/picture";
+  if (!o.out.empty()) {
+    std::filesystem::create_directories(o.out, unmade);
+    one.pictures = o.out + "/picture";
+  }
   if (const std::string why = unwritable(one); !why.empty()) return refuse(why);
   one.flat = o.layout == "flat";
   if (!o.drawnBy.empty()) one.drawnBy = o.drawnBy;

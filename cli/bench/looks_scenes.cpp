@@ -30,7 +30,9 @@ std::unique_ptr<LooksShow> LooksShow::open(const LooksScene& scene, const std::s
                                            Diagnostics& findings) {
   ShowOptions options;
   options.script = shareFolder() + "/scripts/" + std::string(scene.script);
-  options.walls = "cave4", options.onlyWalls = scene.walls, options.size = size;
+  options.walls = "cave4";
+  options.onlyWalls = scene.walls;
+  options.size = size;
   if (!options.complete(findings)) return nullptr;
   std::unique_ptr<LooksShow> show(new LooksShow);
   show->player_ = Player::create(options, findings, printFindings);

@@ -50,8 +50,14 @@ struct CompletedFrames {
   double processorBegin = 0, processorEnd = 0;
 
   void add(const WallsSetting& s) {
-    if (++frames == s.warm) begin = Clock::now(), processorBegin = processorSeconds();
-    if (frames == s.warm + s.frames) end = Clock::now(), processorEnd = processorSeconds();
+    if (++frames == s.warm) {
+      begin = Clock::now();
+      processorBegin = processorSeconds();
+    }
+    if (frames == s.warm + s.frames) {
+      end = Clock::now();
+      processorEnd = processorSeconds();
+    }
   }
 };
 

@@ -27,7 +27,8 @@ bench::RecordHead recordHead(const bench::WallsPrograms& programs, const std::st
   const auto now = std::chrono::system_clock::now().time_since_epoch();
   bench::RecordHead head;
   head.build = fmt::format("{:016x}", build.value());
-  head.machine = textOf(thisMachine()), head.drawnBy = drawnBy;
+  head.machine = textOf(thisMachine());
+  head.drawnBy = drawnBy;
   head.begun = std::chrono::duration_cast<std::chrono::seconds>(now).count();
   return head;
 }

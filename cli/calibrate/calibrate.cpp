@@ -111,10 +111,11 @@ int forget(const std::string& file) {
 int calibrate(const CalibrateOptions& o) {
   if (!o.one.empty()) return measureOne(o);
   const std::string file = calibrationFile();
-  if (file.empty())
-    return std::fprintf(stderr, "stadion: there is no place to remember it: set STADION_CALIBRATION to a "
-                                "file's name, or HOME to your folder\n"),
-           kBadInput;
+  if (file.empty()) {
+    std::fprintf(stderr, "stadion: there is no place to remember it: set STADION_CALIBRATION to a "
+                         "file's name, or HOME to your folder\n");
+    return kBadInput;
+  }
   if (o.forget) return forget(file);
   const Result<Calibration> known = readCalibration(file);
   if (!known) return printError(known.error(), kBadInput);
@@ -125,15 +126,19 @@ int calibrate(const CalibrateOptions& o) {
   if (findings.hasErrors()) return kBadInput;
   warnIfBusy(loadNow());
   const TemporaryFolder folder;
-  if (const std::string wrong = writeCalibrationShow(folder.path("")); !wrong.empty())
-    return std::fprintf(stderr, "stadion: %s\n", wrong.c_str()), kBadInput;
+  if (const std::string wrong = writeCalibrationShow(folder.path("")); !wrong.empty()) {
+    std::fprintf(stderr, "stadion: %s\n", wrong.c_str());
+    return kBadInput;
+  }
   MachineCalibration measured;
   measured.machine = thisMachine();
   for (const RoomToMeasure& room : rooms) {
     const auto found = measureRoom(room, folder.path(""), stop,
                                    [](const std::string& text) { std::fputs(text.c_str(), stderr); });
-    if (stop)
-      return std::fprintf(stderr, "stadion: stopped; nothing is remembered\n"), kStopped + stopSignal();
+    if (stop) {
+      std::fprintf(stderr, "stadion: stopped; nothing is remembered\n");
+      return kStopped + stopSignal();
+    }
     if (!found) return printError(found.error(), kCheckFailed);
     measured.rooms.push_back(found.value().room);
     measured.machine.rasteriser = found.value().rasteriser;

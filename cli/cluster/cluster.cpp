@@ -58,8 +58,10 @@ bool canBePlayed(const ClusterOptions& o, const std::vector<std::vector<std::str
 bool makeFolders(const std::string& out, const ClusterFile& cluster, Diagnostics& findings) {
   if (out.empty()) return true;
   for (const ClusterNode& node : cluster.nodes)
-    if (const auto folder = OutputFolder::open(folderOfHost(out, node.name)); !folder)
-      return findings.add(folder.error()), false;
+    if (const auto folder = OutputFolder::open(folderOfHost(out, node.name)); !folder) {
+      findings.add(folder.error());
+      return false;
+    }
   return true;
 }
 

@@ -66,7 +66,8 @@ std::optional<Diagnostic> readFlights(const FitOptions& o, FitTask& task) {
     if (!flight) return flight.error();
     if (const char* const fault = faultOf(flight.value())) {
       Diagnostic wrong;
-      wrong.where.file = file, wrong.message = fault;
+      wrong.where.file = file;
+      wrong.message = fault;
       return wrong;
     }
     for (TrajectorySample& s : flight.value()) {

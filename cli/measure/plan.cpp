@@ -74,8 +74,10 @@ std::optional<plan::ShowCosts> readFrom(const std::string& file, Diagnostics& fi
 std::optional<plan::ShowCosts> measure(PlanOptions& o, Diagnostics& findings) {
   ShowOptions& show = o.run.show;
   if (show.frames == 0 && show.seconds == 0) show.frames = kFramesMeasured;
-  if (show.frames == 0)
-    show.frames = static_cast<std::uint64_t>(std::ceil(show.seconds * show.rate)), show.seconds = 0;
+  if (show.frames == 0) {
+    show.frames = static_cast<std::uint64_t>(std::ceil(show.seconds * show.rate));
+    show.seconds = 0;
+  }
   if (!show.complete(findings)) return {};
   const auto walls = loadWalls(show.walls, shareFolder() + "/walls", findings);
   if (!walls) return {};
@@ -101,12 +103,15 @@ std::optional<plan::ShowCosts> measure(PlanOptions& o, Diagnostics& findings) {
   costs.walls = walls->names();
   costs.walls.resize(o.run.walls);
   const bool byCpu = !renderer.value()->drawsWithGl();
-  costs.renderer = byCpu ? "cpu" : "gl", costs.cores = coresHere();
+  costs.renderer = byCpu ? "cpu" : "gl";
+  costs.cores = coresHere();
   costs.rasterThreads = byCpu ? renderer.value()->threads() : rasterThreadsHere();
   costs.waitsInTurn = measured.waitsInTurn;
   costs.frames = plan::plannedCosts(measured.runs);
-  if (costs.frames.empty())
-    return findings.error({}, "no frame could be measured: ask for more with --frames"), std::nullopt;
+  if (costs.frames.empty()) {
+    findings.error({}, "no frame could be measured: ask for more with --frames");
+    return std::nullopt;
+  }
   if (load > kQuietPlan * coresHere() || plan::wasStarved(costs.frames))
     findings.warning({},
                      fmt::format("others were at work on this machine (load {:.1f} before, {:g} cores): what "
@@ -118,18 +123,22 @@ std::optional<plan::ShowCosts> measure(PlanOptions& o, Diagnostics& findings) {
 
 plan::Question questionOf(const PlanOptions& o, const plan::ShowCosts& costs) {
   plan::Question q;
-  q.sequential = o.mode != "pipelined", q.pipelined = o.mode != "sequential";
+  q.sequential = o.mode != "pipelined";
+  q.pipelined = o.mode != "sequential";
   q.plan.pipelined = q.pipelined;
   q.plan.walls = o.count.value_or(costs.walls.size());
   q.plan.machine = plan::machineWith(o.cores > 0 ? o.cores : costs.cores, costs);
   q.plan.machines = o.machines;
-  q.plan.takesTurns = costs.renderer != "cpu", q.plan.waitsInTurn = costs.waitsInTurn;
+  q.plan.takesTurns = costs.renderer != "cpu";
+  q.plan.waitsInTurn = costs.waitsInTurn;
   q.plan.rasterisers = o.processes ? q.plan.walls : 1;
   q.plan.pacing = o.pace == "lock"    ? plan::Pacing::Lock
                   : o.pace == "float" ? plan::Pacing::Float
                                       : plan::Pacing::Free;
-  q.plan.newest = o.pace != "free", q.plan.rate = o.run.show.rate;
-  q.plan.mostInFlight = o.mostInFlight, q.plan.drawBeginsEarly = o.cullDraw == "overlap";
+  q.plan.newest = o.pace != "free";
+  q.plan.rate = o.run.show.rate;
+  q.plan.mostInFlight = o.mostInFlight;
+  q.plan.drawBeginsEarly = o.cullDraw == "overlap";
   q.plan.frames = std::max<std::size_t>(costs.frames.size(), 24);
   return q;
 }

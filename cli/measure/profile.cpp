@@ -99,7 +99,8 @@ int profileFrames(ProfileOptions o) {
   ProfileRunOptions& options = o.run;
   options.show = o.fidelity.show;
   options.layout = *stereoLayout(options.stereo);
-  options.fidelity = o.fidelity, options.fidelity.report = printFindings,
+  options.fidelity = o.fidelity;
+  options.fidelity.report = printFindings;
   options.fidelityAsked = o.fidelityAsked;
   options.fidelity.tolerance = 1e-3 * o.millimetres;
   Diagnostics findings;

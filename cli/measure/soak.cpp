@@ -184,7 +184,10 @@ void Soak::see(const TimeSignature& now, const Scene& scene, const RunWatch& wat
   countSeconds();
   const ProcessFigures p = processFigures();
   record_.add({0, c.visits, c.frames, p.residentBytes, p.heapBytes, p.handles, p.threads});
-  if (measured_ - told_ > std::chrono::seconds(10)) told_ = measured_, tellProgress();
+  if (measured_ - told_ > std::chrono::seconds(10)) {
+    told_ = measured_;
+    tellProgress();
+  }
 }
 
 void Soak::countSeconds() {
@@ -345,8 +348,10 @@ int soak(SoakOptions o) {
     return tellVerdicts(o, *record).well() ? kOk : kCheckFailed;
   }
   const auto renderer = ShowRenderer::open(settings);
-  if (!renderer)
-    return std::fprintf(stderr, "stadion: %s\n", renderer.error().message.c_str()), kInternalFault;
+  if (!renderer) {
+    std::fprintf(stderr, "stadion: %s\n", renderer.error().message.c_str());
+    return kInternalFault;
+  }
   record->begin();
   Soak run(o, *record, *renderer.value(), stop);
   if (!run.play()) return kBadInput;

@@ -25,7 +25,8 @@ template <class Value>
 constexpr bool kIsVector<std::vector<Value>> = true;
 
 ValueGrammar narrowed(ValueGrammar g, const OptionLimits& limits, bool isVector) {
-  g.least = limits.least.value_or(g.least), g.most = limits.most.value_or(g.most);
+  g.least = limits.least.value_or(g.least);
+  g.most = limits.most.value_or(g.most);
   if (!limits.words.empty()) g.words = limits.words;
   if (!isVector) g.times = ValueTimes::Once;
   if (isVector && g.times == ValueTimes::Once && g.count == 1) g.times = ValueTimes::Repeated;

@@ -11,7 +11,8 @@ void addPluginOption(CLI::App& command, std::vector<std::string>& files, SharedT
   CommandOptions(command).addFunction("--plugin", [&files, &types](const std::vector<std::string>& given) {
     auto loaded = nodesWith(given);
     if (!loaded) throw CLI::ValidationError("--plugin", loaded.error().message);
-    files = given, types = std::move(loaded.value());
+    files = given;
+    types = std::move(loaded.value());
   });
 }
 

@@ -67,7 +67,9 @@ void RunOptions::completeUndrawn(Diagnostics& findings) const {
     if (asked)
       findings.error({}, std::string(option) + " needs pictures, and --gl none draws none: leave one out");
   };
-  refuse(r.video, "--video"), refuse(r.sheets, "--sheets"), refuse(r.hashes, "--hashes");
+  refuse(r.video, "--video");
+  refuse(r.sheets, "--sheets");
+  refuse(r.hashes, "--hashes");
 }
 
 /// Options of drawing that exclude each other.

@@ -37,7 +37,8 @@ std::string nowUtc() {
 
 /// What to compare with, or to update, as the options say; false if it should be there and is not.
 bool findReference(const RegressOptions& o, RegressReference& with, Diagnostics& findings) {
-  with.program = o.against, with.baselineFile = o.baseline;
+  with.program = o.against;
+  with.baselineFile = o.baseline;
   std::error_code none;
   if (!o.against.empty()) return true;
   if (!std::filesystem::exists(o.baseline, none)) {
@@ -108,7 +109,10 @@ void refuseOverwriting(const RegressOptions& o, const std::vector<regression::Su
   std::vector<ShowOptions> shows;
   for (const regression::SuiteCase& c : cases) {
     ShowOptions& show = shows.emplace_back();
-    show.script = c.show, show.walls = c.walls, show.input = c.input, show.assetRoots = c.assetRoots;
+    show.script = c.show;
+    show.walls = c.walls;
+    show.input = c.input;
+    show.assetRoots = c.assetRoots;
   }
   files.push_back({o.baselineGiven ? "--baseline" : "the suite's baseline", o.baseline, o.update});
   if (!o.out.empty())

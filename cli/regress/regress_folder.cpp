@@ -57,8 +57,10 @@ bool RegressFolder::open(const RegressOptions& o, const std::string& suiteText) 
   folder_ = o.out;
   std::error_code why;
   std::filesystem::create_directories(folder_, why);
-  if (why)
-    return std::fprintf(stderr, "stadion: --out %s: %s\n", folder_.c_str(), why.message().c_str()), false;
+  if (why) {
+    std::fprintf(stderr, "stadion: --out %s: %s\n", folder_.c_str(), why.message().c_str());
+    return false;
+  }
   if (!lock() || !openOutputs()) return false;
   const std::string identity = identityOf(o, suiteText);
   if (o.resume) done_ = regression::readProgress(textOf(pathOf(kProgress)), identity);
@@ -85,7 +87,10 @@ bool RegressFolder::openOutputs() {
   bool well = true;
   for (const char* name : {kPage, kResults, kJunit}) {
     const auto [at, isNew] = outputs_.try_emplace(name, pathOf(name));
-    if (const auto& wrong = at->second.error()) printError(wrong->where.file, wrong->message), well = false;
+    if (const auto& wrong = at->second.error()) {
+      printError(wrong->where.file, wrong->message);
+      well = false;
+    }
   }
   return well && append(kHistory, "");
 }
@@ -106,7 +111,10 @@ bool RegressFolder::finish(const regression::SuiteResult& result) {
   for (const auto& [name, text] : all) {
     AtomicFile& file = outputs_.at(name);
     file.write(text);
-    if (const auto wrong = file.commit()) printError(wrong->where.file, wrong->message), well = false;
+    if (const auto wrong = file.commit()) {
+      printError(wrong->where.file, wrong->message);
+      well = false;
+    }
   }
   return well && append(kHistory, regression::toJsonLine(history.back()));
 }

@@ -117,8 +117,11 @@ bool RegressOptions::choose(regression::Suite& suiteRead, Diagnostics& findings)
   const regression::Metrics wanted = asked();
   for (regression::SuiteCase& c : suiteRead.cases) {
     regression::Metrics& m = c.metrics;
-    m.state &= wanted.state, m.images &= wanted.images, m.counts &= wanted.counts;
-    m.instructions &= wanted.instructions, m.times &= wanted.times;
+    m.state &= wanted.state;
+    m.images &= wanted.images;
+    m.counts &= wanted.counts;
+    m.instructions &= wanted.instructions;
+    m.times &= wanted.times;
     if (rounds > 0) c.rounds = rounds;
     c.renderer = renderer.words();
   }

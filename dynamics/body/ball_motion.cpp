@@ -75,7 +75,8 @@ BallArc CarriedBall::stand(const Vec3& omega) const {
   arc.horizon = kForever;
   arc.path = Path::still(s.p);
   if (omega.isZero(0)) {
-    arc.mode = BodyMode::Rest, arc.spin = Spin::still(s.q);
+    arc.mode = BodyMode::Rest;
+    arc.spin = Spin::still(s.q);
     return arc;
   }
   arc.mode = BodyMode::Roll;

@@ -19,7 +19,8 @@ Extent extentAlong(const Vec3& direction, const Mesh& mesh) {
   Extent e;
   for (const auto& p : mesh.positions) {
     const double x = direction.dot(Vec3(p[0], p[1], p[2]));
-    e.back = std::min(e.back, x), e.front = std::max(e.front, x);
+    e.back = std::min(e.back, x);
+    e.front = std::max(e.front, x);
   }
   return e;
 }

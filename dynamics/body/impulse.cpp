@@ -95,7 +95,8 @@ Vec3 collide(SolverBody& a, SolverBody& b, const Vec3& x, const Vec3& n, double 
     impulse = (restitution + 1) * closing / (responseAlong(a, x, n) + responseAlong(b, x, n)) * n;
   }
   if (!impulse.allFinite()) return Vec3::Zero();
-  a.apply(impulse, x), b.apply(-impulse, x);
+  a.apply(impulse, x);
+  b.apply(-impulse, x);
   return impulse;
 }
 

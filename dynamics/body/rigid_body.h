@@ -32,7 +32,9 @@ struct GuidedMotion {
   std::size_t part = 0;  ///< piece of `arcs` at the last turn
 
   void set(const Pose& from, const Pose& to, double tau, double seconds) {
-    start = from, end = to, begin = tau;
+    start = from;
+    end = to;
+    begin = tau;
     moving = seconds > 0 && (from.p != to.p || from.q.coeffs() != to.q.coeffs());
     rate = moving ? 1 / seconds : 0;
     v = moving ? Vec3((to.p - from.p) * rate) : Vec3::Zero();
@@ -46,7 +48,11 @@ struct GuidedMotion {
     moving = false;
     for (std::size_t i = part; i < arcs.size() && arcs[i].tau < until; ++i)
       moving = moving || !arcs[i].stands();
-    if (!moving) arcs.clear(), v.setZero(), omega.setZero();
+    if (!moving) {
+      arcs.clear();
+      v.setZero();
+      omega.setZero();
+    }
   }
   void rebase(const Instant& origin) {
     for (ArcPiece& p : arcs) p.tau = p.from.since(origin);
@@ -268,7 +274,8 @@ struct RigidBody : RigidMotion, BodyMatter {
     if (mode == BodyMode::Held) {
       Kinematics k = grip.held.at(tau);
       const Vec3 c = k.pose * X_NC.p;
-      k.v = k.velocityAt(c), k.p = c;
+      k.v = k.velocityAt(c);
+      k.p = c;
       return k;
     }
     const Pose X_WC{position(tau), orientation(tau)};
@@ -298,8 +305,10 @@ struct Collider {
 
   void move(const Pose& from, const Pose& to, double tau, double seconds) {
     motion.set(from, to, tau, seconds);
-    if (const auto* plane = std::get_if<PlaneShape>(shape))
-      planePoint = to * plane->pose.p, planeNormal = to.q * plane->normal();
+    if (const auto* plane = std::get_if<PlaneShape>(shape)) {
+      planePoint = to * plane->pose.p;
+      planeNormal = to.q * plane->normal();
+    }
   }
 };
 

@@ -35,16 +35,22 @@ Aabb BallFlight::around(double s, double t) const {
     const double turn = -v[i] / a[i];
     if (!(turn > s && turn < t)) continue;
     const double x = p[i] + 0.5 * turn * v[i];
-    box.lo[i] = std::min(box.lo[i], x), box.hi[i] = std::max(box.hi[i], x);
+    box.lo[i] = std::min(box.lo[i], x);
+    box.hi[i] = std::max(box.hi[i], x);
   }
   const double margin = radius + 1e-9;
-  box.lo.array() -= margin, box.hi.array() += margin;
+  box.lo.array() -= margin;
+  box.hi.array() += margin;
   return box;
 }
 
 double BallFlight::timeToPlane(const Triangle& t, double most) const {
   double h = t.normal.dot(p - t.v[0]), u = t.normal.dot(v), b = t.normal.dot(a);
-  if (h < 0) h = -h, u = -u, b = -b;
+  if (h < 0) {
+    h = -h;
+    u = -u;
+    b = -b;
+  }
   return ballFallTime(h - radius, u, b, most);
 }
 
@@ -57,7 +63,10 @@ BallFlight::Entry BallFlight::timeToBox(const BoxShape& box, double most) const 
       // While it is outside of one face's plane it is outside of all.
       const double h = side * f.p[axis] - box.half[axis] - radius;
       const double time = ballFallTime(h, side * f.v[axis], side * f.a[axis], most);
-      if (time > entry.time) entry.time = time, face = axis;
+      if (time > entry.time) {
+        entry.time = time;
+        face = axis;
+      }
     }
   if (face < 0 || !(entry.time < kNever)) return entry;
   const Vec3 room = box.half - f.at(entry.time).cwiseAbs();
@@ -75,7 +84,10 @@ BallFlight::Stay BallFlight::stayNear(const BoxShape& box, double far) const {
       const double room = box.half[axis] + (axis == face ? far + radius : 0) - side * f.p[axis];
       if (!(room > 0)) return {};
       const double time = riseTime(room, side * f.v[axis], side * f.a[axis]);
-      if (time < stay.seconds) stay.seconds = time, stay.sure = axis == face;
+      if (time < stay.seconds) {
+        stay.seconds = time;
+        stay.sure = axis == face;
+      }
     }
   return stay;
 }
@@ -104,7 +116,10 @@ BallFlight::Stay BallFlight::stayNear(const TriangleTree& tree, std::int32_t tri
       const double beside = out.dot(x - from);
       if (beside > 0 && beside * beside > kBeside * kBeside * out.squaredNorm()) return stay;
       const double time = riseTime(std::max(-beside, 0.0), out.dot(u), out.dot(a));
-      if (time < least) least = time, edge = k;
+      if (time < least) {
+        least = time;
+        edge = k;
+      }
     }
     stay.seconds += least;
     if (edge < 0) {

@@ -30,7 +30,9 @@ std::vector<ClippedVertex> faceTowards(const Pose& X, const Vec3& half, const Ve
   std::vector<ClippedVertex> face;
   for (const auto& [su, sv] : {std::pair(-1, -1), std::pair(1, -1), std::pair(1, 1), std::pair(-1, 1)}) {
     Vec3 c;
-    c[k] = l[k] < 0 ? -half[k] : half[k], c[u] = su * half[u], c[v] = sv * half[v];
+    c[k] = l[k] < 0 ? -half[k] : half[k];
+    c[u] = su * half[u];
+    c[v] = sv * half[v];
     face.push_back({X * c, static_cast<std::uint32_t>(face.size())});
   }
   return face;
@@ -82,8 +84,11 @@ double separatingAxis(const Pose& A, const Vec3& halfA, const Pose& B, const Vec
   const auto attempt = [&](const Vec3& n, bool edgePair) {
     const double s = std::fabs(n.dot(d)) - (RA.transpose() * n).cwiseAbs().dot(halfA) -
                      (RB.transpose() * n).cwiseAbs().dot(halfB);
-    if (s > best + (edgePair ? kFavourFaces : 1e-9))
-      best = s, axis = n.dot(d) < 0 ? Vec3(-n) : n, edges = edgePair;
+    if (s > best + (edgePair ? kFavourFaces : 1e-9)) {
+      best = s;
+      axis = n.dot(d) < 0 ? Vec3(-n) : n;
+      edges = edgePair;
+    }
   };
   for (int i = 0; i < 3; ++i) attempt(RB.col(i), false);
   for (int i = 0; i < 3; ++i) attempt(RA.col(i), false);
@@ -118,7 +123,8 @@ void boxManifold(const Pose& A, const Vec3& halfA, const Pose& B, const Vec3& ha
     Vec3 c;
     for (int i = 0; i < 3; ++i) c[i] = l[i] < 0 ? -half[i] : half[i];
     c[axis] = -half[axis];
-    p = X * c, d = X.q * Vec3(2 * half[axis] * Vec3::Unit(axis));
+    p = X * c;
+    d = X.q * Vec3(2 * half[axis] * Vec3::Unit(axis));
   };
   NearestPoints best;
   for (int i = 0; i < 3; ++i)

@@ -35,7 +35,10 @@ public:
     Vec3 mean = Vec3::Zero();
     double bounded = 0;
     for (const Entry& e : entries)
-      if (extent(e).maxCoeff() < 1e200) mean += extent(e), ++bounded;
+      if (extent(e).maxCoeff() < 1e200) {
+        mean += extent(e);
+        ++bounded;
+      }
     mean /= std::max(bounded, 1.0);
     const double large = bounded > 0 ? 8 * std::max(mean[along_], mean[across_]) : 0;
     for (Entry& e : entries)
@@ -71,8 +74,11 @@ public:
         if (e.item) e.item->place = kUnfiled;
       entries->clear();
     }
-    low_.clear(), strips_.clear();
-    widest_ = 0, widestAcross_ = 0, filedApart_ = 0;
+    low_.clear();
+    strips_.clear();
+    widest_ = 0;
+    widestAcross_ = 0;
+    filedApart_ = 0;
   }
 
   /// Returns true if so many boxes have changed that sorting all of them is cheaper.
@@ -146,7 +152,8 @@ private:
     for (const Entry& e : entries) {
       const Vec3 c = e.box.centre();
       if (!(c.cwiseAbs().maxCoeff() < 1e100)) continue;
-      sum += c, squares += c.cwiseAbs2();
+      sum += c;
+      squares += c.cwiseAbs2();
       ++n;
     }
     Vec3 spread = n > 1 ? Vec3(squares - sum.cwiseAbs2() / n) : Vec3::Zero();
@@ -160,8 +167,9 @@ private:
     double far = -1e300;
     edge_ = 1e300;
     for (const Entry& e : sorted_) {
-      edge_ = std::min(edge_, e.box.lo[across_]), far = std::max(far, e.box.lo[across_]);
-      widest_ = std::max(widest_, extent(e)[along_]),
+      edge_ = std::min(edge_, e.box.lo[across_]);
+      far = std::max(far, e.box.lo[across_]);
+      widest_ = std::max(widest_, extent(e)[along_]);
       widestAcross_ = std::max(widestAcross_, extent(e)[across_]);
     }
     const double most = std::sqrt(static_cast<double>(sorted_.size())) * 4;

@@ -24,10 +24,16 @@ struct Best {
     const double side = direction.dot(guess);
     const Vec3 d = side < 0 ? Vec3(-direction) : direction;
     const double g = separationAlong(d, a, b);
-    if (g - handicap > gap) gap = g, n = d;
+    if (g - handicap > gap) {
+      gap = g;
+      n = d;
+    }
     if (std::fabs(side) > 0.02) return;
     const double h = separationAlong(-d, a, b);
-    if (h - handicap > gap) gap = h, n = -d;
+    if (h - handicap > gap) {
+      gap = h;
+      n = -d;
+    }
   }
 };
 
@@ -44,7 +50,8 @@ Vec3 overlapDirection(const ConvexCore& a, const ConvexCore& b, const Vec3& gues
   for (double depth = 1e-4; depth < 8 * most; depth *= 8) {
     const CoreDistance thin = coreDistance(a.eroded(depth), b.eroded(depth), guess, 1e-6);
     if (!thin.apart) continue;
-    nearA = thin.a, nearB = thin.b;
+    nearA = thin.a;
+    nearB = thin.b;
     return thin.normal;
   }
   Vec3 n = a.middle() - b.middle();
@@ -75,7 +82,8 @@ bool onFace(const ConvexCore& a, const ConvexCore& b, const Vec3& towards, Vec3&
     nearB = x;
   }
   nearA = nearB;
-  best.gap = face.gap, best.n = face.n;
+  best.gap = face.gap;
+  best.n = face.n;
   return true;
 }
 
@@ -87,13 +95,15 @@ bool facePlane(const ConvexCore& b, const Vec3& middle, Vec3& n, double& level) 
   case ConvexCore::Kind::Box: {
     int k = 0;
     (l.cwiseAbs() - b.half).maxCoeff(&k);
-    n = l[k] < 0 ? Vec3(-b.R.col(k)) : Vec3(b.R.col(k)), level = n.dot(b.p) + b.half[k];
+    n = l[k] < 0 ? Vec3(-b.R.col(k)) : Vec3(b.R.col(k));
+    level = n.dot(b.p) + b.half[k];
     return true;
   }
   case ConvexCore::Kind::Cylinder: {
     const double r = l.head<2>().norm() - b.half.x();
     if (r > 0 && r > std::fabs(l.z()) - b.half.z()) return false;
-    n = l.z() < 0 ? Vec3(-b.R.col(2)) : Vec3(b.R.col(2)), level = n.dot(b.p) + b.half.z();
+    n = l.z() < 0 ? Vec3(-b.R.col(2)) : Vec3(b.R.col(2));
+    level = n.dot(b.p) + b.half.z();
     return true;
   }
   case ConvexCore::Kind::Hull: {
@@ -102,14 +112,19 @@ bool facePlane(const ConvexCore& b, const Vec3& middle, Vec3& n, double& level) 
     const ConvexShape::Face* best = nullptr;
     b.hull->eachFaceTowards(l - b.hull->centre, [&](std::uint32_t i) {
       const ConvexShape::Face& f = b.hull->faces[i];
-      if (const double h = f.normal.dot(l) - f.offset; h > most) most = h, best = &f;
+      if (const double h = f.normal.dot(l) - f.offset; h > most) {
+        most = h;
+        best = &f;
+      }
     });
     if (!best) return false;
-    n = b.R * best->normal, level = n.dot(b.p) + best->offset;
+    n = b.R * best->normal;
+    level = n.dot(b.p) + best->offset;
     return true;
   }
   case ConvexCore::Kind::Triangle:
-    n = b.normal.dot(middle - b.v[0]) < 0 ? Vec3(-b.normal) : b.normal, level = n.dot(b.v[0]);
+    n = b.normal.dot(middle - b.v[0]) < 0 ? Vec3(-b.normal) : b.normal;
+    level = n.dot(b.v[0]);
     return true;
   case ConvexCore::Kind::Point:
   case ConvexCore::Kind::Segment: return false;
@@ -139,11 +154,13 @@ void acrossEdge(Best& best, const Vec3& edge) {
     const double s = slope(t);
     if (std::fabs(t - last) < 1e-16 || s == 0) break;
     if (s > 0) {
-      lo = t, atLo = s;
+      lo = t;
+      atLo = s;
       if (side > 0) atHi *= 0.5;
       side = 1;
     } else {
-      hi = t, atHi = s;
+      hi = t;
+      atHi = s;
       if (side < 0) atLo *= 0.5;
       side = -1;
     }
@@ -164,7 +181,8 @@ void search(Best& best, const Vec3& towards, Vec3& nearA, Vec3& nearB) {
     if (!held.apart) break;
     const double before = best.gap;
     best.attempt(held.normal, held.normal, 1e-15);
-    nearA = held.a - off * best.n, nearB = held.b;
+    nearA = held.a - off * best.n;
+    nearB = held.b;
     if (!(best.gap > before) && hold <= kLeastHold) break;
   }
   const Vec3 n = best.n;
@@ -193,8 +211,10 @@ bool gapOverFace(const ConvexCore& a, const ConvexCore& b, double beside, Convex
   const double gap = n.dot(x) - level - b.radius;
   if (!(gap > -kGrazing)) return false;
   if (!(gap > beside) && !b.holds(x - (gap + b.radius) * n, kOver)) return false;
-  g.distance = gap, g.normal = n;
-  g.onA = x, g.onB = x - gap * n;
+  g.distance = gap;
+  g.normal = n;
+  g.onA = x;
+  g.onB = x - gap * n;
   return true;
 }
 
@@ -220,21 +240,25 @@ ConvexGap convexGap(const ConvexCore& a, const ConvexCore& b, const Vec3& guess,
     if (accuracy > 1e-15 && rounding > 0 &&
         sure < rounding)  // the accuracy of the cores is not that of the gap
       return convexGap(a, b, d.normal, 1e-15);
-    g.distance = sure, g.normal = d.normal;
-    g.onA = d.a - a.radius * d.normal, g.onB = d.b + b.radius * d.normal;
+    g.distance = sure;
+    g.normal = d.normal;
+    g.onA = d.a - a.radius * d.normal;
+    g.onB = d.b + b.radius * d.normal;
     if (sure + rounding >= d.distance * (1 - 1e-6 - 2 * accuracy)) return g;
   }
   Vec3 nearA = d.a, nearB = d.b;
   const Vec3 towards = d.apart && d.distance > 1e-9 ? d.normal : overlapDirection(a, b, guess, nearA, nearB);
   Best best{a, b};
   if (onFace(a, b, towards, nearA, nearB, best)) {
-    g.distance = best.gap, g.normal = best.n;
+    g.distance = best.gap;
+    g.normal = best.n;
     g.onA = g.onB = nearB;
     g.onA += g.distance * g.normal;
     return g;
   }
   search(best, towards, nearA, nearB);
-  g.distance = separationAlong(best.n, a, b), g.normal = best.n;
+  g.distance = separationAlong(best.n, a, b);
+  g.normal = best.n;
   putOn(g, a, b, nearA, nearB);
   return g;
 }

@@ -118,7 +118,10 @@ void thin(std::vector<ManifoldPoint>& points, std::size_t from, std::size_t most
       for (std::size_t k = from; k < from + kept; ++k)
         d = std::min(d, (points[k].gap.point - points[i].gap.point).squaredNorm() +
                             (points[k].gap.normal - points[i].gap.normal).squaredNorm());
-      if (d > far) far = d, best = i;
+      if (d > far) {
+        far = d;
+        best = i;
+      }
     }
     std::swap(points[from + kept], points[best]);
   }
@@ -180,7 +183,10 @@ bool meshNormal(const ConvexCore& a, const ConvexCore& face, const Triangle& t, 
   for (std::size_t i = 0; i < 3; ++i) {
     const Vec3 out = (face.v[(i + 1) % 3] - face.v[i]).cross(face.normal).normalized();
     const double d = std::fabs(out.dot(gap.onB - face.v[i]));
-    if (out.dot(gap.normal) > 0 && d < nearest) nearest = d, edge = static_cast<int>(i);
+    if (out.dot(gap.normal) > 0 && d < nearest) {
+      nearest = d;
+      edge = static_cast<int>(i);
+    }
   }
   if (edge < 0 || !t.merged[static_cast<std::size_t>(edge)]) return true;
   const Vec3 n = facing < 0 && face.normal.dot(a.middle() - face.v[0]) < 0 ? Vec3(-face.normal) : face.normal;
@@ -237,7 +243,8 @@ bool solidManifold(const Side& a, const Side& b, double tau, double margin,
   if (!convexA) {
     if (!solidManifold(b, a, tau, margin, points)) return false;
     for (ManifoldPoint& p : points) {
-      p.gap.point += p.gap.distance * p.gap.normal, p.gap.normal = -p.gap.normal;
+      p.gap.point += p.gap.distance * p.gap.normal;
+      p.gap.normal = -p.gap.normal;
       if (p.carrier != Carrier::None) p.carrier = p.carrier == Carrier::A ? Carrier::B : Carrier::A;
     }
     return true;

@@ -67,11 +67,15 @@ struct Mover {
   Pose moveTo(double tau, const Vec3& origin) {
     if (!round) {
       const Kinematics k = side.at(tau);
-      p = k.p - origin, v = k.v, omega = k.omega;
+      p = k.p - origin;
+      v = k.v;
+      omega = k.omega;
       return {k.pose.p - origin, k.pose.q};
     }
     const RigidBody& body = *side.body;
-    p = body.position(tau) - origin, v = body.velocity(tau), omega = precession;
+    p = body.position(tau) - origin;
+    v = body.velocity(tau);
+    omega = precession;
     const Quat q = turning ? det::expRotation(body.spinAge(tau) * precession) * body.spin.q0 : body.spin.q0;
     return Pose{p, q} * body.X_CN;
   }
@@ -88,7 +92,8 @@ struct Mover {
     rate = pass + turn.dot(r);
     if (core.radius > 0) {
       const double l = d.norm();
-      far += core.radius * l, rate += core.radius * d.dot(turn) / l;
+      far += core.radius * l;
+      rate += core.radius * d.dot(turn) / l;
     }
     return far;
   }
@@ -152,7 +157,8 @@ double safeTime(const Lower& f, double gap, double most, double known) {
     const double next = right - value / slope;
     if (!(next < right) || !(next > 0)) break;
     const bool done = right - next < 1e-2 * next;
-    right = next, value = f.at(right, slope) + shift;
+    right = next;
+    value = f.at(right, slope) + shift;
     if (value >= 0) return right;
     if (done) break;
   }
@@ -219,9 +225,13 @@ bool contactPoint(const Mover& a, const Mover* b, const std::vector<ManifoldPoin
   for (const ManifoldPoint& p : patch) {
     if (p.gap.distance > gap + 1e-9) continue;
     const double r = rateAt(p);
-    if (r < least) least = r, fastest = p.gap.point;
+    if (r < least) {
+      least = r;
+      fastest = p.gap.point;
+    }
     most = std::max(most, r);
-    sum += p.gap.point, ++n;
+    sum += p.gap.point;
+    ++n;
   }
   if (n == 0) return false;
   x = most - least <= 1e-9 * (1 + std::fabs(least)) ? Vec3(sum / n) : fastest;
@@ -342,7 +352,8 @@ std::optional<Touch> planeTouch(const Side& sa, const Side& plane, double from, 
   double bound = a.acceleration;
   if (!plane.still()) {
     bound = relativeAcceleration(sa, plane, from, to, (origin - plane.at(from).p).norm());
-    a.drift = bound, a.turning = true;
+    a.drift = bound;
+    a.turning = true;
   }
   Pose X;
   auto t = advance(
@@ -350,12 +361,14 @@ std::optional<Touch> planeTouch(const Side& sa, const Side& plane, double from, 
       [&](double tau) {
         const Kinematics o = plane.at(tau);
         coreOf(*sa.shape, a.moveTo(tau, origin), a.core);
-        a.v -= o.velocityAt(a.p + origin), a.omega -= o.omega;
+        a.v -= o.velocityAt(a.p + origin);
+        a.omega -= o.omega;
         X = shifted(o.pose * shape.pose, origin);
       },
       [&](std::optional<double>& level) {
         ConvexGap g;
-        g.normal = X.q * Vec3::UnitZ(), level = g.normal.dot(X.p);
+        g.normal = X.q * Vec3::UnitZ();
+        level = g.normal.dot(X.p);
         g.distance = -a.core.extent(-g.normal) - *level;
         g.onA = g.onB = a.core.support(-g.normal) - a.core.radius * g.normal;
         return g;
@@ -383,9 +396,11 @@ std::optional<Touch> meshTouch(const Side& sa, const Side& sm, double from, doub
     const double begin = from + (to - from) * piece / pieces,
                  end = piece + 1 == pieces ? to : from + (to - from) * (piece + 1) / pieces;
     Aabb box;
-    box.include(local(begin)), box.include(local(end));
+    box.include(local(begin));
+    box.include(local(end));
     const double margin = a.reach + bend * (end - begin) * (end - begin) / 8 + 1e-9;
-    box.lo.array() -= margin, box.hi.array() += margin;
+    box.lo.array() -= margin;
+    box.hi.array() += margin;
     double until = end;
     mesh.tree.eachOverlapping(box, [&](std::uint32_t i) {
       const Triangle& face = mesh.tree.triangles()[i];
@@ -416,7 +431,8 @@ std::optional<Touch> meshTouch(const Side& sa, const Side& sm, double from, doub
           });
       if (!t || (best && t->tau >= best->tau)) return;
       t->gap.triangle = static_cast<std::int32_t>(i);
-      best = t, until = t->tau;
+      best = t;
+      until = t->tau;
     });
   }
   toWorld(best, origin);
@@ -425,7 +441,8 @@ std::optional<Touch> meshTouch(const Side& sa, const Side& sm, double from, doub
 
 Gap convexGapBetween(const Shape& a, const Pose& X_WA, const Shape& b, const Pose& X_WB) {
   ConvexCore ca, cb;
-  coreOf(a, shifted(X_WA, X_WB.p), ca), coreOf(b, shifted(X_WB, X_WB.p), cb);
+  coreOf(a, shifted(X_WA, X_WB.p), ca);
+  coreOf(b, shifted(X_WB, X_WB.p), cb);
   const ConvexGap g = convexGap(ca, cb, ca.middle() - cb.middle());
   return {g.distance, g.onB + X_WB.p, g.normal, false, -1};
 }
@@ -456,7 +473,8 @@ Gap meshGapBetween(const Shape& a, const Pose& X_WA, const MeshShape& mesh, cons
         if (g.distance < best.distance)
           best = {g.distance, g.onB, g.normal, false, static_cast<std::int32_t>(i)};
       });
-  best.point = X_WM * best.point, best.normal = X_WM.q * best.normal;
+  best.point = X_WM * best.point;
+  best.normal = X_WM.q * best.normal;
   return best;
 }
 

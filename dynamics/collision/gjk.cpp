@@ -28,7 +28,9 @@ struct Simplex {
 
 Simplex only(const SimplexVertex& a) {
   Simplex s;
-  s.count = 1, s[0] = a, s[0].weight = 1;
+  s.count = 1;
+  s[0] = a;
+  s[0].weight = 1;
   return s;
 }
 
@@ -39,8 +41,11 @@ Simplex nearest(const SimplexVertex& a, const SimplexVertex& b) {
   if (!(t > 0)) return only(a);
   if (t >= n) return only(b);
   Simplex s;
-  s.count = 2, s[0] = a, s[1] = b;
-  s[1].weight = t / n, s[0].weight = 1 - s[1].weight;
+  s.count = 2;
+  s[0] = a;
+  s[1] = b;
+  s[1].weight = t / n;
+  s[0].weight = 1 - s[1].weight;
   return s;
 }
 
@@ -55,8 +60,13 @@ Simplex nearest(const SimplexVertex& a, const SimplexVertex& b, const SimplexVer
   const double sum = u + v + w;
   if (u > 0 && v > 0 && w > 0 && sum > 0) {
     Simplex s;
-    s.count = 3, s[0] = a, s[1] = b, s[2] = c;
-    s[0].weight = u / sum, s[1].weight = v / sum, s[2].weight = w / sum;
+    s.count = 3;
+    s[0] = a;
+    s[1] = b;
+    s[2] = c;
+    s[0].weight = u / sum;
+    s[1].weight = v / sum;
+    s[2].weight = w / sum;
     return s;
   }
   return better(nearest(a, b), better(nearest(b, c), nearest(c, a)));
@@ -86,7 +96,9 @@ CoreDistance coreDistance(const ConvexCore& A, const ConvexCore& B, const Vec3& 
   CoreDistance out;
   const auto vertex = [&](const Vec3& d) {
     SimplexVertex x;
-    x.a = A.support(-d), x.b = B.support(d), x.w = x.a - x.b;
+    x.a = A.support(-d);
+    x.b = B.support(d);
+    x.w = x.a - x.b;
     return x;
   };
   Simplex s = only(vertex(guess));
@@ -108,18 +120,24 @@ CoreDistance coreDistance(const ConvexCore& A, const ConvexCore& B, const Vec3& 
     } else if (s.count == 2) {
       next = nearest(s[0], s[1], x);
     } else {
-      s.count = 4, s[3] = x;
+      s.count = 4;
+      s[3] = x;
       const bool outside = nearest(s, next);
       s.count = 3;
       if (!outside) return out;
     }
     const Vec3 nv = next.point();
     if (!(nv.squaredNorm() < vv)) break;  // rounding has the last word
-    s = next, v = nv;
+    s = next;
+    v = nv;
   }
   out.apart = true;
-  out.distance = v.norm(), out.normal = v / out.distance;
-  for (int i = 0; i < s.count; ++i) out.a += s[i].weight * s[i].a, out.b += s[i].weight * s[i].b;
+  out.distance = v.norm();
+  out.normal = v / out.distance;
+  for (int i = 0; i < s.count; ++i) {
+    out.a += s[i].weight * s[i].a;
+    out.b += s[i].weight * s[i].b;
+  }
   return out;
 }
 

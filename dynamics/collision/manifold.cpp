@@ -65,7 +65,8 @@ void ballOnMesh(const Vec3& centre, double r, const MeshShape& mesh, const Pose&
   const Vec3 c = X.inverse() * centre;
   Aabb box;
   box.include(c);
-  box.lo.array() -= r + margin, box.hi.array() += r + margin;
+  box.lo.array() -= r + margin;
+  box.hi.array() += r + margin;
   std::vector<std::uint32_t> near;
   mesh.tree.overlapping(box, near);
   if (mesh.tree.closed()) waysOut(c, r, mesh.tree, near, X, points);
@@ -130,7 +131,10 @@ void cornersNear(const Side& a, const Side& b, double tau, double margin, bool f
       for (std::size_t i = 0; i < found.size(); ++i) {
         double d = 1e300;
         for (const ManifoldPoint& k : kept) d = std::min(d, (k.gap.point - found[i].gap.point).squaredNorm());
-        if (d > far) far = d, best = i;
+        if (d > far) {
+          far = d;
+          best = i;
+        }
       }
       kept.push_back(found[best]);
     }

@@ -94,7 +94,10 @@ private:
 
   /// A corner of a in the search frame, found when it is first asked for.
   const Vec3& cornerOfA(std::uint32_t c) {
-    if (!known_[c]) known_[c] = true, corners_[c] = a_.X * a_.tree.corners()[c];
+    if (!known_[c]) {
+      known_[c] = true;
+      corners_[c] = a_.X * a_.tree.corners()[c];
+    }
     return corners_[c];
   }
 
@@ -105,7 +108,11 @@ private:
     const Aabb boxA = boxOf(va), nearA = widened(boxA), nearB = widened(boxOf(tb.v));
     std::optional<Triangle> made;
     const auto ta = [&]() -> const Triangle& {
-      if (!made) made = a_.tree.triangles()[i], made->v = va, made->normal = a_.X.q * made->normal;
+      if (!made) {
+        made = a_.tree.triangles()[i];
+        made->v = va;
+        made->normal = a_.X.q * made->normal;
+      }
       return *made;
     };
     for (std::size_t k = 0; k < 3; ++k) {
@@ -120,7 +127,10 @@ private:
     std::array<bool, 3> counts;
     for (std::size_t l = 0; l < 3; ++l) {
       counts[l] = mayStickOut(tb, j, l, sideB);
-      if (counts[l]) around[l] = widened(boxOf(edge(tb, l))), counts[l] = around[l].overlaps(boxA);
+      if (counts[l]) {
+        around[l] = widened(boxOf(edge(tb, l)));
+        counts[l] = around[l].overlaps(boxA);
+      }
     }
     if (counts[0] || counts[1] || counts[2]) meetEdges(i, ta(), j, tb, sideB, around, counts);
   }
@@ -149,7 +159,8 @@ private:
   }
   /// What lies over it, has sunk into it or crosses it is in here.
   Aabb widened(Aabb box) const {
-    box.lo.array() -= reach_, box.hi.array() += reach_;
+    box.lo.array() -= reach_;
+    box.hi.array() += reach_;
     return box;
   }
   static bool contains(const Aabb& box, const Vec3& p) {
@@ -183,11 +194,13 @@ private:
   /// False if the edge is none that sticks out.
   static bool edgeOf(const Body& body, const Triangle& t, std::size_t k, double side, Edge& e) {
     const std::int32_t next = t.next[k];
-    e.p = t.v[k], e.d = t.v[(k + 1) % 3] - e.p;
+    e.p = t.v[k];
+    e.d = t.v[(k + 1) % 3] - e.p;
     e.border = next < 0;
     e.out[0] = e.d.cross(t.normal).normalized();
     if (e.border) {
-      e.out[1] = e.out[0], e.up = e.out[0];
+      e.out[1] = e.out[0];
+      e.up = e.out[0];
       return true;
     }
     const Vec3 other = body.X.q * body.tree.triangles()[static_cast<std::size_t>(next)].normal;
@@ -280,7 +293,10 @@ bool meshesManifold(const TriangleTree& a, const Pose& X_WA, const Vec3& middleA
   std::vector<ManifoldPoint> found;
   const bool near = Gather(ba, bb, margin, found).run();
   thin(found, std::min(ba.size, bb.size));
-  for (ManifoldPoint& p : found) p.gap.point = X_WB * p.gap.point, p.gap.normal = X_WB.q * p.gap.normal;
+  for (ManifoldPoint& p : found) {
+    p.gap.point = X_WB * p.gap.point;
+    p.gap.normal = X_WB.q * p.gap.normal;
+  }
   points.insert(points.end(), found.begin(), found.end());
   return near;
 }

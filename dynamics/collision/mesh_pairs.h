@@ -61,7 +61,10 @@ private:
       next = {{{i, j + 1}, {i, n.first}}};
     std::array<double, 2> gap = {squaredGap(next[0].first, next[0].second),
                                  squaredGap(next[1].first, next[1].second)};
-    if (gap[1] < gap[0]) std::swap(gap[0], gap[1]), std::swap(next[0], next[1]);
+    if (gap[1] < gap[0]) {
+      std::swap(gap[0], gap[1]);
+      std::swap(next[0], next[1]);
+    }
     for (std::size_t k = 0; k < 2; ++k) {
       const double d = within();
       if (gap[k] <= d * d) follow(next[k].first, next[k].second, within, place, f);

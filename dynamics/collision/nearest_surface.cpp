@@ -29,12 +29,17 @@ NearestSurface nearestSurface(const CylinderShape& s, const Vec3& x) {
   Vec3 q, n;
   double d;
   if (side <= 0 && (cap > 0 || cap >= side)) {  // over a cap, or inside and nearer to it
-    q = {l.x(), l.y(), up * s.half}, n = {0, 0, up}, d = cap;
+    q = {l.x(), l.y(), up * s.half};
+    n = {0, 0, up};
+    d = cap;
   } else if (cap <= 0) {
-    q = s.radius * radial + Vec3(0, 0, l.z()), n = radial, d = side;
+    q = s.radius * radial + Vec3(0, 0, l.z());
+    n = radial;
+    d = side;
   } else {  // off the rim
     q = s.radius * radial + Vec3(0, 0, up * s.half);
-    d = (l - q).norm(), n = (l - q) / d;
+    d = (l - q).norm();
+    n = (l - q) / d;
   }
   return {d, s.pose * q, s.pose.q * n, side <= 0 && n.z() != 0};
 }
@@ -43,7 +48,10 @@ NearestSurface nearestSurface(const ConvexShape& s, const Vec3& x) {
   const ConvexShape::Face* highest = &s.faces.front();
   double height = -1e300;
   for (const ConvexShape::Face& f : s.faces)
-    if (const double h = f.normal.dot(x) - f.offset; h > height) height = h, highest = &f;
+    if (const double h = f.normal.dot(x) - f.offset; h > height) {
+      height = h;
+      highest = &f;
+    }
   if (height <= 0) return {height, x - height * highest->normal, highest->normal, true};
   // A face is nearest if x is in the prism over it; else some edge of a face that sees x is.
   NearestSurface best;

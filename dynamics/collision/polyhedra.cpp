@@ -37,7 +37,11 @@ Gap nearestWithin(const TriangleTree& a, const TriangleTree& b, const Pose& X_BA
   bool any = false;
   const auto look = [&](std::uint32_t i, std::uint32_t j, const Triangle& t) {
     const NearestPoints n = nearestOfTriangles(t, b.triangles()[j]);
-    if (n.distance < best.distance) best = n, pair = {i, j}, any = true;
+    if (n.distance < best.distance) {
+      best = n;
+      pair = {i, j};
+      any = true;
+    }
   };
   // Between faces that lie flat on each other very many pairs are about as near.
   const auto reach = [&] { return any ? share * best.distance : limit; };
@@ -52,7 +56,8 @@ Gap nearestWithin(const TriangleTree& a, const TriangleTree& b, const Pose& X_BA
 }
 
 Gap inWorld(Gap g, const Pose& X) {
-  g.point = X * g.point, g.normal = X.q * g.normal;
+  g.point = X * g.point;
+  g.normal = X.q * g.normal;
   return g;
 }
 
@@ -72,7 +77,10 @@ std::optional<Gap> closingPoint(const TriangleTree& a, const Kinematics& ka, con
   double fastest = 0;
   for (const ManifoldPoint& p : points) {
     const double rate = p.gap.normal.dot(ka.velocityAt(p.gap.point) - kb.velocityAt(p.gap.point));
-    if (rate < fastest) fastest = rate, found = p.gap;
+    if (rate < fastest) {
+      fastest = rate;
+      found = p.gap;
+    }
   }
   return found;
 }

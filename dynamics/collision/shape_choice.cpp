@@ -31,7 +31,8 @@ ShapeChoice fitBall(const std::vector<Vec3>& points, const Aabb& box) {
   double lo = 1e300, hi = 0;
   for (const Vec3& p : points) {
     const double d = (p - c).norm();
-    lo = std::min(lo, d), hi = std::max(hi, d);
+    lo = std::min(lo, d);
+    hi = std::max(hi, d);
   }
   const double r = 0.5 * (lo + hi);
   return {BallShape{c, r}, ShapeKind::Ball, std::max(hi - r, r - lo), {}};
@@ -84,8 +85,12 @@ ShapeChoice fitPlane(const TriangleTree& tree, const std::vector<Vec3>& points) 
   Vec3 sum = Vec3::Zero();
   for (const Triangle& t : tree.triangles()) {
     const Vec3 n = (t.v[1] - t.v[0]).cross(t.v[2] - t.v[0]);
-    sum += n, covered += 0.5 * n.norm();
-    if (n.norm() > best) best = n.norm(), largest = &t;
+    sum += n;
+    covered += 0.5 * n.norm();
+    if (n.norm() > best) {
+      best = n.norm();
+      largest = &t;
+    }
   }
   Vec3 n = largest->normal;
   if (n.dot(sum) < 0) n = -n;
@@ -118,7 +123,8 @@ Rod rodOf(const std::vector<Vec3>& points, const Vec3& centre, const Quat& q) {
   double lo = 1e300, hi = -1e300, wide = 0;
   for (const Vec3& p : points) {
     const Vec3 l = q.conjugate() * (p - centre);
-    lo = std::min(lo, l.z()), hi = std::max(hi, l.z());
+    lo = std::min(lo, l.z());
+    hi = std::max(hi, l.z());
     wide = std::max(wide, std::sqrt(l.x() * l.x() + l.y() * l.y()));
   }
   return {{centre + q * Vec3(0, 0, 0.5 * (lo + hi)), q}, 0.5 * (hi - lo), wide};
@@ -148,11 +154,15 @@ ShapeChoice fitRod(ShapeKind kind, const Mesh& mesh, const TriangleTree& tree,
                    const std::vector<Vec3>& points, Make make) {
   Vec3 centre;
   ShapeChoice best;
-  best.kind = kind, best.deviation = 1e300;
+  best.kind = kind;
+  best.deviation = 1e300;
   for (const Quat& q : axesOf(mesh, tree.bounds(), centre)) {
     const auto s = make(rodOf(points, centre, q));
     const double off = vertexDistance(points, s);
-    if (off < best.deviation * (1 - 1e-9)) best.shape = s, best.deviation = off;
+    if (off < best.deviation * (1 - 1e-9)) {
+      best.shape = s;
+      best.deviation = off;
+    }
   }
   return best;
 }

@@ -116,7 +116,8 @@ struct Survey {
       for (std::uint32_t k = 2; k < f.count; ++k) {
         const Vec3 &a = corner(0), &b = corner(k - 1), &c = corner(k);
         const double area = 0.5 * (b - a).cross(c - a).norm();
-        out.area += area, out.volume += area * (f.offset - f.normal.dot(s.centre)) / 3;
+        out.area += area;
+        out.volume += area * (f.offset - f.normal.dot(s.centre)) / 3;
         addTriangle(a, b, c, f.normal, s.reach / 8, out.points);
       }
     }
@@ -183,7 +184,10 @@ double toFaceLookingAlike(const TriangleTree& tree, const SurfacePoint& s, doubl
         const Triangle& t = tree.triangles()[i];
         if (!(t.normal.dot(s.normal) > 0)) return;
         const double d = (closestPoint(t, s.point).point - s.point).norm();
-        if (d <= best) best = d, found = true;
+        if (d <= best) {
+          best = d;
+          found = true;
+        }
       });
   return found ? best : kEverywhere;
 }

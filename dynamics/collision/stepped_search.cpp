@@ -67,9 +67,10 @@ std::optional<Touch> SteppedSearch::firstApproach(double from, double to) const 
   std::optional<Touch> touch = approaching(to);
   while (touch && motion(from, to) > scheme_.tolerance && to - from > kShortestBracket) {
     const double middle = 0.5 * (from + to);
-    if (auto sooner = approaching(middle))
-      touch = std::move(sooner), to = middle;
-    else
+    if (auto sooner = approaching(middle)) {
+      touch = std::move(sooner);
+      to = middle;
+    } else
       from = middle;
   }
   return touch;

@@ -49,7 +49,8 @@ Local localGap(const Vec3& c, double r, const BoxShape& s, DistanceLimits) {
   const Vec3 q = p.cwiseMin(s.half).cwiseMax(-s.half);
   Local l = towards(p, q, r, Vec3::UnitZ());
   l.face = (inside.array() >= 0).count() == 2;
-  l.point = s.pose * q, l.normal = s.pose.q * l.normal;
+  l.point = s.pose * q;
+  l.normal = s.pose.q * l.normal;
   return l;
 }
 
@@ -74,7 +75,8 @@ Local localGap(const Vec3& c, double r, const PlaneShape& s, DistanceLimits) {
     return {p.z() - r, s.pose * q, s.normal(), true, -1};
   Local l = towards(p, q, r, Vec3::UnitZ());
   l.face = q.x() == p.x() && q.y() == p.y();
-  l.point = s.pose * q, l.normal = s.pose.q * l.normal;
+  l.point = s.pose * q;
+  l.normal = s.pose.q * l.normal;
   return l;
 }
 
@@ -85,11 +87,16 @@ Local triangleGap(const Vec3& c, double r, const Triangle& t, std::int32_t index
   const double height = t.normal.dot(c - q.point);
   l.triangle = index;
   l.face = q.edge < 0;
-  if (solid && height < 0 && q.edge < 0) l.normal = t.normal, l.distance = height - r;
+  if (solid && height < 0 && q.edge < 0) {
+    l.normal = t.normal;
+    l.distance = height - r;
+  }
   // A merged edge has no normal of its own: the face speaks for it while the ball is in front of it.
   if (q.edge >= 0 && !q.corner && t.merged[static_cast<std::size_t>(q.edge)] &&
-      height > 0.999 * (c - q.point).norm())
-    l.face = true, l.normal = t.normal;
+      height > 0.999 * (c - q.point).norm()) {
+    l.face = true;
+    l.normal = t.normal;
+  }
   return l;
 }
 
@@ -237,8 +244,10 @@ std::optional<Touch> ballOnMesh(const Side& ball, const Side& other, const Kinem
   const Vec3 l1 = other.at(to).pose.inverse() * ballCentre(ball, ball.at(to));
   const double sag = bound * (to - from) * (to - from) / 8 + r + 1e-9;
   Aabb box;
-  box.include(l0), box.include(l1);
-  box.lo.array() -= sag, box.hi.array() += sag;
+  box.include(l0);
+  box.include(l1);
+  box.lo.array() -= sag;
+  box.hi.array() += sag;
   std::vector<std::uint32_t> candidates;
   tree.overlapping(box, candidates);
   std::optional<Touch> best;
@@ -342,7 +351,8 @@ std::optional<Touch> cornersOnPlane(const Side& solid, const Side& plane, double
     const Vec3 x = solid.at(*tau).pose * corner, l = X.inverse() * x;
     if (s.bounded() && (std::fabs(l.x()) > s.half.x() || std::fabs(l.y()) > s.half.y())) continue;
     best = Touch{*tau, {l.z(), x, X.q * Vec3::UnitZ(), true, -1}, false};
-    first = i, end = *tau;
+    first = i;
+    end = *tau;
   }
   return best;
 }
@@ -413,7 +423,10 @@ std::optional<Touch> firstTouch(const Side& a, const Side& b, double from, doubl
   if (isBall(a) && isBall(b) && isFreeBall(a) && isFreeBall(b)) return ballsTouch(a, b, from, to, count);
   if (isBall(a)) return ballTouch(a, b, from, to, count);
   const auto flipped = [](std::optional<Touch> t) {
-    if (t) flip(t->gap), t->swapped = true;
+    if (t) {
+      flip(t->gap);
+      t->swapped = true;
+    }
     return t;
   };
   if (isBall(b)) return flipped(ballTouch(b, a, from, to, count));
@@ -475,13 +488,15 @@ Aabb sweptBox(const Side& side, double from, double to) {
   const Sphere& s = side.bound();
   Aabb box;
   if (!std::isfinite(s.radius)) {
-    box.lo.setConstant(-1e300), box.hi.setConstant(1e300);
+    box.lo.setConstant(-1e300);
+    box.hi.setConstant(1e300);
     return box;
   }
   const auto sweep = [&](const Pose& X0, const Pose& X1, const MotionBound& b, double arm, double seconds) {
     const Vec3 c0 = X0 * s.centre, c1 = X1 * s.centre;
     const double sag = b.accelerationAt(arm) * seconds * seconds / 8 + s.radius + 1e-6;
-    box.include(Vec3(c0.cwiseMin(c1).array() - sag)), box.include(Vec3(c0.cwiseMax(c1).array() + sag));
+    box.include(Vec3(c0.cwiseMin(c1).array() - sag));
+    box.include(Vec3(c0.cwiseMax(c1).array() + sag));
   };
   if (!side.guided()) {
     const Pose X0 = side.at(from).pose;

@@ -69,7 +69,10 @@ std::vector<char> hiddenAmong(const std::vector<Bearing>& points) {
       const Bearing &p = points[i], &on = points[k];
       if (i == k || on.gap.distance > kTouching) continue;
       if (p.of == on.of && !std::holds_alternative<MeshShape>(*p.shape)) continue;
-      if (isHidden(p.gap, *p.shape, p.X_WN, on)) hides.emplace_back(k, i), hidden[i] = 1;
+      if (isHidden(p.gap, *p.shape, p.X_WN, on)) {
+        hides.emplace_back(k, i);
+        hidden[i] = 1;
+      }
     }
   if (hides.empty()) return {};
   std::vector<char> gone(n, 0);

@@ -25,12 +25,15 @@ NearestPoints nearestOfSegments(const Vec3& p, const Vec3& d, const Vec3& q, con
   double s = det > 1e-14 * a * c ? std::clamp((b * g - c * f) / det, 0.0, 1.0) : 0;
   double t = c > 0 ? (b * s + g) / c : 0;
   if (t < 0) {
-    t = 0, s = a > 0 ? std::clamp(-f / a, 0.0, 1.0) : 0;
+    t = 0;
+    s = a > 0 ? std::clamp(-f / a, 0.0, 1.0) : 0;
   } else if (t > 1) {
-    t = 1, s = a > 0 ? std::clamp((b - f) / a, 0.0, 1.0) : 0;
+    t = 1;
+    s = a > 0 ? std::clamp((b - f) / a, 0.0, 1.0) : 0;
   }
   NearestPoints n;
-  n.a = p + s * d, n.b = q + t * e;
+  n.a = p + s * d;
+  n.b = q + t * e;
   n.distance = (n.a - n.b).norm();
   return n;
 }

@@ -59,7 +59,8 @@ Vec3 ContactActiveSet::areaSlipOf(std::size_t contact) const {
 }
 
 void ContactActiveSet::read() {
-  kind_.resize(c_.size()), flow_.assign(c_.size(), Vec3::Zero());
+  kind_.resize(c_.size());
+  flow_.assign(c_.size(), Vec3::Zero());
   for (std::size_t k = 0; k < c_.size(); ++k) {
     const SolverContact& c = c_[k];
     if (c.area) {
@@ -128,7 +129,8 @@ void ContactActiveSet::listArea(std::uint32_t contact) {
 }
 
 void ContactActiveSet::list() {
-  unknowns_.clear(), axes_.clear();
+  unknowns_.clear();
+  axes_.clear();
   for (const std::uint32_t i : order_) {
     const std::size_t k = i;
     if (kind_[k] == Kind::Slip) c_[k].area ? listArea(i) : listSlip(i);
@@ -157,10 +159,16 @@ void ContactActiveSet::add(ContactAxis& sum, const ContactRow& row, const Vec3& 
                            const Vec3& direction) {
   for (int k = 0; k < 3; ++k) {
     const ContactAxis& x = row.axis[static_cast<std::size_t>(k)];
-    if (reads[k] != 0)
-      sum.n += reads[k] * x.n, sum.spinA += reads[k] * x.spinA, sum.spinB += reads[k] * x.spinB;
-    if (direction[k] != 0)
-      sum.p += direction[k] * x.p, sum.turnA += direction[k] * x.turnA, sum.turnB += direction[k] * x.turnB;
+    if (reads[k] != 0) {
+      sum.n += reads[k] * x.n;
+      sum.spinA += reads[k] * x.spinA;
+      sum.spinB += reads[k] * x.spinB;
+    }
+    if (direction[k] != 0) {
+      sum.p += direction[k] * x.p;
+      sum.turnA += direction[k] * x.turnA;
+      sum.turnB += direction[k] * x.turnB;
+    }
   }
 }
 
@@ -186,7 +194,10 @@ double ContactActiveSet::measure() {
     const SolverContact& c = c_[unknowns_[i].contact];
     std::size_t from = i;
     for (const std::uint32_t b : {c.a, c.b})
-      if (m_[b].inverseMass > 0) first[b] = std::min(first[b], i), from = std::min(from, first[b]);
+      if (m_[b].inverseMass > 0) {
+        first[b] = std::min(first[b], i);
+        from = std::min(from, first[b]);
+      }
     firsts_[i] = from;
     const auto width = static_cast<double>(i - from + 1);
     work += width * (width + kAssembly);
@@ -220,8 +231,10 @@ bool ContactActiveSet::assemble() {
   if (!isDense()) {
     narrow_.reset(firsts_);
     for (std::size_t i = 0; i < n; ++i) {
-      for (std::size_t k = firsts_[i]; k < i; ++k)
-        narrow_.at(i, k) = changeBy(i, k), narrow_.at(k, i) = changeBy(k, i);
+      for (std::size_t k = firsts_[i]; k < i; ++k) {
+        narrow_.at(i, k) = changeBy(i, k);
+        narrow_.at(k, i) = changeBy(k, i);
+      }
       const double diagonal = changeBy(i, i);
       narrow_.at(i, i) = diagonal + extra(i, diagonal);
     }
@@ -268,7 +281,8 @@ double ContactActiveSet::solve() {
     for (std::size_t i = 0; i < unknowns_.size(); ++i) {
       const Unknown& u = unknowns_[i];
       const double size = r_[static_cast<Eigen::Index>(i)];
-      c_[u.contact].impulse += size * u.direction, amount_[i] += size;
+      c_[u.contact].impulse += size * u.direction;
+      amount_[i] += size;
       if (u.area >= 0) c_[static_cast<std::size_t>(u.area)].impulse += size * u.also;
       axes_[i].give(m_[rows_[u.contact].a], m_[rows_[u.contact].b], size);
     }
@@ -305,18 +319,22 @@ bool ContactActiveSet::mend(bool singly) {
   std::vector<double>& over = over_;
   over.assign(c_.size(), 0);
   for (std::size_t k = 0; k < c_.size(); ++k)
-    if (kind_[k] == Kind::Open && !c_[k].area)
-      over[k] = rows_[k].velocity(m_)[0] - c_[k].floor, worst = std::min(worst, over[k]);
+    if (kind_[k] == Kind::Open && !c_[k].area) {
+      over[k] = rows_[k].velocity(m_)[0] - c_[k].floor;
+      worst = std::min(worst, over[k]);
+    }
   for (std::size_t k = 0; k < c_.size(); ++k) {
     if (over[k] >= -kRound || (singly && over[k] > worst)) continue;
-    kind_[k] = Kind::Stick, agreed = false;
+    kind_[k] = Kind::Stick;
+    agreed = false;
   }
   return agreed && mendFriction(largest);
 }
 
 bool ContactActiveSet::mendFriction(double largest) {
   bool agreed = true;
-  slip_.resize(c_.size()), areaSlip_.resize(c_.size());
+  slip_.resize(c_.size());
+  areaSlip_.resize(c_.size());
   for (std::size_t k = 0; k < c_.size(); ++k)
     if (kind_[k] == Kind::Slip) c_[k].area ? void(areaSlip_[k] = areaSlipOf(k)) : void(slip_[k] = slipOf(k));
   for (std::size_t k = 0; k < c_.size(); ++k) {
@@ -333,14 +351,16 @@ bool ContactActiveSet::mendFriction(double largest) {
     Vec2 wanted = f;
     if (speed < kRound) {  // it sticks
       if (!beyond) continue;
-      wanted = f * (most / size), speed_[k] = 0;
+      wanted = f * (most / size);
+      speed_[k] = 0;
       kind_[k] = Kind::Slip;
     } else if (slip_[k].dot(f) > 0) {
       kind_[k] = Kind::Stick;
     } else {
       const double off = (slip_[k] / speed + f / std::max(size, 1e-300)).norm();
       if (off < 1e-9) continue;
-      wanted = -slip_[k] * (most / speed), speed_[k] = off < kNearly ? speed : 0;
+      wanted = -slip_[k] * (most / speed);
+      speed_[k] = off < kNearly ? speed : 0;
     }
     put(k, {c.impulse[0], wanted.x(), wanted.y()});
     agreed = false;
@@ -369,7 +389,9 @@ bool ContactActiveSet::mendArea(std::size_t k) {
   if (speed < kRound) {
     const ContactArea::Need need = area.needFor(-c.impulse / most);
     if (!(need.share > 1 + 1e-10)) return true;
-    kind_[k] = Kind::Slip, flow_[k] = need.slip, speed_[k] = 0;
+    kind_[k] = Kind::Slip;
+    flow_[k] = need.slip;
+    speed_[k] = 0;
     put(k, c.impulse / need.share);
     return false;
   }
@@ -380,7 +402,8 @@ bool ContactActiveSet::mendArea(std::size_t k) {
     kind_[k] = Kind::Stick;
     return false;
   }
-  flow_[k] = slip, speed_[k] = off < kNearly ? speed : 0;
+  flow_[k] = slip;
+  speed_[k] = off < kNearly ? speed : 0;
   put(k, wanted);
   return false;
 }
@@ -390,7 +413,8 @@ bool ContactActiveSet::solve(double& work) {
   const std::vector<SolverBody> solverBodies = m_;
   const std::vector<SolverContact> contacts = c_;
   if (attempt(work)) return true;
-  m_ = solverBodies, c_ = contacts;
+  m_ = solverBodies;
+  c_ = contacts;
   return false;
 }
 

@@ -203,12 +203,15 @@ std::vector<FlatContact> flatContacts(const Side& a, std::span<const Side> b, do
       if (used[k] != 0 || g.distance > kFlatGap || g.normal.dot(points[i].normal) < kOneSide) continue;
       used[k] = 1;
       flat.points.push_back(static_cast<std::uint32_t>(k));
-      at.push_back(g.point), deepest = std::max(deepest, std::fabs(g.distance));
+      at.push_back(g.point);
+      deepest = std::max(deepest, std::fabs(g.distance));
     }
     if (!spreadOut(at)) continue;
     for (const Vec3& x : at) plane.origin += x / static_cast<double>(at.size());
     const Mat3 basis = basisAround(points[i].normal);
-    plane.n = basis.col(0), plane.t1 = basis.col(1), plane.t2 = basis.col(2);
+    plane.n = basis.col(0);
+    plane.t1 = basis.col(1);
+    plane.t2 = basis.col(2);
     plane.thick = 2 * kFlatGap + 1.5 * deepest;
     flat.area = areaIn(a, b, tau, plane);
     if (!flat.area) continue;

@@ -13,7 +13,10 @@ constexpr double kWorkOfEntry = 30;  ///< to make one entry of the matrix
 std::vector<std::vector<std::uint32_t>> neighboursOf(std::size_t bodies, std::span<const LeaningPair> pairs) {
   std::vector<std::vector<std::uint32_t>> next(bodies);
   for (const auto& [a, b] : pairs)
-    if (a < bodies && b < bodies && a != b) next[a].push_back(b), next[b].push_back(a);
+    if (a < bodies && b < bodies && a != b) {
+      next[a].push_back(b);
+      next[b].push_back(a);
+    }
   for (auto& list : next) {
     std::ranges::sort(list);
     list.erase(std::unique(list.begin(), list.end()), list.end());
@@ -28,12 +31,16 @@ std::vector<std::uint32_t> placesInLine(std::size_t bodies, std::span<const Lean
   std::vector<std::uint32_t> place(bodies, kNoPlace), line, trial;
   std::vector<char> seen(bodies, 0);
   const auto walk = [&](std::uint32_t from, std::vector<std::uint32_t>& out) {
-    out.assign(1, from), seen[from] = 1;
+    out.assign(1, from);
+    seen[from] = 1;
     std::vector<std::uint32_t> more;
     for (std::size_t i = 0; i < out.size(); ++i) {
       more.clear();
       for (const std::uint32_t b : next[out[i]])
-        if (seen[b] == 0) seen[b] = 1, more.push_back(b);
+        if (seen[b] == 0) {
+          seen[b] = 1;
+          more.push_back(b);
+        }
       std::ranges::stable_sort(more, {}, [&](std::uint32_t b) { return next[b].size(); });
       out.insert(out.end(), more.begin(), more.end());
     }
@@ -62,7 +69,10 @@ double workOfLine(std::size_t bodies, std::span<const LeaningPair> pairs) {
   double work = 0;
   for (std::size_t i = 0; i < line.size(); ++i) {
     std::size_t from = i;
-    for (const std::uint32_t b : line[i]) first[b] = std::min(first[b], i), from = std::min(from, first[b]);
+    for (const std::uint32_t b : line[i]) {
+      first[b] = std::min(first[b], i);
+      from = std::min(from, first[b]);
+    }
     const double width = kRowsOfPair * static_cast<double>(i - from + 1);
     work += kRowsOfPair * width * (width + kWorkOfEntry);
   }

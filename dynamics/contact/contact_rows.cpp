@@ -11,20 +11,26 @@ constexpr double kNarrowest = 1e-3;  ///< part of an area that a load at its rim
 
 ContactRow rowOf(const SolverContact& c, const std::vector<SolverBody>& m) {
   ContactRow row;
-  row.a = c.a, row.b = c.b;
+  row.a = c.a;
+  row.b = c.b;
   const SolverBody &a = m[c.a], &b = m[c.b];
   for (int i = 0; i < 3; ++i) {
     ContactAxis& x = row.axis[static_cast<std::size_t>(i)];
-    x.n = c.rows.col(i), x.p = c.push.col(i);
-    x.spinA = c.armA.cross(x.n), x.spinB = c.armB.cross(x.n);
-    x.turnA = a.inverseInertia * c.pushA.cross(x.p), x.turnB = b.inverseInertia * c.pushB.cross(x.p);
+    x.n = c.rows.col(i);
+    x.p = c.push.col(i);
+    x.spinA = c.armA.cross(x.n);
+    x.spinB = c.armB.cross(x.n);
+    x.turnA = a.inverseInertia * c.pushA.cross(x.p);
+    x.turnB = b.inverseInertia * c.pushB.cross(x.p);
   }
   if (c.area) {
     ContactAxis& x = row.axis[0];
     const double r = c.area->radius();
     x.spinA = x.spinB = r * c.rows.col(0);
-    x.turnA = a.inverseInertia * (r * c.push.col(0)), x.turnB = b.inverseInertia * (r * c.push.col(0));
-    x.n.setZero(), x.p.setZero();
+    x.turnA = a.inverseInertia * (r * c.push.col(0));
+    x.turnB = b.inverseInertia * (r * c.push.col(0));
+    x.n.setZero();
+    x.p.setZero();
   }
   const auto response = [&](std::size_t i, std::size_t j) {
     const ContactAxis &x = row.axis[i], &y = row.axis[j];
@@ -33,8 +39,10 @@ ContactRow rowOf(const SolverContact& c, const std::vector<SolverBody>& m) {
   const double kn = response(0, 0), t1 = response(1, 1), t2 = response(2, 2),
                d = 0.5 * (response(1, 2) + response(2, 1));
   const double kt = 0.5 * (t1 + t2) + std::sqrt(0.25 * (t1 - t2) * (t1 - t2) + d * d);
-  row.response = kn, row.shortfall = c.give * kn;
-  row.normalMass = kn > 0 ? 1 / (kn + row.shortfall) : 0, row.tangentMass = kt > 0 ? 1 / kt : 0;
+  row.response = kn;
+  row.shortfall = c.give * kn;
+  row.normalMass = kn > 0 ? 1 / (kn + row.shortfall) : 0;
+  row.tangentMass = kt > 0 ? 1 / kt : 0;
   if (c.area) {
     Mat3 K;
     for (std::size_t i = 0; i < 3; ++i)
@@ -61,7 +69,8 @@ std::vector<ContactRow> rowsOf(const std::vector<SolverBody>& solverBodies,
     const SolverContact& area = contacts[static_cast<std::size_t>(patch)];
     rows[k].at = (area.push.transpose() * (contacts[k].pushA - area.pushA)).tail<2>() / area.area->radius();
     ContactRow& row = rows[static_cast<std::size_t>(patch)];
-    row.points.push_back(static_cast<std::uint32_t>(k)), row.places.push_back(rows[k].at);
+    row.points.push_back(static_cast<std::uint32_t>(k));
+    row.places.push_back(rows[k].at);
   }
   return rows;
 }
@@ -75,7 +84,8 @@ LoadedArea::LoadedArea(const std::vector<SolverContact>& contacts, const Contact
   for (std::size_t i = 0; i < points.size(); ++i)
     centre_ += std::max(0.0, contacts[points[i]].impulse[0]) / load * row.places[i];
   to_(0, 0) = std::max(kNarrowest, area.widthUnder(centre_));
-  to_(1, 0) = -centre_.y(), to_(2, 0) = centre_.x();
+  to_(1, 0) = -centre_.y();
+  to_(2, 0) = centre_.x();
 }
 
 ContactArea::Resistance LoadedArea::against(const Vec3& slip) const {

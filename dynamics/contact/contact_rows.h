@@ -18,8 +18,10 @@ struct ContactAxis {
     return n.dot(a.v - b.v) + spinA.dot(a.omega) - spinB.dot(b.omega);
   }
   void give(SolverBody& a, SolverBody& b, double impulse) const {
-    a.v += a.inverseMass * impulse * p, a.omega += impulse * turnA;
-    b.v -= b.inverseMass * impulse * p, b.omega -= impulse * turnB;
+    a.v += a.inverseMass * impulse * p;
+    a.omega += impulse * turnA;
+    b.v -= b.inverseMass * impulse * p;
+    b.omega -= impulse * turnB;
   }
 };
 

@@ -66,9 +66,11 @@ double relaxArea(std::vector<SolverBody>& m, std::vector<SolverContact>& contact
         Vec3 step = -slope.partialPivLu().solve(off);
         if (!step.allFinite()) break;
         while (slip.dot(slip + half * step) < 0.1 * slip.squaredNorm()) step *= 0.5;
-        x += step, slip = half * x + before;
+        x += step;
+        slip = half * x + before;
       }
-      now = force, c.limited = true;
+      now = force;
+      c.limited = true;
     }
   }
   const Vec3 change = now - c.impulse;
@@ -95,7 +97,8 @@ struct Sweeps {
   /// What a pass did is a gradient: go on along it, conjugate to where it went before.
   bool conjugate(int most, double holds = kHolds) {
     const std::size_t n = contacts.size();
-    direction.assign(n, Vec3::Zero()), previous.resize(n);
+    direction.assign(n, Vec3::Zero());
+    previous.resize(n);
     lastSquare = 0;
     for (int i = 0; i < most; ++i) {
       for (std::size_t k = 0; k < n; ++k) previous[k] = contacts[k].impulse;
@@ -125,7 +128,8 @@ struct Sweeps {
 
 void SolverContact::placeAt(const Vec3& point, const Vec3& n, const Vec3& pa, const Vec3& pb) {
   rows = push = basisAround(n);
-  armA = pushA = point - pa, armB = pushB = point - pb;
+  armA = pushA = point - pa;
+  armB = pushB = point - pb;
 }
 
 Mat3 basisAround(const Vec3& n) {

@@ -38,7 +38,8 @@ EdgeIntegrals seenFrom(const Vec2& p, const Vec2& from, const Vec2& along, const
   EdgeIntegrals s;
   s.away = out.dot(d);
   const double a = along.dot(d), b = a + length;
-  s.near = std::sqrt(a * a + s.away * s.away), s.far = std::sqrt(b * b + s.away * s.away);
+  s.near = std::sqrt(a * a + s.away * s.away);
+  s.far = std::sqrt(b * b + s.away * s.away);
   const double farther = length * (a + b) / (s.far + s.near);  // far - near, without cancellation
   s.inverse = 0;
   if (std::fabs(s.away) > 1e-14 * length) {
@@ -104,7 +105,10 @@ void ContactArea::measure() {
                            b[i] * a[j] * b[k] + b[i] * b[j] * a[k];
       return twice * (ends / 20 + mixed / 60);
     };
-    xxx_ += third(0, 0, 0), xxy_ += third(0, 0, 1), xyy_ += third(0, 1, 1), yyy_ += third(1, 1, 1);
+    xxx_ += third(0, 0, 0);
+    xxy_ += third(0, 0, 1);
+    xyy_ += third(0, 1, 1);
+    yyy_ += third(1, 1, 1);
   }
   for (double* m : {&xx_, &xy_, &yy_, &xxx_, &xxy_, &xyy_, &yyy_}) *m /= area_;
 }
@@ -118,10 +122,13 @@ bool ContactArea::close() {
   for (const Edge& e : edges_) {
     const Vec2 a = e.from - origin, b = e.to - origin;
     const double c = planarCross(a, b);
-    twice += c, sum += c * (a + b) / 3, extent = std::max(extent, b.squaredNorm());
+    twice += c;
+    sum += c * (a + b) / 3;
+    extent = std::max(extent, b.squaredNorm());
   }
   if (!(twice > kThin * extent)) return false;
-  size_ = 0.5 * twice, middle_ = origin + sum / twice;
+  size_ = 0.5 * twice;
+  middle_ = origin + sum / twice;
   double distance = 0;
   for (const Edge& e : edges_) {
     const double length = (e.to - e.from).norm();
@@ -132,7 +139,10 @@ bool ContactArea::close() {
   }
   radius_ = distance / size_;
   if (!(radius_ > 0)) return false;
-  for (Side& s : sides_) s.from /= radius_, s.length /= radius_;
+  for (Side& s : sides_) {
+    s.from /= radius_;
+    s.length /= radius_;
+  }
   measure();
   return true;
 }
@@ -153,7 +163,8 @@ ContactArea::Resistance ContactArea::nearlyStraight(const Vec3& slip) const {
   r.loss = r.force.dot(slip);
   const Vec2 mixed = e * (2 * tn * n - tt * t) / speed;
   r.slope(0, 0) = tt / speed;
-  r.slope(0, 1) = r.slope(1, 0) = mixed.x(), r.slope(0, 2) = r.slope(2, 0) = mixed.y();
+  r.slope(0, 1) = r.slope(1, 0) = mixed.x();
+  r.slope(0, 2) = r.slope(2, 0) = mixed.y();
   r.slope.bottomRightCorner<2, 2>() = n * n.transpose() / speed;
   return r;
 }
@@ -172,7 +183,9 @@ ContactArea::Resistance ContactArea::against(const Vec3& slip) const {
     away += seen.distance * s.out;
     turn += ((seen.far - seen.near) * s.along + seen.away * seen.inverse * s.out) * s.out.transpose();
   }
-  mean /= area_, away /= area_, turn /= area_;
+  mean /= area_;
+  away /= area_;
+  turn /= area_;
   const double sign = spin > 0 ? 1 : -1, size = std::fabs(spin);
   Resistance r;
   r.force << sign * (mean + about.dot(away)), -sign * away.y(), sign * away.x();
@@ -182,7 +195,8 @@ ContactArea::Resistance ContactArea::against(const Vec3& slip) const {
   slope /= size;
   const Vec2 mixed = -slope * slide / spin;
   r.slope.bottomRightCorner<2, 2>() = slope;
-  r.slope(0, 1) = r.slope(1, 0) = mixed.x(), r.slope(0, 2) = r.slope(2, 0) = mixed.y();
+  r.slope(0, 1) = r.slope(1, 0) = mixed.x();
+  r.slope(0, 2) = r.slope(2, 0) = mixed.y();
   r.slope(0, 0) = -mixed.dot(slide) / spin;
   return r;
 }
@@ -204,8 +218,12 @@ ContactArea::Need ContactArea::needFor(const Vec3& force) const {
       for (int k = 0; k < 6 && !better; ++k, step *= 0.25) {
         const Vec3 next = (slip + step).normalized();
         const Resistance there = against(next);
-        if (const double now = force.dot(next) / there.loss; now > share)
-          slip = next, r = there, share = now, better = true;
+        if (const double now = force.dot(next) / there.loss; now > share) {
+          slip = next;
+          r = there;
+          share = now;
+          better = true;
+        }
       }
       if (better) break;
     }

@@ -22,7 +22,8 @@ void boundWork(std::size_t members, const std::vector<SolverBody>& free, std::ve
     const Vec3 dv = end[i].v - free[i].v, dw = end[i].omega - free[i].omega, L = spun(end[i], dw);
     const Vec3 mean = falls.empty() ? free[i].v : Vec3(free[i].v - falls[i]);
     const double along = dv.dot(mean) / end[i].inverseMass, around = L.dot(free[i].omega);
-    b += along + around, size += std::fabs(along) + std::fabs(around);
+    b += along + around;
+    size += std::fabs(along) + std::fabs(around);
     c += 0.5 * (dv.squaredNorm() / end[i].inverseMass + L.dot(dw));
   }
   if (b + c <= allowed + kRounding * (size + c)) return;
@@ -40,7 +41,8 @@ double pushOutWork(std::size_t members, const std::vector<SolverBody>& start, co
   for (std::size_t i = 0; i < members; ++i) {
     const double m = 1 / start[i].inverseMass;
     moves += 0.5 * (m * start[i].v.squaredNorm() + start[i].omega.dot(spun(start[i], start[i].omega)));
-    wanted += m * speed * speed, lifts += m * h * pull[i].norm() * speed;
+    wanted += m * speed * speed;
+    lifts += m * h * pull[i].norm() * speed;
   }
   return std::max(0.0, wanted + lifts - moves);
 }

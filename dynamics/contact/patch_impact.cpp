@@ -76,8 +76,11 @@ void FlatLanding::gather(const Side& side, PatchSide* part, double bounce, doubl
     SolverContact c;
     c.b = 1;
     c.placeAt(p.gap.point, p.gap.normal, ma_.p, mb_.p);
-    c.friction = grip, c.floor = bounce * comes;
-    contacts_.push_back(c), whose_.push_back(part), gaps_.push_back(p.gap);
+    c.friction = grip;
+    c.floor = bounce * comes;
+    contacts_.push_back(c);
+    whose_.push_back(part);
+    gaps_.push_back(p.gap);
     if (part) part->closing = std::max(part->closing, comes);
   }
 }
@@ -88,11 +91,15 @@ void FlatLanding::flatten(const Side& side, PatchSide* part, double grip) {
   if (!(grip > 0) || count < 3) return;
   for (FlatContact& flat : flatContacts(a_, {&side, 1}, tau_, std::span(gaps_).subspan(begin, count))) {
     SolverContact c;
-    c.b = 1, c.friction = grip, c.area = flat.area.get();
+    c.b = 1;
+    c.friction = grip;
+    c.area = flat.area.get();
     c.placeAt(flat.plane.origin, flat.plane.n, ma_.p, mb_.p);
     for (const std::uint32_t k : flat.points)
       contacts_[begin + k].patch = static_cast<std::int32_t>(contacts_.size());
-    contacts_.push_back(c), whose_.push_back(part), flats_.push_back(std::move(flat));
+    contacts_.push_back(c);
+    whose_.push_back(part);
+    flats_.push_back(std::move(flat));
   }
 }
 
@@ -114,7 +121,8 @@ FlatLanding::Push FlatLanding::pushOf(const PatchSide* part) {
       continue;
     }
     sum.impulse += c.push * c.impulse;
-    sum.arm += c.impulse[0] * c.pushA, sum.pushed += c.impulse[0];
+    sum.arm += c.impulse[0] * c.pushA;
+    sum.pushed += c.impulse[0];
   }
   pushed_ += sum.pushed;
   return sum;
@@ -130,8 +138,10 @@ std::optional<PatchImpact> collidePatch(const Side& a, const Side& b, double tau
     return {};
   FlatLanding landing(a, tau, first, ma, mb);
   landing.gather(b, nullptr, restitution, friction);
-  for (PatchSide& part : beside)
-    part.closing = 0, landing.gather(part.side, &part, part.restitution, part.friction);
+  for (PatchSide& part : beside) {
+    part.closing = 0;
+    landing.gather(part.side, &part, part.restitution, part.friction);
+  }
   if (landing.size() < 2) return {};
   landing.flatten(b, nullptr, friction);
   for (PatchSide& part : beside) landing.flatten(part.side, &part, part.friction);
@@ -144,7 +154,8 @@ std::optional<PatchImpact> collidePatch(const Side& a, const Side& b, double tau
   }
   if (!landing.isSound()) return {};
   const PatchImpact result{own.impulse, landing.middleOf(own)};
-  ma = landing.after()[0], mb = landing.after()[1];
+  ma = landing.after()[0];
+  mb = landing.after()[1];
   return result;
 }
 

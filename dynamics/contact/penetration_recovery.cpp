@@ -26,11 +26,14 @@ const TriangleTree* facesOf(const Shape& shape, TriangleTree& made) {
       for (const double side : {-1.0, 1.0}) {
         const auto corner = [&](double u, double v) {
           Vec3 x;
-          x[k] = side, x[(k + 1) % 3] = u, x[(k + 2) % 3] = side * v;
+          x[k] = side;
+          x[(k + 1) % 3] = u;
+          x[(k + 2) % 3] = side * v;
           return box->pose * box->half.cwiseProduct(x);
         };
         const std::array<Vec3, 4> c{corner(-1, -1), corner(1, -1), corner(1, 1), corner(-1, 1)};
-        faces.push_back({c[0], c[1], c[2]}), faces.push_back({c[0], c[2], c[3]});
+        faces.push_back({c[0], c[1], c[2]});
+        faces.push_back({c[0], c[2], c[3]});
       }
   } else if (const auto* hull = std::get_if<ConvexShape>(&shape)) {
     for (const ConvexShape::Face& f : hull->faces)
@@ -60,12 +63,16 @@ double meets(const Triangle& t, const Vec3& p, const Vec3& q) {
 /// The first triangle on the way from p to q, -1 if none.
 std::int32_t firstOnWay(const TriangleTree& tree, const Vec3& p, const Vec3& q) {
   Aabb box;
-  box.include(p), box.include(q);
+  box.include(p);
+  box.include(q);
   std::int32_t first = -1;
   double least = 2;
   tree.eachOverlapping(box, [&](std::uint32_t i) {
     const double share = meets(tree.triangles()[i], p, q);
-    if (share >= 0 && share < least) least = share, first = static_cast<std::int32_t>(i);
+    if (share >= 0 && share < least) {
+      least = share;
+      first = static_cast<std::int32_t>(i);
+    }
   });
   return first;
 }
@@ -82,7 +89,10 @@ struct Inside {
       : shape(*body.shape), X(thing.at(tau).pose.inverse() * body.at(tau).pose),
         middle(X * body.bound().centre) {
     if (!isMesh(shape)) coreOf(shape, X, core);
-    for (int i = 0; i < 3; ++i) box.hi[i] = extent(Vec3::Unit(i)), box.lo[i] = -extent(-Vec3::Unit(i));
+    for (int i = 0; i < 3; ++i) {
+      box.hi[i] = extent(Vec3::Unit(i));
+      box.lo[i] = -extent(-Vec3::Unit(i));
+    }
   }
   /// How far it reaches that way.
   double extent(const Vec3& d) const {
@@ -115,7 +125,8 @@ std::optional<PenetrationRecovery> mostAlong(const Inside& body, const TriangleT
 
 bool wentInto(const Side& thing, double tau, const Vec3& from, const Vec3& to) {
   Aabb way;
-  way.include(from), way.include(to);
+  way.include(from);
+  way.include(to);
   if (!boundingBox(*thing.shape, thing.at(tau).pose).overlaps(way)) return false;
   TriangleTree sheet;
   const TriangleTree* tree = facesOf(*thing.shape, sheet);

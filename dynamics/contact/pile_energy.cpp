@@ -39,7 +39,8 @@ void PileEnergy::join(const Pile& pile) {
   for (std::uint32_t i = 0; i < pile.members; ++i)
     if (pushed_[i]) {
       Group& g = groups_[of(i)];
-      g.touched = true, g.driven = g.driven || driven_[i];
+      g.touched = true;
+      g.driven = g.driven || driven_[i];
     }
 }
 
@@ -57,7 +58,8 @@ void PileEnergy::boundJump(Pile& pile, const std::vector<PileBody>& before) {
     Group& g = groups_[of(i)];
     const PileBody &old = before[i], &now = pile.bodies[i];
     const double was = product(pile, i, old, old), is = product(pile, i, now, now);
-    g.before += was, g.start += is;
+    g.before += was;
+    g.start += is;
     taken_[i] = 0.5 * (was - is);
   }
   for (std::uint32_t i = 0; i < pile.members; ++i) {
@@ -78,7 +80,8 @@ void PileEnergy::payShift(Pile& pile, double deep) {
     if (!pushed_[i]) continue;
     Group& g = groups_[of(i)];
     const PileBody& b = pile.bodies[i];
-    g.start += 0.5 * product(pile, i, b, b), g.before += taken_[i];
+    g.start += 0.5 * product(pile, i, b, b);
+    g.before += taken_[i];
     g.lifts -= pile.pull[i].dot(pile.shift[i]) / b.inverseMass;
   }
   for (std::uint32_t i = 0; i < pile.members; ++i) {
@@ -98,10 +101,12 @@ void PileEnergy::boundWork(Pile& pile) {
     if (!pushed_[i]) continue;
     Group& g = groups_[of(i)];
     const PileBody &v0 = pile.start[i], &v1 = pile.bodies[i];
-    g.start += product(pile, i, v0, v0), g.end += product(pile, i, v1, v1);
+    g.start += product(pile, i, v0, v0);
+    g.end += product(pile, i, v1, v1);
     g.across += product(pile, i, v0, v1);
     const Vec3 falls = pile.h / v0.inverseMass * pile.pull[i];
-    g.fallsAtStart += falls.dot(v0.v), g.fallsAtEnd += falls.dot(v1.v);
+    g.fallsAtStart += falls.dot(v0.v);
+    g.fallsAtEnd += falls.dot(v1.v);
   }
   for (std::uint32_t i = 0; i < pile.members; ++i) {
     if (!pushed_[i]) continue;
@@ -115,8 +120,10 @@ void PileEnergy::boundWork(Pile& pile) {
     if (g.end > last) s = std::min(s, last / g.end);
     s = std::max(s, 0.0);
     if (s < 1 - kPileRounding) slow(pile.bodies[i], s);
-    if (s * g.across > first + kPileRounding * (g.start + std::fabs(g.fallsAtStart)))
-      slow(pile.start[i], 0), slow(pile.bodies[i], 0);
+    if (s * g.across > first + kPileRounding * (g.start + std::fabs(g.fallsAtStart))) {
+      slow(pile.start[i], 0);
+      slow(pile.bodies[i], 0);
+    }
   }
 }
 

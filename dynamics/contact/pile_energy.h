@@ -31,7 +31,10 @@ private:
   std::uint32_t of(std::uint32_t i);
   void join(const Pile& pile);
   double product(const Pile& pile, std::size_t i, const PileBody& a, const PileBody& b) const;
-  static void slow(PileBody& body, double share) { body.v *= share, body.omega *= share; }
+  static void slow(PileBody& body, double share) {
+    body.v *= share;
+    body.omega *= share;
+  }
 
   std::vector<std::uint32_t> parent_;
   std::vector<char> pushed_, driven_;

@@ -102,16 +102,19 @@ void PileSolver::prepare(PileContact& c) const {
     kt = response(c.a, arms.holdA, t1) + response(c.b, arms.holdB, t1) + response(c.a, arms.holdA, t2) +
          response(c.b, arms.holdB, t2);
   }
-  c.normalMass = kn > 0 ? 1 / kn : 0, c.tangentMass = kt > 0 ? 1 / kt : 0;
+  c.normalMass = kn > 0 ? 1 / kn : 0;
+  c.tangentMass = kt > 0 ? 1 / kt : 0;
 }
 
 void PileSolver::give(const PileContact& c, double pressed, const Vec3& held) {
   PileBody &a = pile_.bodies[c.a], &b = pile_.bodies[c.b];
   const Vec3 push = pressed * c.n, impulse = push + held;
-  a.v += a.inverseMass * impulse, b.v -= b.inverseMass * impulse;
+  a.v += a.inverseMass * impulse;
+  b.v -= b.inverseMass * impulse;
   if (c.arms < 0) {
     const Vec3 turn = c.n.cross(impulse);
-    a.omega -= a.roundInertia * c.leverA * turn, b.omega -= b.roundInertia * c.leverB * turn;
+    a.omega -= a.roundInertia * c.leverA * turn;
+    b.omega -= b.roundInertia * c.leverB * turn;
     return;
   }
   const PileArms& arms = pile_.arms[static_cast<std::size_t>(c.arms)];
@@ -138,7 +141,8 @@ double PileSolver::relax(PileContact& c) {
   if (size > most * most) held *= most / std::sqrt(size);
   const double more = pressed - c.pressed;
   const Vec3 hold = held - c.held, step = more * c.n + hold;
-  c.pressed = pressed, c.held = held;
+  c.pressed = pressed;
+  c.held = held;
   give(c, more, hold);
   const double mass = std::max(a.inverseMass, b.inverseMass);
   return step.squaredNorm() * mass * mass;
@@ -149,11 +153,15 @@ double PileSolver::relax(PileContact& c) {
   constexpr Double4 kThree{1, 1, 1, 0};
   PileBody &a = bodies[c.a], &b = bodies[c.b];
   Double4 n, va, vb, wa, wb, before;
-  load(c.n, n), load(a.v, va), load(b.v, vb);
+  load(c.n, n);
+  load(a.v, va);
+  load(b.v, vb);
   const Double4 apart = va - vb;
   const double un = dot(apart, n), pressed = std::max(0.0, c.pressed + (c.floor - un) * c.normalMass);
   if (pressed == 0 && c.pressed == 0) return 0;
-  load(a.omega, wa), load(b.omega, wb), load(c.held, before);
+  load(a.omega, wa);
+  load(b.omega, wb);
+  load(c.held, before);
   const Double4 rolls = c.leverA * wa + c.leverB * wb;
   Double4 across, turn;
   cross(rolls, n, across);
@@ -198,7 +206,8 @@ int PileSolver::sweepsFor(std::size_t points) const {
 /// Changes what a contact point pushes.
 void PileSolver::go(PileContact& c, double pressed, const Vec3& held) {
   give(c, pressed, held);
-  c.pressed += pressed, c.held += held;
+  c.pressed += pressed;
+  c.held += held;
 }
 
 /// Small heaps can afford more sweeps, and need them where they are tall. What a sweep did is a gradient: the
@@ -206,7 +215,8 @@ void PileSolver::go(PileContact& c, double pressed, const Vec3& held) {
 void PileSolver::converge(int most) {
   std::vector<PileContact>& all = pile_.contacts;
   const std::size_t n = all.size();
-  before_.resize(n), direction_.assign(n, {0, Vec3::Zero()});
+  before_.resize(n);
+  direction_.assign(n, {0, Vec3::Zero()});
   double last = 0;
   for (int i = 0; i < most; ++i) {
     for (std::size_t k = 0; k < n; ++k) before_[k] = {all[k].pressed, all[k].held};
@@ -246,7 +256,8 @@ void PileSolver::jump() {
     const double closing = -normalVelocity(c), gap = std::max(c.gap, 0.0) / pile_.h;
     c.floor = closing > kBounceSpeed && closing > gap ? c.restitution * closing : -gap;
     any = any || closing > gap + kSettled;
-    c.pressed = 0, c.held.setZero();
+    c.pressed = 0;
+    c.held.setZero();
   }
   if (!any) return;
   const std::vector<PileBody> before = pile_.bodies;
@@ -272,7 +283,8 @@ void PileSolver::shift() {
       const double ka = pile_.bodies[c.a].inverseMass, kb = pile_.bodies[c.b].inverseMass;
       const double more = std::max(-c.pressed, (c.floor - (d[c.a] - d[c.b]).dot(c.n)) / (ka + kb));
       c.pressed += more;
-      d[c.a] += more * ka * c.n, d[c.b] -= more * kb * c.n;
+      d[c.a] += more * ka * c.n;
+      d[c.b] -= more * kb * c.n;
     }
   energy_.payShift(pile_, kDeep);
   for (PileContact& c : pile_.contacts) c.gap += (d[c.a] - d[c.b]).dot(c.n);
@@ -283,7 +295,8 @@ void PileSolver::push() {
   std::vector<PileContact>& all = pile_.contacts;
   for (std::size_t k = 0; k < all.size(); ++k) {
     PileContact& c = all[k];
-    c.pressed = guess_[k].pressed, c.held = guess_[k].held;
+    c.pressed = guess_[k].pressed;
+    c.held = guess_[k].held;
     c.floor = std::min(0.0, -2 * std::max(c.gap, 0.0) / pile_.h - normalVelocity(c));
   }
   pile_.start = pile_.bodies;
@@ -310,7 +323,10 @@ void PileSolver::push() {
 
 void PileSolver::solve() {
   guess_.reserve(pile_.contacts.size());
-  for (PileContact& c : pile_.contacts) prepare(c), guess_.push_back({c.pressed, c.held});
+  for (PileContact& c : pile_.contacts) {
+    prepare(c);
+    guess_.push_back({c.pressed, c.held});
+  }
   jump();
   shift();
   push();

@@ -47,7 +47,8 @@ FittedRung ofKind(FlightKind kind, const Numbers& x) {
   for (std::size_t i = 0; i < c.size(); ++i)
     c[i] = std::clamp(x[static_cast<Eigen::Index>(i)], limits[i].least, limits[i].most);
   FittedRung rung;
-  rung.kind = kind, rung.model = *modelFrom(kind, c);
+  rung.kind = kind;
+  rung.model = *modelFrom(kind, c);
   return rung;
 }
 
@@ -121,10 +122,14 @@ Tuning tableTuning(const FitTask& task, const FlightModel& form) {
                                                   &FlightTableRow::moment};
   Tuning t;
   const auto count = static_cast<Eigen::Index>(3 * flown + 1);
-  t.start = Numbers::Zero(count), t.scale = Numbers::Constant(count, 0.05);
+  t.start = Numbers::Zero(count);
+  t.scale = Numbers::Constant(count, 0.05);
   t.make = [=](const Numbers& x) {
     FittedRung rung;
-    rung.kind = FlightKind::Table, rung.area = area, rung.length = length, rung.rows = rows;
+    rung.kind = FlightKind::Table;
+    rung.area = area;
+    rung.length = length;
+    rung.rows = rows;
     for (std::size_t c = 0; c < 3; ++c) {
       double largest = 1e-6;  // of the column where it was flown
       for (std::size_t i = 0; i < flown; ++i) largest = std::max(largest, std::fabs(rows[i].*kColumns[c]));
@@ -147,7 +152,8 @@ Tuning tableTuning(const FitTask& task, const FlightModel& form) {
 /// The bias' rate that keeps the axis nearest to what was recorded; it moves no landing.
 FittedRung fittedBias(const FitTask& task, const FitTolerance& tolerance) {
   Tuning t;
-  t.start = Numbers::Constant(1, 1.2), t.scale = Numbers::Constant(1, 0.5);
+  t.start = Numbers::Constant(1, 1.2);
+  t.scale = Numbers::Constant(1, 0.5);
   t.make = [&task](const Numbers& x) {
     FittedRung rung;
     rung.kind = FlightKind::Bias;
@@ -164,7 +170,8 @@ FitErrors errorsOf(const FitTask& task, const FlightModel& model, const Bias& bi
   const auto raise = [](double& to, double by) { to = by <= to ? to : by; };  // a NaN counts as worst
   for (const Trajectory& f : task.flights) {
     const FitErrors e = errorsBetween(flyBeside(f, task, model, bias), f, fitAxis(task));
-    raise(worst.landing, e.landing), raise(worst.attitude, e.attitude);
+    raise(worst.landing, e.landing);
+    raise(worst.attitude, e.attitude);
   }
   return worst;
 }

@@ -31,10 +31,14 @@ struct Silhouettes {
     // Half of what faces a direction or its opposite is seen from there. About the axis |n| cos has the mean
     // 2 / pi.
     const double sideways = std::sqrt(n.y() * n.y() + n.z() * n.z()) / kPi;
-    front += std::max(n.x(), 0.0), frontMoment += std::max(n.x(), 0.0) * middle;
-    side += sideways, sideMoment += sideways * middle, sideSecond += sideways * square;
+    front += std::max(n.x(), 0.0);
+    frontMoment += std::max(n.x(), 0.0) * middle;
+    side += sideways;
+    sideMoment += sideways * middle;
+    sideSecond += sideways * square;
     top += 0.5 * std::fabs(n.z());
-    wet += area, wetMoment += area * middle;
+    wet += area;
+    wetMoment += area * middle;
     for (const Vec3& p : {a, b, c}) box.include(p);
   }
 };
@@ -47,7 +51,9 @@ bool FlightShape::elongated() const {
 
 FlightShape FlightShape::scaled(double f) const {
   FlightShape s = *this;
-  s.axes.centre *= f, s.axes.variance *= f * f, s.axes.skewness *= f * f * f;
+  s.axes.centre *= f;
+  s.axes.variance *= f * f;
+  s.axes.skewness *= f * f * f;
   for (double* l : {&s.length, &s.width, &s.thickness, &s.sideArm, &s.wetArm, &s.noseArm}) *l *= f;
   for (double* a : {&s.frontArea, &s.sideArea, &s.topArea, &s.wetArea}) *a *= f * f;
   s.sideSpread *= f * f * f * f;
@@ -69,8 +75,13 @@ FlightShape measureShape(const Mesh& mesh, const Vec3& centreOfMass, const std::
     sum.add(corner(i), corner(i + 1), corner(i + 2));
   if (!(sum.wet > 0)) return s;
   const Vec3 extent = sum.box.hi - sum.box.lo;
-  s.length = extent.x(), s.width = extent.y(), s.thickness = extent.z();
-  s.frontArea = sum.front, s.sideArea = sum.side, s.topArea = sum.top, s.wetArea = sum.wet;
+  s.length = extent.x();
+  s.width = extent.y();
+  s.thickness = extent.z();
+  s.frontArea = sum.front;
+  s.sideArea = sum.side;
+  s.topArea = sum.top;
+  s.wetArea = sum.wet;
   s.sideArm = sum.side > 0 ? -sum.sideMoment / sum.side : 0;
   s.wetArm = -sum.wetMoment / sum.wet;
   s.noseArm = sum.front > 0 ? sum.frontMoment / sum.front : 0;

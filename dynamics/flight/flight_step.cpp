@@ -15,12 +15,18 @@ using AnyLaw = std::variant<std::monostate, RodLaw, PlateLaw, BallLaw, TableLaw<
 
 StepNumbers numbersFor(const FlightBody& body, const FlightAir& air, double h) {
   StepNumbers n{};
-  for (int i = 0; i < 3; ++i) n.gravity[i] = air.gravity[i], n.wind[i] = air.wind[i];
-  n.h = h, n.half = 0.5 * h, n.fall = 0.125 * h * h;
+  for (int i = 0; i < 3; ++i) {
+    n.gravity[i] = air.gravity[i];
+    n.wind[i] = air.wind[i];
+  }
+  n.h = h;
+  n.half = 0.5 * h;
+  n.fall = 0.125 * h * h;
   n.quarterTurn = 0.25 * h / body.across;
   n.spinTurn = 0.5 * h * (1 / body.along - 1 / body.across);
   n.inverseAcross = 1 / body.across;
-  n.twist = 0.5 * air.density * h, n.kick = n.twist / body.mass;
+  n.twist = 0.5 * air.density * h;
+  n.kick = n.twist / body.mass;
   return n;
 }
 
@@ -29,7 +35,9 @@ Motion<double> motionOf(const FlightState& s) {
 }
 
 void put(const Motion<double>& m, FlightState& s) {
-  s.p = vec(m.p), s.v = vec(m.v), s.L = vec(m.L);
+  s.p = vec(m.p);
+  s.v = vec(m.v);
+  s.L = vec(m.L);
   s.q = Quat(m.q.w, m.q.x, m.q.y, m.q.z);
 }
 
@@ -92,7 +100,8 @@ void FlightSwarm::set(std::size_t i, const FlightState& s) {
 FlightStepper::FlightStepper(const FlightModel& model, const FlightBody& body, const FlightAir& air,
                              double seconds, int axis) {
   auto n = std::make_unique<Numbers>();
-  n->model = model, n->n = numbersFor(body, air, seconds);
+  n->model = model;
+  n->n = numbersFor(body, air, seconds);
   n->axis = symmetryAxis(model).value_or(axis);
   if (const auto* rod = std::get_if<RodFlight>(&n->model)) n->law = lawOf(*rod);
   if (const auto* plate = std::get_if<PlateFlight>(&n->model)) n->law = lawOf(*plate);

@@ -248,7 +248,8 @@ Result<TableFlight> readFlightTable(std::string_view text, const std::string& fi
     if (axial) {
       const auto [s, c] = det::sincos(row.alpha);
       const double a = row.drag, n = row.lift;
-      row.drag = a * c + n * s, row.lift = n * c - a * s;
+      row.drag = a * c + n * s;
+      row.lift = n * c - a * s;
       if (row.drag < -1e-3 * (std::abs(a) + std::abs(n)))
         return wrongAt(t, i,
                        fmt::format("CA and CN make a drag of {:.3g}, which drives the body on", row.drag));

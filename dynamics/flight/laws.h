@@ -57,7 +57,9 @@ struct PlateLaw {
   [[gnu::always_inline]] Rates<S> rates(const Airflow<S>& f) const {
     const S s = atMost(S(size(f.along) / atLeast(f.speed, 1e-150)), 1.0);
     S r = s * s * inverseStall;
-    r = atMost(r, 1e9), r = r * r, r = r * r;
+    r = atMost(r, 1e9);
+    r = r * r;
+    r = r * r;
     const S attached = 1.0 / (1.0 + r * r);
     const S lift = attached * (liftArea + liftGrowth * s) + (1.0 - attached) * (stallArea * (1.6 - 0.6 * s));
     const S drag = dragArea * f.speed;

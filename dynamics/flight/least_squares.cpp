@@ -44,7 +44,9 @@ Eigen::VectorXd leastSquares(const Residuals& residuals, Eigen::VectorXd at, con
       damping *= better ? 0.2 : 5;
       if (!better) continue;
       const bool done = trialSize > (1 - 1e-7) * size;
-      at = trial, value = there, size = trialSize;
+      at = trial;
+      value = there;
+      size = trialSize;
       if (done) return at;
     }
     if (!better) return at;

@@ -58,7 +58,8 @@ PrincipalAxes surfaceAxes(const Mesh& mesh) {
     }
   };
   each([&](const Vec3(&v)[3], double size) {
-    area += size, first += size / 3 * (v[0] + v[1] + v[2] - 3 * o);
+    area += size;
+    first += size / 3 * (v[0] + v[1] + v[2] - 3 * o);
   });
   PrincipalAxes a;
   a.variance.setZero();
@@ -85,7 +86,9 @@ PrincipalAxes sampledAxes(const Mesh& mesh, std::size_t samples, std::uint64_t s
   std::vector<Vec3> drawn(samples);
   for (Vec3& p : drawn) {  // splitmix64
     std::uint64_t z = seed += 0x9e3779b97f4a7c15;
-    z = (z ^ z >> 30) * 0xbf58476d1ce4e5b9, z = (z ^ z >> 27) * 0x94d049bb133111eb, z ^= z >> 31;
+    z = (z ^ z >> 30) * 0xbf58476d1ce4e5b9;
+    z = (z ^ z >> 27) * 0x94d049bb133111eb;
+    z ^= z >> 31;
     p = point(mesh, z % mesh.positions.size());
     a.centre += p;
   }

@@ -75,7 +75,10 @@ public:
     for (int n = 0; left > 0 && n < 1000000; ++n) {
       const double h = std::min(step_, left);
       const double error = tryStep(f, h, s, model);
-      if (error <= 1 || h < 1e-9) f = unpack(next_), left = h < left ? left - h : 0;
+      if (error <= 1 || h < 1e-9) {
+        f = unpack(next_);
+        left = h < left ? left - h : 0;
+      }
       const double factor = std::clamp(0.9 * det::pow(std::max(error, 1e-12), -0.2), 0.2, 5.0);
       if (h == step_ || error > 1) step_ = h * factor;
     }

@@ -20,10 +20,15 @@ double sumOfProducts(const double* a, const double* b, std::size_t n) {
 }  // namespace
 
 void EnvelopeMatrix::reset(const std::vector<std::size_t>& firsts) {
-  first_ = firsts, begin_.resize(firsts.size());
+  first_ = firsts;
+  begin_.resize(firsts.size());
   std::size_t all = 0;
-  for (std::size_t i = 0; i < firsts.size(); ++i) begin_[i] = all, all += i - firsts[i] + 1;
-  lower_.assign(all, 0), upper_.assign(all, 0);
+  for (std::size_t i = 0; i < firsts.size(); ++i) {
+    begin_[i] = all;
+    all += i - firsts[i] + 1;
+  }
+  lower_.assign(all, 0);
+  upper_.assign(all, 0);
 }
 
 /// Doolittle's method. The diagonal is U's and lies with the rows.

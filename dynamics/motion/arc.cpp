@@ -38,7 +38,8 @@ struct SpinSeries {
     byI[i] = Double4{-1, 1, 1, -1} * __builtin_shufflevector(q, q, 1, 0, 3, 2);
     byJ[i] = Double4{-1, -1, 1, 1} * __builtin_shufflevector(q, q, 2, 3, 0, 1);
     byK[i] = Double4{-1, 1, -1, 1} * __builtin_shufflevector(q, q, 3, 2, 1, 0);
-    next[i] = __builtin_shufflevector(v, v, 1, 2, 0, 3), last[i] = __builtin_shufflevector(v, v, 2, 0, 1, 3);
+    next[i] = __builtin_shufflevector(v, v, 1, 2, 0, 3);
+    last[i] = __builtin_shufflevector(v, v, 2, 0, 1, 3);
     Double4 dw{}, dq{};
 #pragma GCC unroll 16
     for (int k = 1; k <= i + 1; ++k) {
@@ -129,7 +130,10 @@ double reachOfSeries(double c16, double c15, double tolerance) {
 }
 
 Path& Path::operator=(const Path& o) {
-  kind = o.kind, degree = o.degree, damping = o.damping, spare = o.spare;
+  kind = o.kind;
+  degree = o.degree;
+  damping = o.damping;
+  spare = o.spare;
   std::copy_n(o.c.begin(), std::max(3, degree + 1), c.begin());
   return *this;
 }
@@ -150,11 +154,15 @@ Path Path::still(const Vec3& p) {
 
 Path Path::parabola(const Vec3& p, const Vec3& v, const Vec3& a, double damping) {
   Path path;
-  path.c[0] = p, path.c[1] = v;
+  path.c[0] = p;
+  path.c[1] = v;
   if (damping > 0) {
-    path.kind = Kind::Damped, path.damping = damping, path.c[2] = a;
+    path.kind = Kind::Damped;
+    path.damping = damping;
+    path.c[2] = a;
   } else {
-    path.c[2] = 0.5 * a, path.degree = 2;
+    path.c[2] = 0.5 * a;
+    path.degree = 2;
   }
   return path;
 }
@@ -162,7 +170,9 @@ Path Path::parabola(const Vec3& p, const Vec3& v, const Vec3& a, double damping)
 Path Path::hermite(const Vec3 (&s)[3], const Vec3 (&e)[3], double h) {
   Path path;
   path.degree = 5;
-  path.c[0] = s[0], path.c[1] = s[1], path.c[2] = 0.5 * s[2];
+  path.c[0] = s[0];
+  path.c[1] = s[1];
+  path.c[2] = 0.5 * s[2];
   const Vec3 dp = (e[0] - s[0] - h * s[1] - 0.5 * h * h * s[2]) / (h * h * h);
   const Vec3 dv = (e[1] - s[1] - h * s[2]) / (h * h), da = (e[2] - s[2]) / h;
   path.c[3] = 10 * dp - 4 * dv + 0.5 * da;
@@ -223,7 +233,9 @@ Spin Spin::still(const Quat& q) {
 
 Spin Spin::free(const Quat& q, const Vec3& L, const Vec3& inertia) {
   Spin s;
-  s.q0 = q, s.L = L, s.inverse = inertia.cwiseInverse();
+  s.q0 = q;
+  s.L = L;
+  s.inverse = inertia.cwiseInverse();
   if (L.squaredNorm() == 0) return s;
   const double size = inertia.maxCoeff();
   const auto equal = [&](int i, int j) { return std::fabs(inertia[i] - inertia[j]) <= 1e-12 * size; };
@@ -244,7 +256,9 @@ Spin Spin::free(const Quat& q, const Vec3& L, const Vec3& inertia) {
 Spin Spin::driven(const Quat& q, const Vec3& omega, const Vec3& alpha, double inertia) {
   Spin s;
   s.kind = Kind::Driven;
-  s.q0 = q, s.omega = omega, s.alpha = alpha;
+  s.q0 = q;
+  s.omega = omega;
+  s.alpha = alpha;
   s.inverse.setConstant(1 / inertia);
   s.L = inertia * omega;
   return s;
@@ -261,7 +275,9 @@ Spin Spin::unsteered(const Quat& q, const Vec3& L, const Vec3& inertia) {
   if (equal(0, 1) || equal(1, 2) || equal(0, 2) || L.squaredNorm() == 0) return free(q, L, inertia);
   Spin s;
   s.kind = Kind::Uniform;
-  s.q0 = q, s.L = L, s.inverse = inertia.cwiseInverse();
+  s.q0 = q;
+  s.L = L;
+  s.inverse = inertia.cwiseInverse();
   s.omega = q * s.inverse.cwiseProduct(q.conjugate() * L);
   return s;
 }
@@ -298,13 +314,17 @@ Spin Spin::steered(const End& start, const End& end, double h, const Vec3& inert
   Spin s;
   static_cast<SpinTerms&>(s) = base;
   s.kind = Kind::Steered;
-  s.omega = turned(start.q, start.L), s.alpha.setZero();
+  s.omega = turned(start.q, start.L);
+  s.alpha.setZero();
   s.axis = base.kind == Kind::Symmetric ? base.axis : base.kind == Kind::Uniform ? kEven : kStanding;
   const Vec3 a = 0.5 * second, u = (w - h * h * a) / (h * h * h), v = (rate - 2 * h * a) / (h * h);
   const Vec3 b = 4 * u - v, c = (v - 3 * u) / h;
-  s.series[0] = padded(a), s.series[1] = padded(b), s.series[2] = padded(c);
+  s.series[0] = padded(a);
+  s.series[1] = padded(b);
+  s.series[2] = padded(c);
   const Vec3 gained = (end.L - start.L - h * start.torque) / (h * h), more = (end.torque - start.torque) / h;
-  s.series[3] = padded(start.torque), s.series[4] = padded(3 * gained - more),
+  s.series[3] = padded(start.torque);
+  s.series[4] = padded(3 * gained - more);
   s.series[5] = padded((more - 2 * gained) / h);
   const auto [speed, change] = boundsOf(a, b, c, h);
   const double own = base.speedBound(h);

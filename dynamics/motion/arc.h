@@ -34,7 +34,12 @@ struct Path {
   /// position, velocity, acceleration.
   std::array<Vec3, kMostDegree + 2> c;
 
-  Path() { c[0].setZero(), c[1].setZero(), c[2].setZero(), c.back().setZero(); }
+  Path() {
+    c[0].setZero();
+    c[1].setZero();
+    c[2].setZero();
+    c.back().setZero();
+  }
   Path(const Path& o) : Path() { *this = o; }
   Path& operator=(const Path& o);
   static Path still(const Vec3& p);

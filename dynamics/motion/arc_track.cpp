@@ -16,7 +16,8 @@ Kinematics ArcPiece::at(double when) const {
   const double s = when - tau;
   const Pose X_WC{path.position(pathAge + s), spin.orientation(spinAge + s)};
   Kinematics k;
-  k.pose = X_WC * X_CN, k.p = k.pose.p;
+  k.pose = X_WC * X_CN;
+  k.p = k.pose.p;
   k.omega = spin.angularVelocity(spinAge + s, X_WC.q);
   k.v = path.velocity(pathAge + s) + k.omega.cross(k.p - X_WC.p);
   return k;

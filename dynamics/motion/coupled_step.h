@@ -55,10 +55,14 @@ CoupledStep coupledStep(const F& push, double tau, const CoupledState& start, co
   Vec3 w;
   for (int i = 0; i < 7; ++i) {
     CoupledState& s = step.end;
-    s = start, w.setZero();
+    s = start;
+    w.setZero();
     for (int j = 0; j < i; ++j) {
       const double share = h * pair::kWeights[i][j];
-      s.p += share * k[j].p, s.v += share * k[j].v, w += share * k[j].w, s.L += share * k[j].L;
+      s.p += share * k[j].p;
+      s.v += share * k[j].v;
+      w += share * k[j].w;
+      s.L += share * k[j].L;
     }
     const Quat own = free.orientation(pair::kTimes[i] * h), turn = det::expRotation(w);
     s.q = turn * own;
@@ -72,7 +76,10 @@ CoupledStep coupledStep(const F& push, double tau, const CoupledState& start, co
   Rate e{Vec3::Zero(), Vec3::Zero(), Vec3::Zero(), Vec3::Zero()};
   for (int i = 0; i < 7; ++i) {
     const double share = h * pair::kError[i];
-    e.p += share * k[i].p, e.v += share * k[i].v, e.w += share * k[i].w, e.L += share * k[i].L;
+    e.p += share * k[i].p;
+    e.v += share * k[i].v;
+    e.w += share * k[i].w;
+    e.L += share * k[i].L;
   }
   using Allowed = CoupledTolerance;
   step.error =

@@ -36,15 +36,18 @@ struct DragSeries {
       const int middle = n / 2;
       Double4 products{};
       double others = 0;
-      if (n % 2 == 0)
-        products = 0.5 * s.u[middle] * s.u[middle], others = 0.5 * s.speed[middle] * s.speed[middle];
+      if (n % 2 == 0) {
+        products = 0.5 * s.u[middle] * s.u[middle];
+        others = 0.5 * s.speed[middle] * s.speed[middle];
+      }
 #pragma GCC unroll 16
       for (int i = (n - 1) / 2; i >= 0; --i) {
         products += s.u[i] * s.u[n - i];
         if (i > 0) others += s.speed[i] * s.speed[n - i];
       }
       const double sum = (products[0] + products[1]) + (products[2] - others);
-      s.speed[n] = sum * inverse, s.rate[n] = sum * share;
+      s.speed[n] = sum * inverse;
+      s.rate[n] = sum * share;
     }
     Double4 lost{};
 #pragma GCC unroll 16
@@ -74,11 +77,16 @@ double dragFlight(const Vec3& p, const Vec3& v, const Vec3& pull, const Drag& dr
   const Vec3 u0 = v - drag.wind;
   const double speed = u0.norm();
   if (drag.quadratic > 0 && !(speed > 1e-6)) return 0;
-  set(s.u[0], u0), set(s.pull, pull);
-  s.speed[0] = speed, s.rate[0] = drag.linear + drag.quadratic * speed, s.quadratic = drag.quadratic;
+  set(s.u[0], u0);
+  set(s.pull, pull);
+  s.speed[0] = speed;
+  s.rate[0] = drag.linear + drag.quadratic * speed;
+  s.quadratic = drag.quadratic;
   hasAvx2() ? expandAvx2(s) : expandPlain(s);
-  path.kind = Path::Kind::Polynomial, path.degree = kOrder;
-  path.c[0] = p, path.c[1] = v;
+  path.kind = Path::Kind::Polynomial;
+  path.degree = kOrder;
+  path.c[0] = p;
+  path.c[1] = v;
   for (int n = 1; n < kOrder; ++n)
     path.c[static_cast<std::size_t>(n + 1)] = kInverse[n + 1] * firstThree(s.u[n]);
   double horizon =

@@ -15,8 +15,14 @@ struct Instant {
     const double whole = rest + s;
     auto n = static_cast<Nanoseconds>(whole * 1e9);
     double r = whole - static_cast<double>(n) * 1e-9;
-    if (r < 0) r += 1e-9, --n;
-    if (r >= 1e-9) r -= 1e-9, ++n;
+    if (r < 0) {
+      r += 1e-9;
+      --n;
+    }
+    if (r >= 1e-9) {
+      r -= 1e-9;
+      ++n;
+    }
     return {ns + n, r > 0 ? r : 0};
   }
   /// Seconds from `earlier` to this moment.

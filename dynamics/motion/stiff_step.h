@@ -19,7 +19,8 @@ CoupledStep stiffStep(const F& push, double tau, const CoupledState& start, cons
   const Vec3 spin = free.angularVelocity(h, own);
   const auto stateAt = [&](const Nine& x) {
     CoupledState s = start;
-    s.v += x.segment<3>(0), s.L += x.segment<3>(6);
+    s.v += x.segment<3>(0);
+    s.L += x.segment<3>(6);
     s.q = det::expRotation(x.segment<3>(3)) * own;
     return s;
   };

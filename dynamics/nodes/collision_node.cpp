@@ -89,7 +89,8 @@ void CollisionNode::findPart(Part& part, Scene& scene) {
   part.next = {};
   if (found == part.ref) return;
   if (object) {
-    part.next = found, part.nextAt = scene.tree().load(found.load)->since;
+    part.next = found;
+    part.nextAt = scene.tree().load(found.load)->since;
     part.leaveAt = std::min(part.leaveAt, part.nextAt);
   } else {
     part.leaveAt = 0;
@@ -106,13 +107,18 @@ void CollisionNode::changeParts(Nanoseconds time, FrameContext& frame) {
         removeCollider(*part, scene);
       else
         removeCollidee(*part, scene);
-      part->ref = {}, part->id = 0, part->fit = nullptr, part->track.clear(), part->arcs.clear();
+      part->ref = {};
+      part->id = 0;
+      part->fit = nullptr;
+      part->track.clear();
+      part->arcs.clear();
     }
     if (!part->next.valid() || part->nextAt > time || part->ref.valid()) continue;
     auto* object = dynamic_cast<ObjectNode*>(scene.find(part->next));
     const NodeRef ref = std::exchange(part->next, NodeRef{});
     if (!object) continue;
-    part->ref = ref, part->leaveAt = scene.tree().endOf(ref.load);
+    part->ref = ref;
+    part->leaveAt = scene.tree().endOf(ref.load);
     part->placement = object->placement();
     bring(*part, *object, isCollider, time, frame);
   }
@@ -211,7 +217,8 @@ ColliderDef CollisionNode::colliderOf(Part& part, const ObjectNode& object, cons
   part.fit = fitOf(object, scene);
   part.shape = addShape(part.fit);
   ColliderDef def;
-  def.pose = part.pose, def.shape = part.shape;
+  def.pose = part.pose;
+  def.shape = part.shape;
   // A body that another dynamics node moves takes part with the surface that its script gave it.
   if (const auto* body = dynamic_cast<const DynObjectNode*>(&object)) def.surface = body->body().surface;
   return def;
@@ -222,7 +229,8 @@ void CollisionNode::addCuts(const PoseTrack& track, std::vector<Nanoseconds>& cu
 }
 
 bool CollisionNode::follow(Part& part, FrameContext& frame, std::vector<Nanoseconds>& cuts) const {
-  part.track.clear(), part.arcs.clear();
+  part.track.clear();
+  part.arcs.clear();
   if (!part.ref.valid()) return false;
   followFrom(part, part.pose, frame);
   if (!part.arcs.empty()) {
@@ -293,7 +301,10 @@ bool CollisionNode::foresee(FrameContext& frame, std::vector<Nanoseconds>& cuts)
     if (comes) cuts.push_back(part->nextAt);
     any |= goes || comes;
   }
-  for (const Switching& s : switchings_) cuts.push_back(s.when), any = true;
+  for (const Switching& s : switchings_) {
+    cuts.push_back(s.when);
+    any = true;
+  }
   for (Part& part : colliders_) any |= follow(part, frame, cuts);
   return prepare(frame, cuts) || any;
 }
@@ -419,7 +430,8 @@ bool CollisionNode::isMovedBy(const Node& mover, NodeRef node, const Scene& scen
 void CollisionNode::addCollidee(Part& part, ObjectNode& object, Scene& scene) {
   BodyDef def;
   const ColliderDef collider = colliderOf(part, object, scene);
-  def.shape = collider.shape, def.pose = collider.pose;
+  def.shape = collider.shape;
+  def.pose = collider.pose;
   def.releaseDistance = attributes_.releaseDistance;
   part.id = world_.addBody(def);
   world_.holdBody(part.id);

@@ -92,7 +92,10 @@ public:
 
   /// Sets the path of the body in a frame; the dynamics node calls this for nodes that look at the body.
   /// arcsIn() returns null if the body has not moved, or if no node looked at it before.
-  void setArcs(std::uint64_t frame, const ArcTrack& arcs) { arcs_ = arcs, arcsFrame_ = frame; }
+  void setArcs(std::uint64_t frame, const ArcTrack& arcs) {
+    arcs_ = arcs;
+    arcsFrame_ = frame;
+  }
   const ArcTrack* arcsIn(std::uint64_t frame) const {
     return frame == arcsFrame_ && !arcs_.empty() ? &arcs_ : nullptr;
   }

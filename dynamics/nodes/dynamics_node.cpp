@@ -51,10 +51,12 @@ void DynamicsNode::addCollidee(Part& part, ObjectNode& object, Scene& scene) {
   def.pose = part.pose;
   def.mass = body.massOf(*part.fit);
   def.surface = body.surface;
-  def.damping = body.damping, def.dragArea = body.dragArea.value_or(part.fit->dragArea);
+  def.damping = body.damping;
+  def.dragArea = body.dragArea.value_or(part.fit->dragArea);
   def.releaseDistance = attributes_.releaseDistance;
   const Velocity start = startOf(*node, scene);
-  def.v = start.v, def.omega = start.omega;
+  def.v = start.v;
+  def.omega = start.omega;
   def.flight = body.flight;
   if (def.flight) def.mass = revolved(def.mass, *def.flight);
   if (const Mesh* model = body.sticks ? scene.instances().mesh(object.appearance().mesh) : nullptr) {
@@ -102,7 +104,8 @@ FieldId DynamicsNode::fieldFor(NodeRef ref, Scene& scene) {
   FieldNode* node = fieldAt(ref, scene);
   if (!node) return 0;
   Field f;
-  f.ref = ref, f.placement = node->placement(),
+  f.ref = ref;
+  f.placement = node->placement();
   f.pose = scene.poseTracks().startOf(f.placement, scene.placements());
   f.strength = node->strength();
   f.id = world_.addField({node->law(scene), f.pose, f.pose, node->duration()}, false);
@@ -129,7 +132,10 @@ bool DynamicsNode::followFields(FrameContext& frame, std::vector<Nanoseconds>& c
     f.track.clear();
     const FieldNode* node = fieldAt(f.ref, frame.scene);
     f.leaveAt = node ? frame.scene.tree().endOf(f.ref.load) : 0;
-    if (f.leaveAt <= frame.now.time) cuts.push_back(f.leaveAt), any = true;
+    if (f.leaveAt <= frame.now.time) {
+      cuts.push_back(f.leaveAt);
+      any = true;
+    }
     if (!node) continue;
     world_.setFieldLaw(f.id, node->law(frame.scene));
     f.track = frame.scene.poseTracks().within(f.placement, f.pose, frame.start(), frame.now.time,

@@ -22,9 +22,13 @@ FieldLaw FieldNode::law(const Scene& scene) const {
   const double size = scale.maxCoeff();
   if (auto* spherical = std::get_if<SphericalField>(&law)) spherical->radius *= size;
   if (auto* point = std::get_if<PointField>(&law)) point->softening *= size;
-  if (auto* vortex = std::get_if<VortexField>(&law)) vortex->core *= size, vortex->radius *= size;
+  if (auto* vortex = std::get_if<VortexField>(&law)) {
+    vortex->core *= size;
+    vortex->radius *= size;
+  }
   if (auto* medium = std::get_if<MediumField>(&law)) {
-    medium->centre = medium->centre.cwiseProduct(scale), medium->half = medium->half.cwiseProduct(scale);
+    medium->centre = medium->centre.cwiseProduct(scale);
+    medium->half = medium->half.cwiseProduct(scale);
     medium->half.x() =
         medium->region == MediumField::Region::Ball ? medium->half.x() / scale.x() * size : medium->half.x();
   }
@@ -193,10 +197,12 @@ std::unique_ptr<Node> makeMediumField(const NodeRequest& r) {
   law.wind = d.vec3("wind");
   if (const auto ball = d.sphere("sphere")) {
     law.region = MediumField::Region::Ball;
-    law.centre = ball->centre, law.half.setConstant(ball->radius);
+    law.centre = ball->centre;
+    law.half.setConstant(ball->radius);
   } else if (const auto box = d.box("box")) {
     law.region = MediumField::Region::Box;
-    law.centre = box->centre, law.half = 0.5 * box->edges;
+    law.centre = box->centre;
+    law.half = 0.5 * box->edges;
   }
   return makeField(r, law);
 }

@@ -133,7 +133,8 @@ Bias biasOf(const Declaration& d, const FlightShape& shape) {
 /// The other end flies first.
 void turnAround(FlightShape& s, double volume) {
   s.q_NA = s.q_NA * Quat(0, 0, 0, 1);  // half a turn about z
-  s.sideArm = -s.sideArm, s.wetArm = -s.wetArm;
+  s.sideArm = -s.sideArm;
+  s.wetArm = -s.wetArm;
   // The moments of front and back differ by the volume (divergence theorem).
   s.noseArm = s.frontArea > 0 ? volume / s.frontArea - s.noseArm : 0;
 }
@@ -145,7 +146,8 @@ FlightShape formOf(const Declaration& d, const Mesh& mesh, const MassProperties&
   const auto volume = integrateVolume(mesh);
   if (nose.dot(s.q_NA * Vec3::UnitX()) < 0) turnAround(s, volume ? volume.value().volume : 0);
   if (d.optionalChoice<AxesWord>("axes") == AxesWord::Vertices) {
-    s.axes = sampledAxes(mesh, kSamples), s.q_NA = s.axes.q_NP;
+    s.axes = sampledAxes(mesh, kSamples);
+    s.q_NA = s.axes.q_NP;
     if (nose.dot(s.q_NA * Vec3::UnitX()) < 0) s.q_NA = s.q_NA * Quat(0, 0, 0, 1);
   }
   return s;

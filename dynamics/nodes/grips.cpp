@@ -12,7 +12,9 @@ const Grip* Grips::grab(BodyId body, NodeRef node, const std::string& tracker, P
   if (!world_.holdBody(body)) return nullptr;
   const Pose X_WT = poseOn(way, when, Limit::After);
   Grip& grip = grips_.emplace_back();
-  grip.body = body, grip.node = node, grip.tracker = tracker;
+  grip.body = body;
+  grip.node = node;
+  grip.tracker = tracker;
   grip.X_TN = X_WT.inverse() * world_.pose(body);
   grip.hand.put(when, X_WT);
   grip.track = std::move(way);
@@ -60,8 +62,13 @@ void Grips::move(Nanoseconds from, Nanoseconds to, bool jump) {
 
 void Grips::hash(StateHash& h) const {
   for (const Grip& g : grips_) {
-    h.add(g.body), h.add(std::string_view(g.tracker)), h.add(g.X_TN);
-    for (const PoseKnot& k : g.hand.way()) h.add(k.time), h.add(k.X);
+    h.add(g.body);
+    h.add(std::string_view(g.tracker));
+    h.add(g.X_TN);
+    for (const PoseKnot& k : g.hand.way()) {
+      h.add(k.time);
+      h.add(k.X);
+    }
     h.add(world_.accumulatedVelocity(g.body));
   }
 }

@@ -22,9 +22,11 @@ int facesAlong(const ConvexShape& hull, const Vec3& d, std::array<std::uint32_t,
     n = std::min(n + 1, 4);
     for (int k = n - 1; k > at; --k) {
       const auto to = static_cast<std::size_t>(k);
-      score[to] = score[to - 1], best[to] = best[to - 1];
+      score[to] = score[to - 1];
+      best[to] = best[to - 1];
     }
-    score[static_cast<std::size_t>(at)] = s, best[static_cast<std::size_t>(at)] = i;
+    score[static_cast<std::size_t>(at)] = s;
+    best[static_cast<std::size_t>(at)] = i;
   });
   return n;
 }
@@ -166,34 +168,45 @@ bool coreOf(const Shape& shape, const Pose& X, ConvexCore& c) {
   struct Visitor {
     const Pose& X_RN;
     ConvexCore& c;
-    void put(const Pose& local) const { c.R = (X_RN.q * local.q).toRotationMatrix(), c.p = X_RN * local.p; }
+    void put(const Pose& local) const {
+      c.R = (X_RN.q * local.q).toRotationMatrix();
+      c.p = X_RN * local.p;
+    }
     bool operator()(const BallShape& s) const {
-      c.kind = ConvexCore::Kind::Point, c.p = X_RN * s.centre, c.radius = s.radius;
+      c.kind = ConvexCore::Kind::Point;
+      c.p = X_RN * s.centre;
+      c.radius = s.radius;
       return true;
     }
     bool operator()(const BoxShape& s) const {
-      c.kind = ConvexCore::Kind::Box, c.half = s.half;
+      c.kind = ConvexCore::Kind::Box;
+      c.half = s.half;
       put(s.pose);
       return true;
     }
     bool operator()(const CapsuleShape& s) const {
-      c.kind = ConvexCore::Kind::Segment, c.half = {0, 0, s.half}, c.radius = s.radius;
+      c.kind = ConvexCore::Kind::Segment;
+      c.half = {0, 0, s.half};
+      c.radius = s.radius;
       put(s.pose);
       return true;
     }
     bool operator()(const CylinderShape& s) const {
-      c.kind = ConvexCore::Kind::Cylinder, c.half = {s.radius, s.radius, s.half};
+      c.kind = ConvexCore::Kind::Cylinder;
+      c.half = {s.radius, s.radius, s.half};
       put(s.pose);
       return true;
     }
     bool operator()(const ConvexShape& s) const {
-      c.kind = ConvexCore::Kind::Hull, c.hull = &s;
+      c.kind = ConvexCore::Kind::Hull;
+      c.hull = &s;
       put(Pose{});
       return true;
     }
     bool operator()(const PlaneShape& s) const {
       if (!s.bounded()) return false;
-      c.kind = ConvexCore::Kind::Box, c.half = {s.half.x(), s.half.y(), 0};
+      c.kind = ConvexCore::Kind::Box;
+      c.half = {s.half.x(), s.half.y(), 0};
       put(s.pose);
       return true;
     }
@@ -226,7 +239,9 @@ Feature featureTowards(const ConvexCore& c, const Vec3& d, bool around) {
     const double s = signOf(l[k]);
     for (const auto& [su, sw] : {std::pair(-1, -1), std::pair(1, -1), std::pair(1, 1), std::pair(-1, 1)}) {
       Vec3 x;
-      x[k] = s * c.half[k], x[u] = s * su * c.half[u], x[w] = sw * c.half[w];
+      x[k] = s * c.half[k];
+      x[u] = s * su * c.half[u];
+      x[w] = sw * c.half[w];
       f.add(c.p + c.R * x);
     }
     f.normal = c.R.col(k) * s;
@@ -262,7 +277,10 @@ Directions directionsNear(const ConvexCore& c, const Vec3& d, const Vec3& x) {
   case ConvexCore::Kind::Point: break;
   case ConvexCore::Kind::Segment: out.edge(c.R.col(2)); break;
   case ConvexCore::Kind::Box:
-    for (int i = 0; i < 3; ++i) out.face(c.R.col(i)), out.edge(c.R.col(i));
+    for (int i = 0; i < 3; ++i) {
+      out.face(c.R.col(i));
+      out.edge(c.R.col(i));
+    }
     break;
   case ConvexCore::Kind::Cylinder: {
     out.face(c.R.col(2));

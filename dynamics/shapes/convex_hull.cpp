@@ -38,7 +38,10 @@ public:
         double out = -1e300;
         for (const Facet& f : facets_)
           if (f.alive) out = std::max(out, f.normal.dot(points_[i]) - f.offset);
-        if (out > far) far = out, best = i;
+        if (out > far) {
+          far = out;
+          best = i;
+        }
         return out <= tolerance_;
       });
       if (far <= tolerance_) return true;
@@ -57,7 +60,10 @@ private:
       Index best = 0;
       double far = -1;
       for (Index i = 0; i < points_.size(); ++i)
-        if (const double d = measure(points_[i]); d > far) far = d, best = i;
+        if (const double d = measure(points_[i]); d > far) {
+          far = d;
+          best = i;
+        }
       return std::pair(best, far);
     };
     const Vec3 o = points_[0];
@@ -71,7 +77,10 @@ private:
     const auto [d, dd] = farthest([&](const Vec3& p) { return std::fabs(n.dot(p - A)); });
     if (!(dd > tolerance_)) return false;
     inside_ = (A + points_[b] + points_[c] + points_[d]) / 4;
-    add(a, b, c), add(a, b, d), add(a, c, d), add(b, c, d);
+    add(a, b, c);
+    add(a, b, d);
+    add(a, c, d);
+    add(b, c, d);
     return true;
   }
 
@@ -82,8 +91,11 @@ private:
     const double area = f.normal.norm();
     f.normal = area > 0 ? Vec3(f.normal / area) : Vec3::Zero();
     f.offset = f.normal.dot(points_[a]);
-    if (f.normal.dot(inside_) > f.offset)
-      std::swap(f.v[1], f.v[2]), f.normal = -f.normal, f.offset = -f.offset;
+    if (f.normal.dot(inside_) > f.offset) {
+      std::swap(f.v[1], f.v[2]);
+      f.normal = -f.normal;
+      f.offset = -f.offset;
+    }
     facets_.push_back(f);
   }
 
@@ -134,7 +146,8 @@ std::vector<Index> merge(const std::vector<Facet>& facets, double tolerance, Con
     ConvexShape::Face face{facets[i].normal, -1e300, static_cast<Index>(s.loops.size()), 0};
     const Index start = next.begin()->first;
     for (Index at = start; face.count <= next.size();) {
-      s.loops.push_back(at), ++face.count;
+      s.loops.push_back(at);
+      ++face.count;
       face.offset = std::max(face.offset, face.normal.dot(s.points[at]));
       const auto to = next.find(at);
       if (to == next.end()) break;
@@ -152,7 +165,10 @@ std::uint32_t farthestOfAll(const std::vector<Vec3>& points, const Vec3& d) {
   double far = -1e300;
   std::uint32_t best = 0;
   for (std::uint32_t i = 0; i < points.size(); ++i)
-    if (const double h = d.dot(points[i]); h > far) far = h, best = i;
+    if (const double h = d.dot(points[i]); h > far) {
+      far = h;
+      best = i;
+    }
   return best;
 }
 
@@ -171,7 +187,10 @@ void connect(const std::vector<Facet>& facets, const std::vector<Index>& faceOf,
     for (const Index v : facets[i].v)
       if (faceOf[i] < s.faces.size()) around.insert({v, faceOf[i]});
   s.firstFace.assign(s.points.size() + 1, 0);
-  for (const auto& [corner, face] : around) ++s.firstFace[corner + 1], s.facesAround.push_back(face);
+  for (const auto& [corner, face] : around) {
+    ++s.firstFace[corner + 1];
+    s.facesAround.push_back(face);
+  }
   for (std::size_t i = 1; i < s.firstFace.size(); ++i) s.firstFace[i] += s.firstFace[i - 1];
   for (std::size_t i = 0; i < 8; ++i)
     s.outermost[i] = farthestOfAll(s.points, Vec3(i & 1 ? 1 : -1, i & 2 ? 1 : -1, i & 4 ? 1 : -1));
@@ -188,8 +207,11 @@ std::uint32_t ConvexShape::farthest(const Vec3& d) const {
     higher = false;
     const std::uint32_t from = best;
     for (std::uint32_t i = firstNeighbour[from]; i < firstNeighbour[from + 1]; ++i)
-      if (const double h = d.dot(points[neighbours[i]]); h > far)
-        far = h, best = neighbours[i], higher = true;
+      if (const double h = d.dot(points[neighbours[i]]); h > far) {
+        far = h;
+        best = neighbours[i];
+        higher = true;
+      }
   }
   return best;
 }
@@ -209,7 +231,10 @@ std::optional<ConvexShape> convexHull(const std::vector<Vec3>& cloud) {
   for (const Facet& f : builder.facets())
     for (const Index v : f.v) number.emplace(v, 0);
   ConvexShape s;
-  for (auto& [old, now] : number) now = static_cast<Index>(s.points.size()), s.points.push_back(points[old]);
+  for (auto& [old, now] : number) {
+    now = static_cast<Index>(s.points.size());
+    s.points.push_back(points[old]);
+  }
   std::vector<Facet> facets = builder.facets();
   for (Facet& f : facets)
     for (Index& v : f.v) v = number[v];
@@ -224,7 +249,8 @@ std::optional<ConvexShape> convexHull(const std::vector<Vec3>& cloud) {
         0)) {  // the middle of the bounds of a slanted body may lie outside: the mean of corners not
     s.centre.setZero();
     for (const Vec3& p : s.points) s.centre += p / static_cast<double>(s.points.size());
-    s.reach = 0, s.inside = 1e300;
+    s.reach = 0;
+    s.inside = 1e300;
     for (const Vec3& p : s.points) s.reach = std::max(s.reach, (p - s.centre).norm());
     for (const ConvexShape::Face& f : s.faces)
       s.inside = std::min(s.inside, f.offset - f.normal.dot(s.centre));

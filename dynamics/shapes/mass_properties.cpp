@@ -18,7 +18,9 @@ void rotateAway(Mat3& a, Mat3& v, int i, int j) {
   const double t = (theta >= 0 ? 1 : -1) / (std::fabs(theta) + std::sqrt(theta * theta + 1));
   const double c = 1 / std::sqrt(t * t + 1), s = t * c;
   Mat3 r = Mat3::Identity();
-  r(i, i) = r(j, j) = c, r(i, j) = s, r(j, i) = -s;
+  r(i, i) = r(j, j) = c;
+  r(i, j) = s;
+  r(j, i) = -s;
   a = r.transpose() * a * r;
   a(i, j) = a(j, i) = 0;
   v = v * r;
@@ -49,13 +51,18 @@ void principalAxes(const Mat3& symmetric, Vec3& moments, Quat& axes) {
   for (int sweep = 0; sweep < 30; ++sweep) {
     const double off = std::max({std::fabs(a(0, 1)), std::fabs(a(0, 2)), std::fabs(a(1, 2))});
     if (!(off > 1e-15 * size)) break;
-    rotateAway(a, v, 0, 1), rotateAway(a, v, 0, 2), rotateAway(a, v, 1, 2);
+    rotateAway(a, v, 0, 1);
+    rotateAway(a, v, 0, 2);
+    rotateAway(a, v, 1, 2);
   }
   int order[3] = {0, 1, 2};
   const auto smaller = [&](int i, int j) { return a(i, i) < a(j, j); };
   std::stable_sort(order, order + 3, smaller);
   Mat3 r;
-  for (int k = 0; k < 3; ++k) moments[k] = a(order[k], order[k]), r.col(k) = v.col(order[k]);
+  for (int k = 0; k < 3; ++k) {
+    moments[k] = a(order[k], order[k]);
+    r.col(k) = v.col(order[k]);
+  }
   if (r.determinant() < 0) r.col(2) = -r.col(2);
   axes = quaternionOf(r);
 }
@@ -81,8 +88,10 @@ Result<VolumeIntegral> integrateVolume(const Mesh& mesh) {
                s = a + b + c;
     const Vec3 n = (b - a).cross(c - a);
     const double det = a.dot(b.cross(c));
-    vectorArea += n, area += n.norm();
-    volume += det / 6, moment += det / 24 * s;
+    vectorArea += n;
+    area += n.norm();
+    volume += det / 6;
+    moment += det / 24 * s;
     second += det / 120 * (a * a.transpose() + b * b.transpose() + c * c.transpose() + s * s.transpose());
   }
   const double extent = (box.hi - box.lo).norm();
@@ -123,7 +132,8 @@ MassProperties massOfSphere(const Vec3& centre, double radius, double density) {
 MassProperties massOfBox(const Pose& pose, const Vec3& half, double density) {
   MassProperties m;
   m.mass = density * 8 * half.prod();
-  m.centre = pose.p, m.axes = pose.q;
+  m.centre = pose.p;
+  m.axes = pose.q;
   const Vec3 s = half.cwiseProduct(half);
   m.inertia = m.mass / 3 * Vec3(s.y() + s.z(), s.x() + s.z(), s.x() + s.y());
   return m;

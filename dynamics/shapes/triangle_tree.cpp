@@ -158,7 +158,8 @@ void TriangleTree::connect() {
       Triangle& u = triangles_[static_cast<std::size_t>(j)];
       open.erase(other);
       --unmatched;
-      t.next[k] = j, u.next[l] = static_cast<std::int32_t>(i);
+      t.next[k] = j;
+      u.next[l] = static_cast<std::int32_t>(i);
       // Flat or hollow: the far corner of the neighbour does not lie below this face.
       const Vec3 far = u.v[(l + 2) % 3] - t.v[k];
       t.merged[k] = u.merged[l] = t.normal.dot(far) >= -1e-5 * far.norm();
@@ -181,7 +182,8 @@ void TriangleTree::build(std::uint32_t first, std::uint32_t count) {
   }
   nodes_[self].box = box;
   if (count <= 4) {
-    nodes_[self].first = first, nodes_[self].count = count;
+    nodes_[self].first = first;
+    nodes_[self].count = count;
     return;
   }
   int axis = 0;
@@ -234,7 +236,9 @@ std::int32_t TriangleTree::nearest(const Vec3& p, double limit, ClosestPoint& at
       if (d < bound || (d == bound &&
                         (best < 0 || (triangles_[order_[i]].normal.dot(p - c.point) >
                                       triangles_[static_cast<std::size_t>(best)].normal.dot(p - c.point))))) {
-        bound = d, best = index, at = c;
+        bound = d;
+        best = index;
+        at = c;
         if (d < enough * enough) return best;
       }
     }

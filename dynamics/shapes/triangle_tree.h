@@ -104,7 +104,8 @@ private:
       const Node& n = nodes_[at];
       if (!test(n.box)) continue;
       if (n.count == 0) {
-        stack[top++] = n.first, stack[top++] = at + 1;
+        stack[top++] = n.first;
+        stack[top++] = at + 1;
         continue;
       }
       for (std::uint32_t i = n.first; i < n.first + n.count; ++i) {

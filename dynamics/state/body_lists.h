@@ -14,7 +14,10 @@ namespace stadion {
 class ActiveBodies {
 public:
   void add(RigidBody& b) {
-    if (!b.active) b.active = true, list_.push_back(&b);
+    if (!b.active) {
+      b.active = true;
+      list_.push_back(&b);
+    }
   }
   void forget(RigidBody& b) { std::erase(list_, &b); }
 
@@ -60,7 +63,10 @@ private:
 class ChangedMotions {
 public:
   void mark(RigidBody& b) {
-    if (!b.marked) b.marked = true, bodies_.push_back(&b);
+    if (!b.marked) {
+      b.marked = true;
+      bodies_.push_back(&b);
+    }
   }
   /// Marks a collider that has appeared, moved or jumped.
   void mark(ColliderId id) { colliders_.push_back(id); }

@@ -8,7 +8,8 @@ namespace stadion {
 /// Notes the body's way from now on, for others or for its own partings, or no longer.
 void BodyTraces::trace(RigidBody& b, bool traced, bool awaited, double tau) {
   const bool before = b.trace.traced || b.trace.awaited;
-  b.trace.traced = traced, b.trace.awaited = awaited;
+  b.trace.traced = traced;
+  b.trace.awaited = awaited;
   if (before == (traced || awaited)) return;
   b.trace.arcs.clear();
   if (before) {
@@ -32,7 +33,8 @@ void BodyTraces::addPart(RigidBody& b, ArcPiece part) {
   part.jump = std::exchange(b.trace.put, false);
   // What lasts for no time is no part of a way.
   if (!b.trace.arcs.empty() && !(b.trace.arcs.back().from < part.from)) {
-    part.from = b.trace.arcs.back().from, part.jump = part.jump || b.trace.arcs.back().jump;
+    part.from = b.trace.arcs.back().from;
+    part.jump = part.jump || b.trace.arcs.back().jump;
     b.trace.arcs.back() = part;
   } else {
     b.trace.arcs.push_back(part);
@@ -45,8 +47,11 @@ void BodyTraces::note(RigidBody& b, double tau) {
   if (b.mode == BodyMode::Held) return noteHeld(b, tau);
   ArcPiece part;
   part.from = time_.instantAt(tau);
-  part.pathAge = b.age(tau), part.spinAge = b.spinAge(tau);
-  part.path = b.path, part.spin = b.spin, part.X_CN = b.X_CN;
+  part.pathAge = b.age(tau);
+  part.spinAge = b.spinAge(tau);
+  part.path = b.path;
+  part.spin = b.spin;
+  part.X_CN = b.X_CN;
   addPart(b, part);
 }
 
@@ -61,7 +66,11 @@ void BodyTraces::noteHeld(RigidBody& b, double tau) {
        i < b.grip.held.arcs.size() && b.grip.held.arcs[i].tau < time_.now(); ++i) {
     ArcPiece part = b.grip.held.arcs[i];
     const double early = tau - part.tau;
-    if (early > 0) part.from = time_.instantAt(tau), part.pathAge += early, part.spinAge += early;
+    if (early > 0) {
+      part.from = time_.instantAt(tau);
+      part.pathAge += early;
+      part.spinAge += early;
+    }
     addPart(b, part);
   }
 }

@@ -9,8 +9,12 @@ namespace stadion {
 std::uint64_t ContactMemory::share(const Key& pair, const Memory& m) {
   if (m.idle()) return 0;
   StateHash h;
-  h.add(pair.first.isBody), h.add(pair.first.id), h.add(pair.second);
-  h.add(m.touching), h.add(m.waiting != kNowhere), h.add(m.impact);
+  h.add(pair.first.isBody);
+  h.add(pair.first.id);
+  h.add(pair.second);
+  h.add(m.touching);
+  h.add(m.waiting != kNowhere);
+  h.add(m.impact);
   return h.value();
 }
 
@@ -52,7 +56,9 @@ ContactMemory::Waiting* ContactMemory::impact(const Key& pair, Nanoseconds time,
       waiting_.push_back({pair});
     }
     waiting = &waiting_[m.waiting];
-    m.impact = time, waiting->frame = frame, waiting->seen = time;
+    m.impact = time;
+    waiting->frame = frame;
+    waiting->seen = time;
   });
   return waiting;
 }
@@ -68,7 +74,10 @@ bool ContactMemory::touching(const Key& pair) const {
 
 std::uint64_t ContactMemory::share(const Owed& owed) {
   StateHash h;
-  h.add(owed.pair.first.isBody), h.add(owed.pair.first.id), h.add(owed.pair.second), h.add(owed.time);
+  h.add(owed.pair.first.isBody);
+  h.add(owed.pair.first.id);
+  h.add(owed.pair.second);
+  h.add(owed.time);
   return h.value();
 }
 

@@ -88,11 +88,13 @@ public:
       bool foreseen = w.versionA != nullptr;
       f("foreseen", foreseen);
       if (!f.restores() || !foreseen) continue;
-      w.versionA = versionOf(w.pair.first), w.versionB = versionOf({true, w.pair.second});
+      w.versionA = versionOf(w.pair.first);
+      w.versionB = versionOf({true, w.pair.second});
       if (!w.versionA || !w.versionB) return f.fail();
     }
     if (!f.restores()) return;
-    events_.clear(), others_.clear();
+    events_.clear();
+    others_.clear();
     for (const auto& [pair, m] : memory_) {
       others_.emplace(pair.second, pair.first);
       if (m.waiting != kNowhere && (m.waiting >= waiting_.size() || waiting_[m.waiting].pair != pair))

@@ -36,26 +36,35 @@ public:
 
   /// Forgets all events and the scheduled tick.
   void clear() {
-    queue_ = {}, touches_.clear();
+    queue_ = {};
+    touches_.clear();
     tickAt_ = kNone;
   }
   /// A number greater than all before; commands share it with events.
   std::uint64_t takeOrder() { return nextOrder_++; }
   void postCommand(double tau) {
     Event e;
-    e.tau = tau, e.kind = Event::Kind::Command;
+    e.tau = tau;
+    e.kind = Event::Kind::Command;
     post(e);
   }
   /// The motion of `p` ends at tau, or turns.
   void postHorizon(double tau, ContactSide p, std::uint32_t version) {
     Event e;
-    e.tau = tau, e.kind = Event::Kind::Horizon, e.a = p, e.versionA = version;
+    e.tau = tau;
+    e.kind = Event::Kind::Horizon;
+    e.a = p;
+    e.versionA = version;
     post(e);
   }
   void postTouch(double tau, const Side& a, const Side& b, const Touch& touch) {
     Event e;
-    e.tau = tau, e.kind = Event::Kind::Touch, e.a = a.key, e.b = b.key;
-    e.versionA = a.version(), e.versionB = b.version();
+    e.tau = tau;
+    e.kind = Event::Kind::Touch;
+    e.a = a.key;
+    e.b = b.key;
+    e.versionA = a.version();
+    e.versionB = b.version();
     e.detail = static_cast<std::uint32_t>(touches_.size());
     touches_.push_back(touch);
     post(e);
@@ -66,7 +75,9 @@ public:
     ++tickNumber_;
     tickAt_ = tau;
     Event e;
-    e.tau = tau, e.kind = Event::Kind::Tick, e.detail = tickNumber_;
+    e.tau = tau;
+    e.kind = Event::Kind::Tick;
+    e.detail = tickNumber_;
     post(e);
   }
   /// Returns true if a tick event is the scheduled one.
@@ -89,7 +100,10 @@ public:
     std::vector<Event> events;
     for (auto left = queue_; !left.empty(); left.pop()) events.push_back(left.top());
     const std::size_t n = f.count("events", events.size());
-    if (f.restores()) events.assign(n, {}), queue_ = {};
+    if (f.restores()) {
+      events.assign(n, {});
+      queue_ = {};
+    }
     for (Event& e : events) {
       f("tau", e.tau), f("order", e.order), f("kind", e.kind), f("a", e.a), f("b", e.b);
       f("version a", e.versionA), f("version b", e.versionB), f("detail", e.detail);

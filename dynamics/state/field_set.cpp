@@ -22,7 +22,9 @@ bool isHooked(const RigidBody& b, FieldId field) {
 FieldId FieldSet::add(const ForceField& field) {
   const FieldId id = nextField_++;
   FieldEntry& f = fields_.add(id);
-  f.id = id, f.field = field, f.changed = true;
+  f.id = id;
+  f.field = field;
+  f.changed = true;
   return id;
 }
 
@@ -32,7 +34,8 @@ bool FieldSet::move(FieldId id, const Pose& start, const Pose& end) {
   ForceField& f = entry->field;
   const bool was = f.moving();
   const bool same = f.end.p == start.p && f.end.q.coeffs() == start.q.coeffs();
-  f.start = withUnitRotation(start), f.end = withUnitRotation(end);
+  f.start = withUnitRotation(start);
+  f.end = withUnitRotation(end);
   if (was || !same || f.moving()) entry->changed = true;
   return true;
 }
@@ -42,7 +45,8 @@ bool FieldSet::setStrength(FieldId id, double start, double end) {
   if (!entry || !std::isfinite(start) || !std::isfinite(end)) return false;
   ForceField& f = entry->field;
   entry->changed = entry->changed || f.first != f.last || f.last != start || start != end;
-  f.first = start, f.last = end;
+  f.first = start;
+  f.last = end;
   return true;
 }
 
@@ -82,7 +86,8 @@ CoupledPush FieldSet::airPush(const RigidBody& b, const CoupledState& s, const V
     if (!air) return;
     const Wrench w = aerodynamics(b.flight->model, air->density, q_WA.conjugate() * (s.v - air->wind),
                                   q_WA.conjugate() * omega);
-    push.a += b.inverseMass * (q_WA * w.force), push.torque += q_WA * w.torque;
+    push.a += b.inverseMass * (q_WA * w.force);
+    push.torque += q_WA * w.torque;
   });
   return push;
 }

@@ -12,7 +12,8 @@ void HeldBodies::add(RigidBody& b) {
   b.mode = BodyMode::Held;
   b.grip.freePlace = b.pose * b.bound.centre;
   if (std::ranges::find(list_, &b) == list_.end()) list_.push_back(&b);
-  b.grip.held.arcs.clear(), b.grip.nextArcs.clear();
+  b.grip.held.arcs.clear();
+  b.grip.nextArcs.clear();
   b.grip.held.set(b.pose, b.pose, time_.now(), 0);
   b.grip.carried.clear();
   b.grip.wound.setZero();

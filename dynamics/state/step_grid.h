@@ -13,7 +13,10 @@ class StepGrid {
 public:
   /// Divides all steps by `parts`.
   void refine(std::uint32_t parts) {
-    island_ /= parts, pile_ /= parts, islandStep_ /= parts, faceStep_ /= parts;
+    island_ /= parts;
+    pile_ /= parts;
+    islandStep_ /= parts;
+    faceStep_ /= parts;
   }
 
   double islandStep() const { return islandStep_; }  ///< length of an island's whole step [s]

@@ -13,7 +13,8 @@ constexpr double kMargin = 2e-6;  ///< so that a fresh arc of the same motion st
 void reachOn(const RigidBody& b, double tau, double d, Aabb& box) {
   const Vec3 v = b.velocity(tau), p = b.position(tau) + d * v;
   const Vec3 room = Vec3::Constant(b.reach + kMargin) + 0.5 * d * d * b.even.accelerationBound(v, d);
-  box.include(p - room), box.include(p + room);
+  box.include(p - room);
+  box.include(p + room);
 }
 
 /// The box around a body from tau to `to`, however it turns.
@@ -34,7 +35,8 @@ Aabb sweptBody(const RigidBody& b, double tau, double to) {
   }
   const double margin = b.reach + kMargin + 1e-12 * p0.cwiseAbs().maxCoeff();
   sag.array() += margin;
-  box.lo -= sag, box.hi += sag;
+  box.lo -= sag;
+  box.hi += sag;
   return box;
 }
 
@@ -50,7 +52,8 @@ void SweptBoxes::sweep(RigidBody& b, double tau) {
     if (b.contact.inPile) {  // steps are short and many: a roomy box serves several
       if (b.place != kUnfiled && holds(b.swept, box)) return;
       const double room = 0.004 + 0.05 * b.velocity(tau).norm();
-      b.swept.lo = box.lo.array() - room, b.swept.hi = box.hi.array() + room;
+      b.swept.lo = box.lo.array() - room;
+      b.swept.hi = box.hi.array() + room;
     } else {
       if (b.path.isSeries() && tau < end && end < time_.windowEnd())
         reachOn(b, end, time_.windowEnd() - end, box);
@@ -67,7 +70,8 @@ void SweptBoxes::sweep(Collider& c) {
   } else {
     constexpr double margin = 2e-5;  // so that a body that touches it at load is seen
     c.swept = boundingBox(*c.shape, c.motion.end);
-    c.swept.lo.array() -= margin, c.swept.hi.array() += margin;
+    c.swept.lo.array() -= margin;
+    c.swept.hi.array() += margin;
   }
   colliders_.put(c, c.swept);
 }

@@ -16,7 +16,8 @@ ShapeId WorldObjects::addShape(std::shared_ptr<const Shape> shape) {
   if (!bound.centre.allFinite() || !(bound.radius > 0)) return 0;
   const ShapeId id = nextShape_++;
   ShapeEntry& entry = shapes_.add(id);
-  entry.shape = std::move(shape), entry.bound = bound;
+  entry.shape = std::move(shape);
+  entry.bound = bound;
   return id;
 }
 
@@ -37,7 +38,10 @@ RigidBody& WorldObjects::addBody(ShapeId shape) {
   ++s.uses;
   const BodyId id = nextBody_++;
   RigidBody& b = bodies_.add(id);
-  b.id = id, b.shapeId = shape, b.shape = s.shape.get(), b.bound = s.bound;
+  b.id = id;
+  b.shapeId = shape;
+  b.shape = s.shape.get();
+  b.bound = s.bound;
   return b;
 }
 
@@ -46,7 +50,10 @@ Collider& WorldObjects::addCollider(ShapeId shape) {
   ++s.uses;
   const ColliderId id = nextCollider_++;
   Collider& c = colliders_.add(id);
-  c.id = id, c.shapeId = shape, c.shape = s.shape.get(), c.bound = s.bound;
+  c.id = id;
+  c.shapeId = shape;
+  c.shape = s.shape.get();
+  c.bound = s.bound;
   return c;
 }
 

@@ -19,17 +19,22 @@ public:
   static constexpr Nanoseconds kLongestWindow = 8 * kWindow;
 
   bool started() const { return started_; }
-  void start(Nanoseconds at) { started_ = true, t0_ = t1_ = at; }
+  void start(Nanoseconds at) {
+    started_ = true;
+    t0_ = t1_ = at;
+  }
   void nextFrame() { ++frame_; }
   /// A part of a frame begins.
   void beginPart(Nanoseconds from, Nanoseconds to) {
-    t0_ = from, t1_ = to;
+    t0_ = from;
+    t1_ = to;
     measurePart();
   }
   /// Show time goes on to `to` while the world stands still.
   void standUntil(Nanoseconds to) { t0_ = t1_ = to; }
   void openWindow(Nanoseconds at, Nanoseconds length) {
-    origin_ = at, window_ = length;
+    origin_ = at;
+    window_ = length;
     measurePart();
   }
   void shortenWindow() { window_ = kWindow; }
@@ -64,7 +69,10 @@ public:
   }
 
 private:
-  void measurePart() { from_ = tauOf(t0_), now_ = tauOf(t1_); }
+  void measurePart() {
+    from_ = tauOf(t0_);
+    now_ = tauOf(t1_);
+  }
 
   bool started_ = false;
   Nanoseconds t0_ = 0, t1_ = 0, origin_ = 0;

@@ -62,7 +62,8 @@ Spin BodyArcs::spinFrom(const RigidBody& b, double tau, const CoupledState& s) c
 
 /// From tau on it turns so, on the same path.
 void BodyArcs::setSpin(RigidBody& b, double tau, const Spin& spin) {
-  b.spin = spin, b.spinStart = b.age(tau);
+  b.spin = spin;
+  b.spinStart = b.age(tau);
   b.validAge = std::min(b.pathAge, b.spinStart + spin.horizon);
   b.until = b.validAge - b.age0;
   ++b.version;

@@ -21,7 +21,8 @@ bool ArcEnds::crossFold(RigidBody& b, double tau) const {
   std::vector<std::uint32_t> near;
   Aabb box;
   box.include(local);
-  box.lo.array() -= 1e-5, box.hi.array() += 1e-5;
+  box.lo.array() -= 1e-5;
+  box.hi.array() += 1e-5;
   tree.overlapping(box, near);
   for (const std::uint32_t i : near) {
     if (static_cast<std::int32_t>(i) == b.support.triangle) continue;
@@ -31,11 +32,14 @@ bool ArcEnds::crossFold(RigidBody& b, double tau) const {
     const ClosestPoint q = closestPoint(t, local);
     if ((q.point - local).norm() > 5e-7) continue;
     Gap gap;
-    gap.triangle = static_cast<std::int32_t>(i), gap.face = true, gap.normal = up;
+    gap.triangle = static_cast<std::int32_t>(i);
+    gap.face = true;
+    gap.normal = up;
     gap.point = c->motion.end * q.point;
     Support next;
     if (!supportFor(b, *c, gap, next)) continue;
-    next.point = b.support.point, next.normal = n;  // the same plane: no step of rounding from face to face
+    next.point = b.support.point;
+    next.normal = n;  // the same plane: no step of rounding from face to face
     b.support = next;
     return true;
   }
@@ -44,7 +48,8 @@ bool ArcEnds::crossFold(RigidBody& b, double tau) const {
 
 void ArcEnds::reachHorizon(RigidBody& b, double tau) {
   if (b.mode == BodyMode::Held) {
-    ++b.grip.held.part, ++b.version;
+    ++b.grip.held.part;
+    ++b.version;
     waking_.wakeOnto({true, b.id}, tau);
     foresight_.predict(b, tau);
     return;
@@ -77,7 +82,8 @@ void ArcEnds::reachHorizon(RigidBody& b, double tau) {
 }
 
 void ArcEnds::reachHorizon(Collider& c, double tau) {
-  ++c.motion.part, ++c.version;
+  ++c.motion.part;
+  ++c.version;
   waking_.wakeOnto({false, c.id}, tau);
   foresight_.predict(c, tau);
 }

@@ -21,16 +21,20 @@ bool supportFor(const RigidBody& ball, const Collider& c, const Gap& gap, Suppor
   s.triangle = gap.triangle;
   s.point = gap.point;
   const PairSurface pair = combine(ball.surface, c.surface);
-  s.friction = pair.friction, s.rolling = pair.rolling, s.restitution = pair.restitution;
+  s.friction = pair.friction;
+  s.rolling = pair.rolling;
+  s.restitution = pair.restitution;
   const auto edge = [&](const Vec3& inward, const Vec3& on) {
     const auto i = static_cast<std::size_t>(s.edges++);
-    s.edgeNormal[i] = inward, s.edgeOffset[i] = inward.dot(on);
+    s.edgeNormal[i] = inward;
+    s.edgeOffset[i] = inward.dot(on);
   };
   const auto rectangle = [&](const Pose& F, const Vec3& half, int up) {
     for (int axis = 0; axis < 3; ++axis) {
       if (axis == up) continue;
       const Vec3 out = F.q * Vec3::Unit(axis);
-      edge(out, F.p - half[axis] * out), edge(-out, F.p + half[axis] * out);
+      edge(out, F.p - half[axis] * out);
+      edge(-out, F.p + half[axis] * out);
     }
   };
   if (const auto* plane = std::get_if<PlaneShape>(c.shape)) {

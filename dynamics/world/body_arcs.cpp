@@ -22,12 +22,18 @@ State dormandPrince(F f, double tau, const State& s, double h, double& error) {
   State y = s;
   for (int i = 0; i < 7; ++i) {
     y = s;
-    for (int j = 0; j < i; ++j)
-      y.p += h * pair::kWeights[i][j] * kp[j], y.v += h * pair::kWeights[i][j] * kv[j];
-    kp[i] = y.v, kv[i] = f(tau + pair::kTimes[i] * h, y.p, y.v);
+    for (int j = 0; j < i; ++j) {
+      y.p += h * pair::kWeights[i][j] * kp[j];
+      y.v += h * pair::kWeights[i][j] * kv[j];
+    }
+    kp[i] = y.v;
+    kv[i] = f(tau + pair::kTimes[i] * h, y.p, y.v);
   }
   Vec3 ep = Vec3::Zero(), ev = Vec3::Zero();
-  for (int i = 0; i < 7; ++i) ep += h * pair::kError[i] * kp[i], ev += h * pair::kError[i] * kv[i];
+  for (int i = 0; i < 7; ++i) {
+    ep += h * pair::kError[i] * kp[i];
+    ev += h * pair::kError[i] * kv[i];
+  }
   error = std::max(ep.norm(), ev.norm());
   return y;
 }
@@ -44,7 +50,8 @@ void BodyArcs::setArc(RigidBody& b, double tau, const Path& path, const Spin& sp
     quarantine(b, tau, "its state would become infinite or undefined");
     return;
   }
-  b.spin = spin, b.spinStart = 0;
+  b.spin = spin;
+  b.spinStart = 0;
   setPath(b, tau, path, horizon, mode);
 }
 
@@ -85,10 +92,12 @@ void BodyArcs::quarantine(RigidBody& b, double tau, std::string why) {
                      ? b.position(tau)
                      : X_WC.p;
   const Quat q = usable && b.orientation(tau).coeffs().allFinite() ? b.orientation(tau) : X_WC.q;
-  b.path = Path::still(p), b.spin = Spin::still(q);
+  b.path = Path::still(p);
+  b.spin = Spin::still(q);
   b.mode = BodyMode::Quarantined;
   b.since = time_.instantAt(tau);
-  b.age0 = -tau, b.until = b.validAge = b.pathAge = kUnlimited;
+  b.age0 = -tau;
+  b.until = b.validAge = b.pathAge = kUnlimited;
   b.support.on = {};
   b.contact.touching.clear();
   ++b.version;
@@ -99,7 +108,8 @@ void BodyArcs::startFlight(RigidBody& b, double tau, const Vec3& p, const Vec3& 
                            const Vec3& L) {
   if (b.support.on.id) memory_.setTouching(ContactMemory::keyOf(b.support.on, {true, b.id}), false);
   b.support.on = {};
-  b.spin = b.flight ? spinFrom(b, tau, {p, v, q, L}) : Spin::free(q, L, b.inertia), b.spinStart = 0;
+  b.spin = b.flight ? spinFrom(b, tau, {p, v, q, L}) : Spin::free(q, L, b.inertia);
+  b.spinStart = 0;
   if (!q.coeffs().allFinite() || !(L.cwiseAbs().maxCoeff() <= 1e30) || !L.allFinite()) {
     b.spin = Spin::still(b.pose.q * b.X_NC.q);
     quarantine(b, tau, "its state would become infinite or undefined");
@@ -236,7 +246,8 @@ void BodyArcs::startOnFace(RigidBody& b, double tau, const BallStart& s, bool gr
     // Drag on top of friction: short arcs of mean deceleration.
     Path path = arc.path;
     const double h = std::min(arc.horizon, grid_.faceStep());
-    path.c[2] -= 0.5 * b.damping * path.c[1], path.degree = 2;
+    path.c[2] -= 0.5 * b.damping * path.c[1];
+    path.degree = 2;
     setArc(b, tau, path, arc.spin, h, arc.mode);
     return;
   }

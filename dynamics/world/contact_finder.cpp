@@ -115,16 +115,20 @@ void ContactFinder::find(RigidBody& b, double tau, std::vector<FoundContact>& fo
   const double margin = kTouching + 1.5 * h * (k.v.norm() + k.omega.norm() * b.reach + pull * h);
   Aabb box;
   box.include(k.pose * b.bound.centre);
-  box.lo.array() -= b.bound.radius + margin, box.hi.array() += b.bound.radius + margin;
+  box.lo.array() -= b.bound.radius + margin;
+  box.hi.array() += b.bound.radius + margin;
   const std::size_t first = found.size();
   std::vector<ManifoldPoint> points;
   const auto against = [&](const Side& other, const Side& form) {
     manifold(self, form, tau, margin, points);
     for (const ManifoldPoint& p : points) {
       FoundContact f;
-      f.a = self.key, f.b = other.key;
+      f.a = self.key;
+      f.b = other.key;
       f.surface = combine(b.surface, objects_.surfaceOf(other.key));
-      f.gap = p.gap, f.carrier = p.carrier, f.rounding = p.rounding;
+      f.gap = p.gap;
+      f.carrier = p.carrier;
+      f.rounding = p.rounding;
       f.key = pairKey(f.a, f.b, p.key);
       f.contact.friction = f.surface.friction;
       found.push_back(f);
@@ -148,8 +152,10 @@ void ContactFinder::find(RigidBody& b, double tau, std::vector<FoundContact>& fo
     const double reach = b.bound.radius + o.bound.radius + margin;
     if ((o.at(tau).pose * o.bound.centre - k.pose * b.bound.centre).squaredNorm() > reach * reach) return;
     if (o.mode == BodyMode::Contact && !o.contact.inPile) {
-      if (o.contact.slot == kNowhere)
-        o.contact.slot = 0, set.push_back(&o);  // it is not due, but it comes along
+      if (o.contact.slot == kNowhere) {
+        o.contact.slot = 0;
+        set.push_back(&o);
+      }                                         // it is not due, but it comes along
       if (o.id < b.id) return;                  // the pair is found from there
     } else if (!o.contact.inPile && !standsStill(o.mode) && o.mode != BodyMode::Held) {
       return;  // a flier: its touch is an event
@@ -177,12 +183,16 @@ void ContactFinder::dropHidden(const RigidBody& b, double tau, std::size_t first
     const FoundContact& f = found[i];
     if (f.b.isBody) continue;
     const Collider& c = *objects_.collider(f.b.id);
-    points.push_back({f.b, c.shape, c.motion.at(tau).pose, f.gap}), whose.push_back(i);
+    points.push_back({f.b, c.shape, c.motion.at(tau).pose, f.gap});
+    whose.push_back(i);
   }
   const std::vector<char> hidden = hiddenAmong(points);
   std::vector<char> gone(found.size(), 0);
   for (std::size_t k = 0; k < hidden.size(); ++k)
-    if (hidden[k]) beside_.push_back({b.id, found[whose[k]].b, false}), gone[whose[k]] = 1;
+    if (hidden[k]) {
+      beside_.push_back({b.id, found[whose[k]].b, false});
+      gone[whose[k]] = 1;
+    }
   eraseMarked(found, first, gone);
 }
 
@@ -216,9 +226,10 @@ void ContactFinder::joinFlush(const RigidBody& b, std::size_t first, std::vector
     if (!several) continue;
     const Mat3 basis = basisAround(found[i].gap.normal);
     places.clear();
-    for (const std::size_t k : group)
-      seen[k] = 1,
+    for (const std::size_t k : group) {
+      seen[k] = 1;
       places.push_back((basis.transpose() * (found[k].gap.point - found[i].gap.point)).tail<2>());
+    }
     const std::vector<char> corner = hullCorners(places);
     ContactSide name;
     std::size_t kept = 0;
@@ -229,8 +240,10 @@ void ContactFinder::joinFlush(const RigidBody& b, std::size_t first, std::vector
       if (f.b != name) beside_.push_back({b.id, f.b, f.gap.distance < kTouching});
       if (corner[g])
         f.b = name;
-      else
-        gone[group[g]] = 1, any = true;
+      else {
+        gone[group[g]] = 1;
+        any = true;
+      }
     }
   }
   if (any) eraseMarked(found, first, gone);

@@ -22,7 +22,8 @@ struct Groups {
     return i;
   }
   void join(std::size_t a, std::size_t b) {
-    a = of(a), b = of(b);
+    a = of(a);
+    b = of(b);
     parent[std::max(a, b)] = std::min(a, b);
   }
 };
@@ -68,12 +69,16 @@ bool ContactIslands::wakeTouched(const std::vector<FoundContact>& found, double 
 
 void ContactIslands::findAll(double tau, std::vector<RigidBody*>& set, std::vector<FoundContact>& found) {
   for (int pass = 0; pass < 50; ++pass) {
-    set.clear(), found.clear(), finder_.clear();
+    set.clear();
+    found.clear();
+    finder_.clear();
     for (RigidBody* b : active_) {
       b->contact.slot = kInNoSet;
       if (b->mode == BodyMode::Contact && b->enabled && !b->contact.inPile &&
-          b->contact.dueAge <= b->age(tau) + kSameTime)
-        b->contact.slot = 0, set.push_back(b);
+          b->contact.dueAge <= b->age(tau) + kSameTime) {
+        b->contact.slot = 0;
+        set.push_back(b);
+      }
     }
     std::ranges::sort(set, {}, &RigidBody::id);
     for (std::size_t i = 0; i < set.size(); ++i) finder_.find(*set[i], tau, found, set);
@@ -100,7 +105,10 @@ std::vector<ContactIsland> ContactIslands::group(const std::vector<RigidBody*>& 
   std::vector<std::uint32_t> islandOf(set.size());
   for (std::size_t i = 0; i < set.size(); ++i) {
     const std::size_t root = groups.of(i);
-    if (root == i) islandOf[i] = static_cast<std::uint32_t>(islands.size()), islands.emplace_back();
+    if (root == i) {
+      islandOf[i] = static_cast<std::uint32_t>(islands.size());
+      islands.emplace_back();
+    }
     islandOf[i] = islandOf[root];
     islands[islandOf[i]].set.push_back(set[i]);
   }
@@ -122,8 +130,10 @@ void ContactIslands::tick(double tau) {
   for (ContactIsland& island : islands) {
     if (piles_.isPile(island.set, tau) && !isSlender(island.set, island.found)) {
       for (RigidBody* b : island.set) {
-        b->contact.inPile = true, b->contact.dueAge = 0;
-        b->contact.drift.setZero(), b->contact.twist.setZero();
+        b->contact.inPile = true;
+        b->contact.dueAge = 0;
+        b->contact.drift.setZero();
+        b->contact.twist.setZero();
       }
       piled = true;
     } else {

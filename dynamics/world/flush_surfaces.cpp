@@ -70,7 +70,8 @@ Aabb boxAround(const RigidBody& b, double tau) {
   const double reach = b.bound.radius + kTouching;
   Aabb box;
   box.include(b.poseAt(tau) * b.bound.centre);
-  box.lo.array() -= reach, box.hi.array() += reach;
+  box.lo.array() -= reach;
+  box.hi.array() += reach;
   return box;
 }
 
@@ -107,8 +108,11 @@ std::vector<Bearing> FlushSurfaces::bearingsOf(const RigidBody& b, double tau, c
     const Pose X = c.motion.at(tau).pose;
     if (face.id && other.key == face) {
       Gap gap;
-      gap.distance = 0, gap.face = true, gap.triangle = b.support.triangle;
-      gap.point = b.support.point, gap.normal = b.support.normal;
+      gap.distance = 0;
+      gap.face = true;
+      gap.triangle = b.support.triangle;
+      gap.point = b.support.point;
+      gap.normal = b.support.normal;
       bearings.push_back({other.key, c.shape, X, gap});
       return;
     }
@@ -168,7 +172,8 @@ bool FlushSurfaces::crossSeam(RigidBody& b, double tau, double& lift) {
   if (!(speed > 0)) return false;
   Aabb box;
   box.include(p - r * n);
-  box.lo.array() -= 2 * kFlush, box.hi.array() += 2 * kFlush;
+  box.lo.array() -= 2 * kFlush;
+  box.hi.array() += 2 * kFlush;
   const ContactSide self{true, b.id}, before = b.support.on;
   for (const double ahead : {kSkip, kFlush}) {
     const Vec3 x = p + ahead / speed * v;
@@ -179,7 +184,10 @@ bool FlushSurfaces::crossSeam(RigidBody& b, double tau, double& lift) {
       if (c.id == before.id || (next && c.id > next) || !objects_.mayTouch(Side::of(b), Side::of(c))) return;
       const Gap gap = ballGap(x, r, *c.shape, c.motion.end, {kFlush});
       if (!(std::fabs(gap.distance) <= kFlush) || !(gap.normal.dot(n) > kOnePlane)) return;
-      if (supportFor(b, c, gap, face)) next = c.id, height = gap.distance;
+      if (supportFor(b, c, gap, face)) {
+        next = c.id;
+        height = gap.distance;
+      }
     });
     if (!next) continue;
     b.support = face;
@@ -212,7 +220,8 @@ double FlushSurfaces::timeCarried(const RigidBody& b, ColliderId start, const Ga
         const Vec3 x = gap.point + (gone + ahead) * e;
         Aabb box;
         box.include(x);
-        box.lo.array() -= kSkip, box.hi.array() += kSkip;
+        box.lo.array() -= kSkip;
+        box.hi.array() += kSkip;
         boxes_.eachCollider(box, [&](const Collider& c) {
           if ((beyond && c.id > beyond->id) || !objects_.mayTouch(self, Side::of(c))) return;
           const auto other = flatFace(c, n);
@@ -220,7 +229,8 @@ double FlushSurfaces::timeCarried(const RigidBody& b, ColliderId start, const Ga
               std::fabs(n.dot(other->X.q * Vec3::UnitZ())) < kSquareOn ||
               combine(b.surface, c.surface).friction != friction)
             return;
-          beyond = &c, face = other;
+          beyond = &c;
+          face = other;
         });
         if (beyond) break;
       }

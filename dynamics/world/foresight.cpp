@@ -91,7 +91,8 @@ void Foresight::predict(RigidBody& b, double tau) {
 void Foresight::predictNearby(RigidBody& b, double tau, bool onlyHigherIds) {
   if (b.contact.inPile) return;  // the step of the pile contains all bodies that could touch it
   const Side self = Side::of(b);
-  b.atMostOneNear = true, b.nearCollider = 0;
+  b.atMostOneNear = true;
+  b.nearCollider = 0;
   ++predictions_.arcs;
   boxes_.eachCollider(b.swept, [&](Collider& c) {
     b.atMostOneNear = b.atMostOneNear && b.nearCollider == 0;
@@ -173,7 +174,8 @@ Nanoseconds Foresight::nextWindow() const {
   bool moves = false, lazy = true;
   for (const RigidBody* b : active_) {
     if (standsStill(b->mode)) continue;
-    moves = true, lazy = lazy && b->lazy;
+    moves = true;
+    lazy = lazy && b->lazy;
   }
   if (!moves || predictions_.bodies > 0 || (!lazy && solidsMayMeet())) return WorldTime::kWindow;
   if (predictions_.colliders > 2 * predictions_.arcs) return std::max(time_.window() / 2, WorldTime::kWindow);
@@ -188,7 +190,8 @@ std::size_t Foresight::ballsAround(const RigidBody& b, double tau) {
   const double reach = 2 * b.bound.radius;
   Aabb box;
   box.include(middle);
-  box.lo.array() -= reach, box.hi.array() += reach;
+  box.lo.array() -= reach;
+  box.hi.array() += reach;
   eachBodyNear(box, tau, [&](const RigidBody& o) {
     if (&o == &b || !o.enabled || !o.isBall()) return;
     if (o.mode != BodyMode::Flight && o.mode != BodyMode::Contact) return;
@@ -218,7 +221,11 @@ void Foresight::fillWindow(double tau) {
   boxes_.sweep(active_, tau);
   if (time_.window() > WorldTime::kWindow && solidsMayMeet()) {
     if (!boxes_.anyNear(active_)) {
-      for (RigidBody* b : active_) b->atMostOneNear = true, b->nearCollider = 0, awaitHorizon(*b);
+      for (RigidBody* b : active_) {
+        b->atMostOneNear = true;
+        b->nearCollider = 0;
+        awaitHorizon(*b);
+      }
       return;
     }
     time_.shortenWindow();

@@ -44,7 +44,10 @@ public:
   /// Returns the length of the next window; it grows while nothing is near.
   Nanoseconds nextWindow() const;
   /// Begins a window: all events are void.
-  void beginWindow() { predictions_ = {}, queue_.clear(); }
+  void beginWindow() {
+    predictions_ = {};
+    queue_.clear();
+  }
   /// Predicts contacts of all active bodies from tau on; shortens a long window if something is near.
   void fillWindow(double tau);
 

@@ -39,7 +39,10 @@ bool embedsTip(const RigidBody& b, const Vec3& x, const Vec3& n, double closing,
 /// Chatter is counted in show time, so that it does not depend on frames.
 void Impacts::countImpact(RigidBody& b, double tau) const {
   const Nanoseconds span = time_.timeAt(tau) / kSpan;
-  if (span != b.impactSpan) b.impactSpan = span, b.impacts = 0;
+  if (span != b.impactSpan) {
+    b.impactSpan = span;
+    b.impacts = 0;
+  }
   ++b.impacts;
 }
 
@@ -56,7 +59,8 @@ void Impacts::strikeInPile(RigidBody& b, const SolverBody& m, double tau) {
   arcs_.setArc(b, tau, Path::parabola(b.position(tau), m.v, a), spin, std::max(left, grid_.islandStep()),
                BodyMode::Contact);
   if (b.mode != BodyMode::Contact) return;
-  b.contact.endL = end, b.contact.dueAge = left > 0 ? left : grid_.untilPileStep(time_.instantAt(tau)),
+  b.contact.endL = end;
+  b.contact.dueAge = left > 0 ? left : grid_.untilPileStep(time_.instantAt(tau));
   b.contact.quietTime = quiet;
   boxes_.sweep(b, tau);
 }

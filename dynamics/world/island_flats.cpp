@@ -62,11 +62,15 @@ void IslandStep::findFlats(ContactIsland& s, double tau) const {
     for (FlatContact& flat : flatContacts(*a, under, tau, gaps)) {
       FlatPatch found;
       SolverContact& c = found.contact;
-      c.a = f.contact.a, c.b = f.contact.b, c.friction = f.surface.friction, c.area = flat.area.get();
+      c.a = f.contact.a;
+      c.b = f.contact.b;
+      c.friction = f.surface.friction;
+      c.area = flat.area.get();
       const auto index = static_cast<std::int32_t>(s.found.size() + s.flats.size());
       found.key = pairKey(f.a, f.b, kAreaKey + static_cast<std::uint32_t>(flat.points.front()));
       for (const std::uint32_t k : flat.points) {
-        found.points.push_back(first + k), s.found[first + k].contact.patch = index;
+        found.points.push_back(first + k);
+        s.found[first + k].contact.patch = index;
         found.places.push_back(gaps[k].point);
         if (flat.carrier == Carrier::A) found.places.back() += gaps[k].distance * gaps[k].normal;
       }

@@ -24,7 +24,8 @@ bool mayGlide(const ContactIsland& s) {
 /// Stretches a probe's step to a glide.
 void stretch(ContactIsland& s, double probe, double seconds) {
   for (std::size_t i = 0; i < s.set.size(); ++i) {
-    s.start[i].omega.setZero(), s.end[i].omega.setZero();
+    s.start[i].omega.setZero();
+    s.end[i].omega.setZero();
     s.end[i].v = s.start[i].v + (s.end[i].v - s.start[i].v) / probe * seconds;
   }
   for (FoundContact& f : s.found) f.contact.impulse *= seconds / probe;
@@ -62,7 +63,8 @@ double IslandStep::glideOf(const ContactIsland& s, double probe, std::vector<Con
     const Vec3 a = (s.end[i].v - s.start[i].v) / probe;
     const double alpha = (s.end[i].omega - s.start[i].omega).norm() / probe * b.reach;
     if (alpha > kBalanced) return 0;
-    fastest = std::max(fastest, s.start[i].v.norm()), strongest = std::max(strongest, a.norm());
+    fastest = std::max(fastest, s.start[i].v.norm());
+    strongest = std::max(strongest, a.norm());
     if (!fields_.uniformFor(b) && (s.start[i].v.norm() > kGlideStill || a.norm() > kBalanced)) return 0;
   }
   if (fastest <= kGlideStill && strongest <= kBalanced)  // what changes may stir them in this very frame

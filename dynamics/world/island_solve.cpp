@@ -35,7 +35,8 @@ void place(const SolverBody& a0, const SolverBody& b0, const Gap& gap, Carrier c
            const Rounding& rounding, const TurnedPose& a, const TurnedPose& b, Mat3& basis, Vec3& armA,
            Vec3& armB) {
   basis = basisAround(gap.normal);
-  armA = gap.point - a0.p, armB = gap.point - b0.p;
+  armA = gap.point - a0.p;
+  armB = gap.point - b0.p;
   if (carrier == Carrier::B) {
     basis = a.R * basis;
     armB = carried(armB, rounding, b.R, gap.normal, basis.col(0));
@@ -56,7 +57,8 @@ void placeFlat(const FlatPatch& f, const std::vector<SolverBody>& start, const s
   SolverContact before = c;
   f.place(a, b, Mat3::Identity(), Mat3::Identity(), a.p, b.p, before.rows, before.armA, before.armB);
   const Vec3 u0 = before.velocity(start);
-  c.spin = u0[0], c.slip = u0.tail<2>();
+  c.spin = u0[0];
+  c.slip = u0.tail<2>();
   const TurnedPose am = turned(a, guess[c.a], 0.5, h), bm = turned(b, guess[c.b], 0.5, h),
                    ae = turned(a, guess[c.a], 1, h), be = turned(b, guess[c.b], 1, h);
   f.place(a, b, am.R, bm.R, am.p, bm.p, c.push, c.pushA, c.pushB);
@@ -76,7 +78,10 @@ double pushOutOf(const std::vector<FoundContact>& found, std::size_t i) {
   if (!(pushOut(f.gap.distance) > 0)) return 0;
   for (const FoundContact& o : found)
     if (o.a == f.a && o.b == f.b && o.gap.normal.dot(f.gap.normal) > kOneFace)
-      if (const double speed = pushOut(o.gap.distance); speed > 0) sum += speed, many += 1;
+      if (const double speed = pushOut(o.gap.distance); speed > 0) {
+        sum += speed;
+        many += 1;
+      }
   return sum / many;
 }
 

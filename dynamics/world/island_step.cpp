@@ -71,7 +71,8 @@ void resistRolling(ContactIsland& s) {
   };
   for (const FoundContact& f : s.found) {
     if (f.contact.impulse[0] <= 0 || f.surface.rolling <= 0) continue;
-    resist(f.contact.a, f, Carrier::A), resist(f.contact.b, f, Carrier::B);
+    resist(f.contact.a, f, Carrier::A);
+    resist(f.contact.b, f, Carrier::B);
   }
 }
 
@@ -86,7 +87,8 @@ bool inFold(const RigidBody& b, const Collider& c, const Support& face, double t
   const Vec3 centre = X.inverse() * b.position(tau), local = X.q.conjugate() * along;
   const double reach = b.radius() + kTouches;
   Aabb box;
-  box.lo = centre.array() - reach, box.hi = centre.array() + reach;
+  box.lo = centre.array() - reach;
+  box.hi = centre.array() + reach;
   std::vector<std::uint32_t> near;
   mesh->tree.overlapping(box, near);
   return std::ranges::any_of(near, [&](std::uint32_t i) {
@@ -121,7 +123,8 @@ void IslandStep::begin(ContactIsland& s, double tau) const {
     s.fixed.push_back(f.b);
     SolverBody m = f.b.isBody ? solverBodyOf(*objects_.body(f.b.id), tau)
                               : solverBodyOf(*objects_.collider(f.b.id), tau);
-    m.inverseMass = 0, m.inverseInertia.setZero();
+    m.inverseMass = 0;
+    m.inverseInertia.setZero();
     s.carried = s.carried || !m.v.isZero(0) || !m.omega.isZero(0);
     s.start.push_back(m);
   }
@@ -142,13 +145,15 @@ bool IslandStep::solveIsland(ContactIsland& s, std::vector<SolverBody>& solverBo
   bool driven = false;
   for (SolverContact& c : yielding) {
     if (c.b < s.set.size() || !isDriven(s.fixed[c.b - s.set.size()])) continue;
-    c.give = kGive, driven = true;
+    c.give = kGive;
+    driven = true;
   }
   if (!driven) return solveContacts(solverBodies, contacts, effort);
   if (!s.wedged) {
     const std::vector<SolverBody> before = solverBodies;
     if (solveContacts(solverBodies, contacts, effort)) return true;
-    solverBodies = before, s.wedged = true;
+    solverBodies = before;
+    s.wedged = true;
   }
   contacts = yielding;
   return solveContacts(solverBodies, contacts, effort);
@@ -165,7 +170,8 @@ void IslandStep::stopApproaches(ContactIsland& s) const {
     SolverContact c = f.contact;
     const SolverBody &a = s.start[c.a], &b = s.start[c.b];
     c.placeAt(f.gap.point, f.gap.normal, a.p, b.p);
-    c.impulse.setZero(), c.slides = false;
+    c.impulse.setZero();
+    c.slides = false;
     const double closing = -c.velocity(s.start)[0];
     c.floor = closing > kRestitutionSpeed ? f.surface.restitution * closing : 0;
     any = any || closing > kApproach;
@@ -177,8 +183,11 @@ void IslandStep::stopApproaches(ContactIsland& s) const {
     SolverContact c = f.contact;
     const SolverBody &a = s.start[c.a], &b = s.start[c.b];
     f.place(a, b, Mat3::Identity(), Mat3::Identity(), a.p, b.p, c.rows, c.armA, c.armB);
-    c.push = c.rows, c.pushA = c.armA, c.pushB = c.armB;
-    c.impulse.setZero(), c.slides = false;
+    c.push = c.rows;
+    c.pushA = c.armA;
+    c.pushB = c.armB;
+    c.impulse.setZero();
+    c.slides = false;
     for (const std::size_t k : f.points)
       if (hitOf[k] >= 0)
         hits[static_cast<std::size_t>(hitOf[k])].patch = static_cast<std::int32_t>(hits.size());
@@ -221,8 +230,10 @@ void IslandStep::holdRims(ContactIsland& s, const std::vector<SolverBody>& solve
   for (const FoundContact& f : s.found) contacts.push_back(f.contact);
   for (const FlatPatch& f : s.flats) contacts.push_back(f.contact);
   solveIsland(s, solverBodies, contacts, Effort::Moving);
-  for (std::size_t i = 0; i < s.set.size(); ++i)
-    s.end[i].v = solverBodies[i].v, s.end[i].omega = solverBodies[i].omega;
+  for (std::size_t i = 0; i < s.set.size(); ++i) {
+    s.end[i].v = solverBodies[i].v;
+    s.end[i].omega = solverBodies[i].omega;
+  }
   for (std::size_t i = 0; i < points; ++i) s.found[i].contact = contacts[i];
   for (std::size_t i = points; i < contacts.size(); ++i) s.flats[i - points].contact = contacts[i];
 }
@@ -260,10 +271,12 @@ void IslandStep::noteQuiet(RigidBody& b, const SolverBody& start, const SolverBo
   b.contact.quietTime = fastest < kQuietSpeed ? before + h : 0;
   const auto look = [&](const SolverBody& from, double since, double span, bool balanced) {
     b.contact.sleepCandidate = {from.v, from.omega, since, span, balanced};
-    b.contact.drift.setZero(), b.contact.twist.setZero();
+    b.contact.drift.setZero();
+    b.contact.twist.setZero();
   };
   if (!(before > kQuietInGlide)) look(start, 0, kSleepsAfter, false);
-  b.contact.drift += 0.5 * h * (start.v + end.v), b.contact.twist += 0.5 * h * (start.omega + end.omega);
+  b.contact.drift += 0.5 * h * (start.v + end.v);
+  b.contact.twist += 0.5 * h * (start.omega + end.omega);
   const double seconds = b.contact.quietTime - b.contact.sleepCandidate.since;
   if (seconds < b.contact.sleepCandidate.span) return;
   const double change = (end.v - b.contact.sleepCandidate.v).norm() +
@@ -278,7 +291,8 @@ void IslandStep::noteQuiet(RigidBody& b, const SolverBody& start, const SolverBo
 void IslandStep::conclude(ContactIsland& s, double tau, double h) {
   for (std::size_t i = 0; i < s.set.size(); ++i) {
     RigidBody& b = *s.set[i];
-    b.contact.touching.clear(), b.contact.warmStarts.clear();
+    b.contact.touching.clear();
+    b.contact.warmStarts.clear();
     std::vector<ContactSide> near;
     const FoundContact* only = nullptr;
     int points = 0;
@@ -287,7 +301,8 @@ void IslandStep::conclude(ContactIsland& s, double tau, double h) {
     };
     for (const FoundContact& f : s.found) {
       if (f.contact.a != i && f.contact.b != i) continue;
-      ++points, only = &f;
+      ++points;
+      only = &f;
       const ContactSide other = f.contact.a == i ? f.b : f.a;
       note(b.contact.touching, other);
       if (f.gap.distance < kTouching) note(near, other);
@@ -315,7 +330,8 @@ void IslandStep::conclude(ContactIsland& s, double tau, double h) {
     if (s.glides) b.contact.quietTime = b.contact.quietTime > 0 ? kQuietInGlide : 0;
     arcs_.setArc(b, tau, Path::parabola(start.p, start.v, (end.v - start.v) / h),
                  Spin::free(q, 0.5 * (L0 + L1), b.inertia), h, BodyMode::Contact);
-    b.contact.endL = L1, b.contact.dueAge = h;
+    b.contact.endL = L1;
+    b.contact.dueAge = h;
     if (points == 1 && b.isBall() && b.mode == BodyMode::Contact) settleOnFace(b, *only, tau);
   }
 }
@@ -355,7 +371,10 @@ void IslandStep::advance(ContactIsland& s, double tau, double h) {
   stopApproaches(s);
   const double last = glide(s, tau, h);
   if (last == kForGood) {
-    for (std::size_t i = 0; i < s.set.size(); ++i) s.start[i].v.setZero(), s.start[i].omega.setZero();
+    for (std::size_t i = 0; i < s.set.size(); ++i) {
+      s.start[i].v.setZero();
+      s.start[i].omega.setZero();
+    }
     s.end = s.start;
     conclude(s, tau, h);
     for (RigidBody* b : s.set)

@@ -25,8 +25,10 @@ void PenetrationRecoveries::noteFreePlaces() {
     const Side self = Side::of(*b);
     const Vec3 middle = b->poseAt(time_.now()) * b->bound.centre;
     Aabb box;
-    box.include(middle), box.include(b->grip.freePlace);
-    box.lo.array() -= b->bound.radius, box.hi.array() += b->bound.radius;
+    box.include(middle);
+    box.include(b->grip.freePlace);
+    box.lo.array() -= b->bound.radius;
+    box.hi.array() += b->bound.radius;
     bool free = true;
     boxes_.eachCollider(box, [&](const Collider& c) {
       const Side thing = Side::of(c);
@@ -47,8 +49,10 @@ void PenetrationRecoveries::find(RigidBody& b) {
   if (fields_.accelerationAt(b, k.p, k.v, tau).isZero(0)) return;
   const Side self = Side::of(b);
   Aabb box;
-  box.include(k.pose * b.bound.centre), box.include(b.grip.freePlace);
-  box.lo.array() -= b.bound.radius, box.hi.array() += b.bound.radius;
+  box.include(k.pose * b.bound.centre);
+  box.include(b.grip.freePlace);
+  box.lo.array() -= b.bound.radius;
+  box.hi.array() += b.bound.radius;
   boxes_.eachCollider(box, [&](const Collider& c) {
     const Side thing = Side::of(c);
     if (!c.enabled || !objects_.mayTouch(self, thing)) return;
@@ -64,11 +68,18 @@ void PenetrationRecoveries::find(RigidBody& b) {
 std::uint64_t PenetrationRecoveries::digest() const {
   StateHash h;
   for (const RigidBody* b : held_.list())
-    if (b->mode == BodyMode::Held) h.add(std::uint64_t{b->id}), h.add(b->grip.freePlace);
+    if (b->mode == BodyMode::Held) {
+      h.add(std::uint64_t{b->id});
+      h.add(b->grip.freePlace);
+    }
   for (const BodyId id : comingOut_) {
     const RigidBody* b = objects_.body(id);
-    for (const PenetrationRecovery& w : b ? b->grip.recoveries : std::vector<PenetrationRecovery>{})
-      h.add(std::uint64_t{id}), h.add(std::uint64_t{w.of}), h.add(w.normal), h.add(w.side);
+    for (const PenetrationRecovery& w : b ? b->grip.recoveries : std::vector<PenetrationRecovery>{}) {
+      h.add(std::uint64_t{id});
+      h.add(std::uint64_t{w.of});
+      h.add(w.normal);
+      h.add(w.side);
+    }
   }
   return h.value();
 }

@@ -19,7 +19,9 @@ Gap planeGap(const Vec3& centre, double radius, const PlaneShape& plane, const P
   Gap gap;
   gap.normal = X.q * plane.normal();
   const double height = gap.normal.dot(centre - X * plane.pose.p);
-  gap.distance = height - radius, gap.point = centre - height * gap.normal, gap.face = true;
+  gap.distance = height - radius;
+  gap.point = centre - height * gap.normal;
+  gap.face = true;
   return gap;
 }
 
@@ -30,11 +32,15 @@ void Piles::addContact(const RigidBody& b, ContactSide other, const Surface& sur
                        std::uint32_t feature, PileStep& step) {
   PileContact c;
   const PairSurface pair = combine(b.surface, surface);
-  c.a = b.contact.slot, c.n = gap.normal, c.gap = gap.distance;
-  c.friction = pair.friction, c.restitution = pair.restitution;
+  c.a = b.contact.slot;
+  c.n = gap.normal;
+  c.gap = gap.distance;
+  c.friction = pair.friction;
+  c.restitution = pair.restitution;
   if (b.isBall()) c.rolling = pair.rolling * b.radius();
   PileStep::Note note;
-  note.other = other, note.key = pairKey({true, b.id}, other, feature);
+  note.other = other;
+  note.key = pairKey({true, b.id}, other, feature);
   note.reverse = pairKey(other, {true, b.id}, feature);
   for (const WarmStart& p : b.contact.warmStarts)
     if (p.key == note.key) {
@@ -61,7 +67,8 @@ void Piles::addContact(const RigidBody& b, ContactSide other, const Surface& sur
 void Piles::findColliders(const RigidBody& b, const Aabb& box, double margin, PileStep& step) {
   const PileStep::Member me = step.members[b.contact.slot];
   const Side self = Side::of(b);
-  step.bearings.clear(), step.features.clear();
+  step.bearings.clear();
+  step.features.clear();
   const auto note = [&](const Collider& c, const Gap& gap, std::uint32_t feature) {
     step.bearings.push_back({{false, c.id}, c.shape, c.motion.at(step.tau).pose, gap});
     step.features.push_back(feature);
@@ -100,7 +107,8 @@ void Piles::meet(RigidBody& b, RigidBody& o, double margin, PileStep& step) {
   double reach = margin;
   Vec3 there;
   if (member) {
-    reach += step.members[o.contact.slot].way, there = step.members[o.contact.slot].middle;
+    reach += step.members[o.contact.slot].way;
+    there = step.members[o.contact.slot].middle;
   } else {
     reach += step.pile.h * o.velocity(step.tau).norm();
     there = o.centred ? o.position(step.tau) : Vec3(o.poseAt(step.tau) * o.bound.centre);
@@ -136,7 +144,8 @@ void Piles::findContacts(RigidBody& b, PileStep& step) {
   const double margin = kTouching + me.way + step.pile.h * step.pile.h * kStrongest;
   Aabb box;
   box.include(me.middle);
-  box.lo.array() -= me.bound + margin, box.hi.array() += me.bound + margin;
+  box.lo.array() -= me.bound + margin;
+  box.hi.array() += me.bound + margin;
   findColliders(b, box, margin, step);
   // Fliers' boxes hold their whole way, so that fast bodies are met as well. In the order of ids:
   // sweeps depend on it, and the broad phase's own depends on frames.
@@ -161,7 +170,8 @@ void Piles::linkContacts(PileStep& step) {
     const Kinematics k = f.body ? f.body->at(step.tau) : objects_.collider(f.key.id)->motion.at(step.tau);
     f.p = k.p;
     PileBody still;
-    still.v = k.v, still.omega = k.omega;
+    still.v = k.v;
+    still.omega = k.omega;
     pile.bodies.push_back(still);
   }
   std::size_t kept = 0;
@@ -181,15 +191,19 @@ void Piles::linkContacts(PileStep& step) {
     const Vec3 armA = step.points[k] - a.p, armB = step.points[k] - other;
     const bool still = c.b >= n && pile.bodies[c.b].omega.isZero(0);
     if (a.round && (still || (c.b < n && step.members[c.b].round))) {
-      c.leverA = -armA.dot(c.n), c.leverB = still ? 0 : armB.dot(c.n);
+      c.leverA = -armA.dot(c.n);
+      c.leverB = still ? 0 : armB.dot(c.n);
     } else {
       c.arms = static_cast<std::int32_t>(pile.arms.size());
       const Vec3& hold = holds.empty() ? step.points[k] : holds[k];
       pile.arms.push_back({armA, armB, hold - a.p, hold - other});
     }
-    pile.contacts[kept] = c, step.notes[kept] = note, ++kept;
+    pile.contacts[kept] = c;
+    step.notes[kept] = note;
+    ++kept;
   }
-  pile.contacts.resize(kept), step.notes.resize(kept);
+  pile.contacts.resize(kept);
+  step.notes.resize(kept);
 }
 
 /// In a pile the points of a flat contact keep friction of their own, but at the mean radius of its area: so
@@ -207,7 +221,9 @@ std::vector<Vec3> Piles::placesOfFriction(const PileStep& step) const {
     gaps.clear();
     for (std::size_t k = first; k < end; ++k) {
       Gap g;
-      g.distance = all[k].gap, g.normal = all[k].n, g.point = step.points[k];
+      g.distance = all[k].gap;
+      g.normal = all[k].n;
+      g.point = step.points[k];
       gaps.push_back(g);
     }
     for (const FlatContact& flat :

@@ -58,14 +58,18 @@ std::vector<char> sleepCandidates(const PileStep& step) {
     b.contact.drift += pile.shift[i] + 0.5 * pile.h * (start.v + end.v);
     b.contact.twist += 0.5 * pile.h * (start.omega + end.omega);
     b.contact.quietTime += pile.h;
-    if (b.contact.drift.norm() + b.contact.twist.norm() * b.reach > kQuietWay)
-      b.contact.quietTime = 0, b.contact.drift.setZero(), b.contact.twist.setZero();
+    if (b.contact.drift.norm() + b.contact.twist.norm() * b.reach > kQuietWay) {
+      b.contact.quietTime = 0;
+      b.contact.drift.setZero();
+      b.contact.twist.setZero();
+    }
     calm[i] = b.contact.quietTime >= kQuietTime;
   }
   std::vector<char> may = calm;
   for (const PileContact& c : pile.contacts) {
     if (c.b < n) {
-      may[c.a] = may[c.a] && calm[c.b], may[c.b] = may[c.b] && calm[c.a];
+      may[c.a] = may[c.a] && calm[c.b];
+      may[c.b] = may[c.b] && calm[c.a];
     } else {
       const PileBody& fixed = pile.bodies[c.b];
       may[c.a] = may[c.a] && fixed.v.isZero(0) && fixed.omega.isZero(0);
@@ -82,16 +86,23 @@ void Piles::join(RigidBody& b, PileStep& step) {
     const double quiet = b.mode == BodyMode::Rest ? kWaking : b.contact.quietTime;
     waking_.enterContact(b, tau);
     if (b.mode != BodyMode::Contact) return;
-    b.contact.inPile = true, b.contact.unsolved = false, b.contact.quietTime = quiet, b.contact.dueAge = 0;
-    b.contact.drift.setZero(), b.contact.twist.setZero();
+    b.contact.inPile = true;
+    b.contact.unsolved = false;
+    b.contact.quietTime = quiet;
+    b.contact.dueAge = 0;
+    b.contact.drift.setZero();
+    b.contact.twist.setZero();
   }
   PileStep::Member m;
   PileBody c;
   m.body = &b;
-  m.p = b.position(tau), m.round = b.centred, m.bound = b.bound.radius;
+  m.p = b.position(tau);
+  m.round = b.centred;
+  m.bound = b.bound.radius;
   m.middle = m.round ? m.p : Vec3(b.poseAt(tau) * b.bound.centre);
   const Vec3 L = b.momentum(tau);
-  c.v = b.velocity(tau), c.inverseMass = b.inverseMass;
+  c.v = b.velocity(tau);
+  c.inverseMass = b.inverseMass;
   Mat3 inverse = Mat3::Zero();
   if (m.round && b.inertia.x() == b.inertia.y() && b.inertia.y() == b.inertia.z()) {
     c.roundInertia = 1 / b.inertia.x();
@@ -114,7 +125,8 @@ bool Piles::noteNeighbours(const PileStep& step, std::size_t i, std::span<const 
                            std::vector<ContactSide>& near) {
   const Pile& pile = step.pile;
   RigidBody& b = *step.members[i].body;
-  b.contact.touching.clear(), b.contact.warmStarts.clear();
+  b.contact.touching.clear();
+  b.contact.warmStarts.clear();
   near.clear();
   for (const std::uint32_t k : list) {
     const PileContact& c = pile.contacts[k];
@@ -163,7 +175,10 @@ void Piles::follow(const PileStep& step, std::size_t i) {
     arcs_.setArc(b, tau, path, Spin::free(q, 0.5 * (L0 + L1), b.inertia), h, BodyMode::Contact);
     b.contact.endL = L1;
   }
-  if (b.mode == BodyMode::Contact) b.contact.dueAge = h, b.contact.quietTime = quiet;
+  if (b.mode == BodyMode::Contact) {
+    b.contact.dueAge = h;
+    b.contact.quietTime = quiet;
+  }
 }
 
 /// Arcs of the step, and which members may sleep.
@@ -199,7 +214,8 @@ void Piles::dissolve(const std::vector<RigidBody*>& due, double tau) {
     if (b->contact.dueAge > 0)
       arcs_.setArc(*b, tau, Path::parabola(b->position(tau), b->velocity(tau), Vec3::Zero()),
                    Spin::free(b->orientation(tau), L, b->inertia), grid_.islandStep(), BodyMode::Contact);
-    b->contact.inPile = false, b->contact.endL = L;
+    b->contact.inPile = false;
+    b->contact.endL = L;
   }
 }
 
@@ -216,14 +232,19 @@ void Piles::advance(double tau) {
   }
   std::ranges::sort(due, {}, &RigidBody::id);
   for (RigidBody* b : due)
-    if (b->contact.sleepsNext) arcs_.freeze(*b, tau), foresight_.predict(*b, tau);
+    if (b->contact.sleepsNext) {
+      arcs_.freeze(*b, tau);
+      foresight_.predict(*b, tau);
+    }
   std::erase_if(due, [](const RigidBody* b) { return b->mode != BodyMode::Contact; });
   if (due.empty()) return;
   const auto leaves = [&](const RigidBody* b) { return b->velocity(tau).norm() > kLeaving; };
   if (due.size() < kLeast && std::ranges::any_of(due, leaves) && !isPile(due, tau)) return dissolve(due, tau);
   for (RigidBody* b : due) join(*b, step);
   const std::size_t contacts = kContactsEach * due.size();
-  pile.contacts.reserve(contacts), step.notes.reserve(contacts), step.points.reserve(contacts);
+  pile.contacts.reserve(contacts);
+  step.notes.reserve(contacts);
+  step.points.reserve(contacts);
   for (std::size_t i = 0; i < step.members.size(); ++i) findContacts(*step.members[i].body, step);
   pile.members = step.members.size();
   linkContacts(step);

@@ -26,12 +26,14 @@ double whenApart(const Side& a, const Side& b, double far, double lo, double hi)
     const double rate = g.normal.dot(ka.velocityAt(x) - kb.velocityAt(g.point)), step = over / rate;
     // What the next step would be is about the square of this one times half the curvature.
     const double bend = i > 0 && tau != before ? std::fabs((rate - rateBefore) / (tau - before)) : 1e9;
-    before = tau, rateBefore = rate;
+    before = tau;
+    rateBefore = rate;
     double next = tau - step;
     if (std::fabs(step) < kFineEnough || step * step * bend < kFineEnough * std::fabs(rate)) return next;
     if (!(next > lo && next < hi)) {
       if (!nearAtLo && gapBetween(a, b, lo).distance > far) return lo;
-      nearAtLo = true, next = 0.5 * (lo + hi);
+      nearAtLo = true;
+      next = 0.5 * (lo + hi);
     }
     tau = next;
   }
@@ -66,10 +68,13 @@ class PastSide {
 public:
   PastSide(const Side& present, const Instant& start) : side_(present) {
     if (!present.body || present.body->trace.arcs.empty()) return;
-    thing_.shape = present.shape, thing_.bound = present.bound();
-    thing_.motion.arcs = present.body->trace.arcs, thing_.motion.moving = true;
+    thing_.shape = present.shape;
+    thing_.bound = present.bound();
+    thing_.motion.arcs = present.body->trace.arcs;
+    thing_.motion.moving = true;
     thing_.motion.rebase(start);
-    side_.body = nullptr, side_.collider = &thing_;
+    side_.body = nullptr;
+    side_.collider = &thing_;
   }
   PastSide(const PastSide&) = delete;
   PastSide& operator=(const PastSide&) = delete;
@@ -143,7 +148,8 @@ std::optional<Nanoseconds> ReleaseWatch::whenParted(const ContactMemory::Waiting
   const double from = std::max({time_.from(), time_.tauOf(w.seen), a.begins(), b.begins()});
   if (!(from < tau)) return {};
   std::vector<double> turns{from, tau};
-  a.addTurns(turns), b.addTurns(turns);
+  a.addTurns(turns);
+  b.addTurns(turns);
   std::erase_if(turns, [&](double t) { return t < from || t > tau; });
   std::ranges::sort(turns);
   for (std::size_t i = 1; i < turns.size(); ++i) {
@@ -190,7 +196,8 @@ void ReleaseWatch::forgetSlack(ContactSide p) {
 /// Until this part of the frame the pair was as foreseen: it has not parted, but it has used up slack.
 void ReleaseWatch::passSkippedFrames(ContactMemory::Waiting& w) const {
   if (w.seen >= time_.t0()) return;
-  w.slack = w.slackAt(time_.t0()), w.seen = time_.t0();
+  w.slack = w.slackAt(time_.t0());
+  w.seen = time_.t0();
 }
 
 /// Returns true if the pair has moved too little since the last look to have parted.
@@ -200,7 +207,8 @@ bool ReleaseWatch::stillNear(ContactMemory::Waiting& w, double tau) const {
   const double length = wayLength(*objects_.side(w.pair.first), from, tau) +
                         wayLength(*objects_.side({true, w.pair.second}), from, tau);
   if (!(length < w.slack)) return false;
-  w.slack -= length, w.seen = time_.timeAt(tau);
+  w.slack -= length;
+  w.seen = time_.timeAt(tau);
   return true;
 }
 
@@ -270,10 +278,13 @@ bool ReleaseWatch::noPartNearer(const ContactMemory::Waiting& w, const Side& a, 
 /// At tau the two are to part by `distance` more: notes when to look for that.
 void ReleaseWatch::awaitRelease(ContactMemory::Waiting& w, const Side& a, const Side& b, double distance,
                                 double tau) const {
-  w.versionA = a.body ? &a.body->version : &a.collider->version, w.versionB = &b.body->version;
+  w.versionA = a.body ? &a.body->version : &a.collider->version;
+  w.versionB = &b.body->version;
   w.versions = *w.versionA + *w.versionB;
   w.sure = false;
-  w.seen = time_.timeAt(tau), w.slack = distance, w.byWay = false;
+  w.seen = time_.timeAt(tau);
+  w.slack = distance;
+  w.byWay = false;
   BallFlight::Stay stay;
   if (const auto flight = a.still() ? flightOf(b, tau) : std::nullopt) {
     const double far = b.body->releaseDistance;
@@ -283,7 +294,8 @@ void ReleaseWatch::awaitRelease(ContactMemory::Waiting& w, const Side& a, const 
       stay = flight->seenFrom(a.at(tau).pose).stayNear(*box, far);
     if (const auto* mesh = std::get_if<MeshShape>(a.shape); mesh && w.triangle >= 0)
       stay = flight->seenFrom(a.at(tau).pose).stayNear(mesh->tree, w.triangle, far);
-    w.triangle = stay.triangle, w.sure = stay.sure;
+    w.triangle = stay.triangle;
+    w.sure = stay.sure;
   }
   constexpr double kForever = 1e6;  // [s]
   const Nanoseconds stays = fromSeconds(std::min(stay.seconds, kForever)),

@@ -19,8 +19,10 @@ void Waking::enterContact(RigidBody& b, double tau) {
   b.contact.endL = L;
   b.contact.quietTime = 0;
   if (!rests) b.contact.warmStarts.clear();
-  if (pileMember && b.mode == BodyMode::Contact)
-    b.contact.inPile = true, b.contact.dueAge = grid_.untilPileStep(time_.instantAt(tau));
+  if (pileMember && b.mode == BodyMode::Contact) {
+    b.contact.inPile = true;
+    b.contact.dueAge = grid_.untilPileStep(time_.instantAt(tau));
+  }
   queue_.scheduleTick(tau);
 }
 

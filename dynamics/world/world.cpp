@@ -52,7 +52,10 @@ BodyId World::addBody(const BodyDef& d) {
       !std::isfinite(d.damping) || !(d.releaseDistance >= 0) || !usable(d.embedding))
     return 0;
   RigidBody& b = core_->objects_.addBody(d.shape);
-  b.surface = d.surface, b.mass = d.mass.mass, b.inverseMass = 1 / d.mass.mass, b.inertia = d.mass.inertia;
+  b.surface = d.surface;
+  b.mass = d.mass.mass;
+  b.inverseMass = 1 / d.mass.mass;
+  b.inertia = d.mass.inertia;
   b.X_NC = {d.mass.centre, d.mass.axes.normalized()};
   if (const auto* ball = std::get_if<BallShape>(b.shape);
       ball && (ball->centre - d.mass.centre).norm() <= 1e-6 * ball->radius &&
@@ -66,10 +69,15 @@ BodyId World::addBody(const BodyDef& d) {
   b.centred = b.isBall() && b.eccentricity() <= 1e-9 * b.radius();
   b.reach = (b.bound.centre - b.X_NC.p).norm() + b.bound.radius;
   b.centred = b.isBall() && b.eccentricity() <= 1e-9 * b.radius();
-  b.damping = d.damping, b.dragArea = d.dragArea, b.releaseDistance = d.releaseDistance;
+  b.damping = d.damping;
+  b.dragArea = d.dragArea;
+  b.releaseDistance = d.releaseDistance;
   b.embedding = d.embedding;
   core_->turnsByFrame_ = core_->turnsByFrame_ || (d.flight && d.flight->jerks());
-  if (d.flight) b.flight = d.flight, b.q_CA = (b.X_NC.q.conjugate() * d.flight->q_NA).normalized();
+  if (d.flight) {
+    b.flight = d.flight;
+    b.q_CA = (b.X_NC.q.conjugate() * d.flight->q_NA).normalized();
+  }
   b.pose = unit(d.pose);
   const Pose X_WC = b.pose * b.X_NC;
   const Quat& q = X_WC.q;
@@ -115,7 +123,8 @@ bool World::moveCollider(ColliderId id, const Pose& end, bool teleport) {
   if (!c || !usable(end)) return false;
   c->nextArcs.clear();
   if (teleport) {
-    c->now = unit(end), c->next.reset();
+    c->now = unit(end);
+    c->next.reset();
     c->disturbed = true;
     core_->releases_.forgetSlack({false, id});
   } else {
@@ -135,7 +144,8 @@ bool World::enableCollider(ColliderId id, bool on) {
   Collider* c = core_->objects_.collider(id);
   if (!c) return false;
   if (c->enabled == on) return true;
-  c->enabled = on, c->fresh = on;
+  c->enabled = on;
+  c->fresh = on;
   ++c->version;
   core_->changes_.mark(id);
   if (!on) {
@@ -168,7 +178,10 @@ bool World::enableBody(BodyId id, bool on) {
 
 bool World::ignorePair(ContactSide a, ContactSide b, bool on) {
   core_->objects_.ignore(a, b, on);
-  if (on) core_->waking_.wakeOnto(a, core_->time_.now()), core_->waking_.wakeOnto(b, core_->time_.now());
+  if (on) {
+    core_->waking_.wakeOnto(a, core_->time_.now());
+    core_->waking_.wakeOnto(b, core_->time_.now());
+  }
   return true;
 }
 
@@ -249,7 +262,8 @@ bool World::Core::putBody(RigidBody& b, const Pose& X_WN, const Vec3& v, const V
   b.pose = unit(X_WN);
   b.trouble.clear();
   b.fresh = true;
-  b.contact.touching.clear(), b.grip.recoveries.clear();
+  b.contact.touching.clear();
+  b.grip.recoveries.clear();
   const Pose X_WC = b.pose * b.X_NC;
   memory_.forget({true, b.id});
   arcs_.startFlight(b, time_.now(), X_WC.p, v, X_WC.q,
@@ -274,7 +288,8 @@ bool World::holdBody(BodyId id) {
   if (!b || b->mode == BodyMode::Quarantined) return false;
   core_->arcs_.freeze(*b, core_->time_.now());
   b->support.on = {};
-  b->contact.touching.clear(), b->grip.recoveries.clear();
+  b->contact.touching.clear();
+  b->grip.recoveries.clear();
   core_->waking_.wakeOnto({true, id}, core_->time_.now());
   core_->held_.add(*b);
   return true;
@@ -384,16 +399,26 @@ BodyState World::state(BodyId id) const {
   const RigidBody* b = core_->objects_.body(id);
   if (!b) return s;
   const double age = Instant{core_->time_.t1(), 0}.since(b->since);
-  s.pose = b->pose, s.mode = b->mode, s.clock = b->since.ns, s.clockRest = b->since.rest;
-  s.flight = flightClassOf(b->path), s.arcs = b->version;
+  s.pose = b->pose;
+  s.mode = b->mode;
+  s.clock = b->since.ns;
+  s.clockRest = b->since.rest;
+  s.flight = flightClassOf(b->path);
+  s.arcs = b->version;
   const Pose X_WC = b->pose * b->X_NC;
   if (b->mode == BodyMode::Held) {
-    s.p = X_WC.p, s.q = X_WC.q, s.v = b->grip.held.v, s.omega = b->grip.held.omega;
+    s.p = X_WC.p;
+    s.q = X_WC.q;
+    s.v = b->grip.held.v;
+    s.omega = b->grip.held.omega;
     return s;
   }
-  s.p = b->path.position(age), s.v = b->path.velocity(age), s.q = b->spin.orientation(age - b->spinStart);
+  s.p = b->path.position(age);
+  s.v = b->path.velocity(age);
+  s.q = b->spin.orientation(age - b->spinStart);
   const double tau = age - b->age0;
-  s.omega = b->turning(tau), s.L = b->momentum(tau);
+  s.omega = b->turning(tau);
+  s.L = b->momentum(tau);
   return s;
 }
 

@@ -55,8 +55,14 @@ void World::Core::pause(Nanoseconds to, bool continues) {
   const Nanoseconds gap = to - time_.t1();
   traces_.pause(continues);
   if (gap == 0) return;
-  for (RigidBody& b : objects_.bodies()) b.since.ns += gap, b.grip.woundTo.ns += gap;
-  for (ContactMemory::Waiting& w : memory_.waiting()) w.look += gap, w.seen += gap;
+  for (RigidBody& b : objects_.bodies()) {
+    b.since.ns += gap;
+    b.grip.woundTo.ns += gap;
+  }
+  for (ContactMemory::Waiting& w : memory_.waiting()) {
+    w.look += gap;
+    w.seen += gap;
+  }
   time_.standUntil(to);
   openWindow(to / WorldTime::kWindow * WorldTime::kWindow);
 }
@@ -85,7 +91,8 @@ void World::Core::beginFrame() {
   held_.dropReleased();
   for (RigidBody* b : held_.list()) {
     b->grip.held.set(b->grip.held.start, b->grip.held.end, time_.from(), seconds);
-    b->grip.held.arcs.swap(b->grip.nextArcs), b->grip.nextArcs.clear();
+    b->grip.held.arcs.swap(b->grip.nextArcs);
+    b->grip.nextArcs.clear();
     b->grip.held.follow({time_.origin(), 0}, time_.from(), time_.now());
     traces_.noteHeld(*b, time_.from());
     b->trace.put = false;
@@ -97,7 +104,8 @@ void World::Core::beginFrame() {
     if (Collider* c = objects_.collider(id)) {
       c->move(c->now, c->next.value_or(c->now), time_.from(), seconds);
       c->next.reset();
-      c->motion.arcs.swap(c->nextArcs), c->nextArcs.clear();
+      c->motion.arcs.swap(c->nextArcs);
+      c->nextArcs.clear();
       c->motion.follow({time_.origin(), 0}, time_.from(), time_.now());
       ++c->version;
       boxes_.sweep(*c);
@@ -133,7 +141,10 @@ void World::Core::runEvents(double until) {
     }
     boxes_.sortBodiesIfCrowded();
     switch (e.kind) {
-    case EventQueue::Event::Kind::Command: commands_.apply(e.tau), restartStirred(e.tau); break;
+    case EventQueue::Event::Kind::Command:
+      commands_.apply(e.tau);
+      restartStirred(e.tau);
+      break;
     case EventQueue::Event::Kind::Tick:
       if (queue_.isScheduled(e)) islands_.tick(e.tau);
       break;
@@ -181,13 +192,19 @@ void World::Core::sample(RigidBody& b) {
     b.pose = X;
   else
     expel(b);
-  if (b.mode == BodyMode::Held) b.grip.held.start = b.grip.held.end, b.grip.held.arcs.clear();
+  if (b.mode == BodyMode::Held) {
+    b.grip.held.start = b.grip.held.end;
+    b.grip.held.arcs.clear();
+  }
   changed_.push_back(b.id);
   b.active = !standsStill(b.mode);
 }
 
 void World::Core::endFrame() {
-  if (!held_.list().empty()) held_.windUp(time_.now()), recoveries_.noteFreePlaces();
+  if (!held_.list().empty()) {
+    held_.windUp(time_.now());
+    recoveries_.noteFreePlaces();
+  }
   if (!memory_.waiting().empty())
     for (RigidBody* b : active_) foresight_.catchUp(*b, time_.now());
   held_.endTouches();
@@ -201,7 +218,10 @@ void World::Core::endFrame() {
   // A collider that has moved stays in the list, so that the next frame notices that it stands.
   changes_.dropColliders([&](ColliderId id) {
     Collider* c = objects_.collider(id);
-    if (c) c->now = c->motion.end, c->motion.arcs.clear();
+    if (c) {
+      c->now = c->motion.end;
+      c->motion.arcs.clear();
+    }
     return !c || !c->motion.moving;
   });
 }
@@ -215,9 +235,13 @@ void World::Core::beginWindow(Nanoseconds at) {
   for (RigidBody& b : objects_.bodies()) {
     b.age0 = start.since(b.since);
     b.until = b.validAge - b.age0;
-    b.grip.held.begin = time_.from(), b.grip.held.rebase(start);
+    b.grip.held.begin = time_.from();
+    b.grip.held.rebase(start);
   }
-  for (Collider& c : objects_.colliders()) c.motion.begin = time_.from(), c.motion.rebase(start);
+  for (Collider& c : objects_.colliders()) {
+    c.motion.begin = time_.from();
+    c.motion.rebase(start);
+  }
   waking_.scheduleDue(from);
   commands_.postAll();
 }

@@ -51,7 +51,10 @@ static void fieldsOf(EvenPull& e, StateFields& f) {
 /// Of the coefficients those that mean something.
 static void fieldsOf(Path& p, StateFields& f) {
   f("kind", p.kind), f("degree", p.degree), f("damping", p.damping), f("spare", p.spare);
-  if (p.degree < 0 || p.degree > Path::kMostDegree) return p.degree = 0, f.fail();
+  if (p.degree < 0 || p.degree > Path::kMostDegree) {
+    p.degree = 0;
+    return f.fail();
+  }
   for (std::size_t i = 0; i <= static_cast<std::size_t>(std::max(2, p.degree)); ++i) f("c", p.c[i]);
 }
 static void fieldsOf(Spin& s, StateFields& f) {
@@ -70,7 +73,10 @@ static void fieldsOf(Support& s, StateFields& f) {
   f("on", s.on), f("triangle", s.triangle), f("point", s.point), f("normal", s.normal), f("edges", s.edges);
   f("edge normals", s.edgeNormal), f("edge offsets", s.edgeOffset);
   f("friction", s.friction), f("rolling", s.rolling), f("restitution", s.restitution);
-  if (s.edges < 0 || static_cast<std::size_t>(s.edges) > s.edgeNormal.size()) s.edges = 0, f.fail();
+  if (s.edges < 0 || static_cast<std::size_t>(s.edges) > s.edgeNormal.size()) {
+    s.edges = 0;
+    f.fail();
+  }
 }
 static void fieldsOf(WarmStart& p, StateFields& f) {
   f("key", p.key), f("force", p.force), f("step", p.step);
@@ -157,21 +163,30 @@ static void fieldsOf(Collider& c, StateFields& f) {
 
 void World::Core::visitState(StateFields& f) {
   time_.state(f);
-  objects_.state(f), fields_.state(f);
-  objects_.stateOfPairs(f), recoveries_.state(f);
-  f("jerking", turnsByFrame_), changes_.stateOfMode(f);
-  queue_.stateOfOrder(f), objects_.stateOfIds(f), fields_.stateOfIds(f);
+  objects_.state(f);
+  fields_.state(f);
+  objects_.stateOfPairs(f);
+  recoveries_.state(f);
+  f("jerking", turnsByFrame_);
+  changes_.stateOfMode(f);
+  queue_.stateOfOrder(f);
+  objects_.stateOfIds(f);
+  fields_.stateOfIds(f);
   foresight_.state(f);
   queue_.stateOfTick(f);
   if (f.failed()) return;
-  supports_.state(f), f("changed", changed_), changes_.stateOfColliders(f);
+  supports_.state(f);
+  f("changed", changed_);
+  changes_.stateOfColliders(f);
   commands_.state(f);
   queue_.state(f);
   if (f.failed()) return;
   memory_.state(f, [this](ContactSide p) { return objects_.versionPointer(p); });
   const auto findBody = [this](BodyId id) { return objects_.body(id); };
-  active_.state(f, findBody), commands_.stateOfStirred(f, findBody);
-  held_.state(f, findBody), changes_.stateOfBodies(f, findBody);
+  active_.state(f, findBody);
+  commands_.stateOfStirred(f, findBody);
+  held_.state(f, findBody);
+  changes_.stateOfBodies(f, findBody);
   boxes_.state(f);
 }
 

@@ -10,7 +10,10 @@
 namespace stadion {
 
 FileDescriptor openBeneath(int root, const std::string& path, bool folder) {
-  if (path.empty() || path.find('\0') != std::string::npos) return errno = ENOENT, FileDescriptor();
+  if (path.empty() || path.find('\0') != std::string::npos) {
+    errno = ENOENT;
+    return FileDescriptor();
+  }
   open_how how{};
   // Without O_NONBLOCK, opening a named pipe would wait for a writer.
   how.flags = O_RDONLY | O_CLOEXEC | O_NOCTTY | O_NONBLOCK | (folder ? O_DIRECTORY : 0);

@@ -32,7 +32,8 @@ public:
       const ssize_t sent = ::send(socket_, at, size, MSG_NOSIGNAL | MSG_DONTWAIT);
       if (sent < 0 && (errno == EINTR || errno == EAGAIN)) continue;
       if (sent <= 0) return Transfer::Broken;
-      at += sent, size -= static_cast<std::size_t>(sent);
+      at += sent;
+      size -= static_cast<std::size_t>(sent);
     }
     return Transfer::Done;
   }
@@ -43,10 +44,13 @@ public:
     iovec part{&copy, sizeof copy};
     alignas(cmsghdr) char control[CMSG_SPACE(sizeof(int))] = {};
     msghdr message{};
-    message.msg_iov = &part, message.msg_iovlen = 1;
-    message.msg_control = control, message.msg_controllen = sizeof control;
+    message.msg_iov = &part;
+    message.msg_iovlen = 1;
+    message.msg_control = control;
+    message.msg_controllen = sizeof control;
     cmsghdr* attached = CMSG_FIRSTHDR(&message);
-    attached->cmsg_level = SOL_SOCKET, attached->cmsg_type = SCM_RIGHTS,
+    attached->cmsg_level = SOL_SOCKET;
+    attached->cmsg_type = SCM_RIGHTS;
     attached->cmsg_len = CMSG_LEN(sizeof(int));
     std::memcpy(CMSG_DATA(attached), &descriptor, sizeof descriptor);
     ssize_t sent = 0;
@@ -66,7 +70,8 @@ public:
       const ssize_t got = ::recv(socket_, at, size, MSG_DONTWAIT);
       if (got < 0 && (errno == EINTR || errno == EAGAIN)) continue;
       if (got <= 0) return Transfer::Broken;
-      at += got, size -= static_cast<std::size_t>(got);
+      at += got;
+      size -= static_cast<std::size_t>(got);
     }
     return Transfer::Done;
   }
@@ -99,7 +104,8 @@ struct SpawnSettings {
     posix_spawn_file_actions_addopen(&files, STDERR_FILENO, "/dev/null", O_WRONLY, 0);
     posix_spawnattr_init(&attributes);
     sigset_t none, all;
-    sigemptyset(&none), sigfillset(&all);
+    sigemptyset(&none);
+    sigfillset(&all);
     posix_spawnattr_setsigmask(&attributes, &none);
     posix_spawnattr_setsigdefault(&attributes, &all);
     posix_spawnattr_setpgroup(&attributes, 0);  // Ctrl-C is for the show, which then closes the socket
@@ -168,7 +174,10 @@ ImporterProcess::Answer ImporterProcess::fault(End end) {
 ImporterProcess::Answer ImporterProcess::ask(RequestHead head, int root, const std::string& path,
                                              std::chrono::milliseconds timeout,
                                              const std::atomic<bool>* giveUp) {
-  if (pid_ != 0 && ::waitpid(pid_, nullptr, WNOHANG) == pid_) pid_ = 0, socket_.close();
+  if (pid_ != 0 && ::waitpid(pid_, nullptr, WNOHANG) == pid_) {
+    pid_ = 0;
+    socket_.close();
+  }
   if (pid_ == 0)
     if (const std::string why = start(); !why.empty()) return {End::NotStarted, why, {}};
   Conversation talk(socket_.get(), Clock::now() + timeout, giveUp);

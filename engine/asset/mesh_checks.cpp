@@ -36,24 +36,34 @@ private:
 // Names are left out: the same shape under two names is one mesh.
 std::uint64_t contentHash(const Mesh& mesh) {
   Hash hash;
-  hash.add(mesh.positions), hash.add(mesh.normals), hash.add(mesh.uvs), hash.add(mesh.colours);
+  hash.add(mesh.positions);
+  hash.add(mesh.normals);
+  hash.add(mesh.uvs);
+  hash.add(mesh.colours);
   hash.add(mesh.indices);
-  for (const Submesh& s : mesh.submeshes)
-    hash.add(std::uint64_t{s.firstIndex}), hash.add(std::uint64_t{s.indexCount}),
-        hash.add(std::uint64_t{s.material});
+  for (const Submesh& s : mesh.submeshes) {
+    hash.add(std::uint64_t{s.firstIndex});
+    hash.add(std::uint64_t{s.indexCount});
+    hash.add(std::uint64_t{s.material});
+  }
   for (const Material& m : mesh.materials) {
     for (float c : m.baseColour) hash.add(c);
     for (float c : m.emissive) hash.add(c);
-    hash.add(m.roughness), hash.add(m.metallic);
+    hash.add(m.roughness);
+    hash.add(m.metallic);
     hash.add(static_cast<std::uint64_t>(m.texture));
-    hash.add(std::uint64_t{m.doubleSided}), hash.add(std::uint64_t{m.textureHasAlpha});
+    hash.add(std::uint64_t{m.doubleSided});
+    hash.add(std::uint64_t{m.textureHasAlpha});
     // Only where there is such a thing: other meshes keep the hashes that they have always had.
     if (m.masked()) hash.add(std::uint64_t{1} << 32), hash.add(m.alphaCutoff);
     if (m.emissiveTexture >= 0)
       hash.add(std::uint64_t{2} << 32), hash.add(static_cast<std::uint64_t>(m.emissiveTexture));
   }
-  for (const Texture& t : mesh.textures)
-    hash.add(std::uint64_t{t.width}), hash.add(std::uint64_t{t.height}), hash.add(t.rgba);
+  for (const Texture& t : mesh.textures) {
+    hash.add(std::uint64_t{t.width});
+    hash.add(std::uint64_t{t.height});
+    hash.add(t.rgba);
+  }
   hash.add(std::uint64_t{mesh.standIn});
   return hash.value();
 }

@@ -89,9 +89,13 @@ bool toMaterial(const MaterialRecord& r, std::size_t textures, Material& m) {
     return false;
   for (const std::int32_t texture : {r.texture, r.emissiveTexture})
     if (texture < -1 || texture >= static_cast<std::int64_t>(textures)) return false;
-  m.roughness = r.roughness, m.metallic = r.metallic, m.alphaCutoff = r.alphaCutoff;
-  m.texture = r.texture, m.emissiveTexture = r.emissiveTexture;
-  m.doubleSided = r.doubleSided != 0, m.textureHasAlpha = r.textureHasAlpha != 0;
+  m.roughness = r.roughness;
+  m.metallic = r.metallic;
+  m.alphaCutoff = r.alphaCutoff;
+  m.texture = r.texture;
+  m.emissiveTexture = r.emissiveTexture;
+  m.doubleSided = r.doubleSided != 0;
+  m.textureHasAlpha = r.textureHasAlpha != 0;
   return true;
 }
 
@@ -150,8 +154,12 @@ std::vector<std::uint8_t> encode(const Mesh& mesh) {
   Writer out;
   out.put(Head{kMagic, kVersion, count(mesh.positions), count(mesh.indices), count(mesh.submeshes),
                count(mesh.materials), count(mesh.textures), !mesh.uvs.empty(), !mesh.colours.empty()});
-  out.put(mesh.positions), out.put(mesh.normals), out.put(mesh.uvs), out.put(mesh.colours);
-  out.put(mesh.indices), out.put(mesh.submeshes);
+  out.put(mesh.positions);
+  out.put(mesh.normals);
+  out.put(mesh.uvs);
+  out.put(mesh.colours);
+  out.put(mesh.indices);
+  out.put(mesh.submeshes);
   for (const Material& m : mesh.materials) {
     out.put(MaterialRecord{{m.baseColour[0], m.baseColour[1], m.baseColour[2], m.baseColour[3]},
                            {m.emissive[0], m.emissive[1], m.emissive[2]},
@@ -164,8 +172,12 @@ std::vector<std::uint8_t> encode(const Mesh& mesh) {
                            m.textureHasAlpha});
     out.put(m.name);
   }
-  for (const Texture& t : mesh.textures)
-    out.put(t.width), out.put(t.height), out.put(t.name), out.put(t.rgba);
+  for (const Texture& t : mesh.textures) {
+    out.put(t.width);
+    out.put(t.height);
+    out.put(t.name);
+    out.put(t.rgba);
+  }
   return std::move(out.bytes);
 }
 

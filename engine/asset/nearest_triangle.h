@@ -80,7 +80,11 @@ public:
           const auto& [a, b, c] = triangles_[i].places;
           const Vec3 w = nearestOn(p, a, b, c);
           const double squared = (w[0] * a + w[1] * b + w[2] * c - p).squaredNorm();
-          if (squared < best) best = squared, point.corners = triangles_[i].corners, point.weights = w;
+          if (squared < best) {
+            best = squared;
+            point.corners = triangles_[i].corners;
+            point.weights = w;
+          }
         }
         continue;
       }
@@ -108,7 +112,8 @@ private:
   std::uint32_t build(std::size_t first, std::size_t count) {
     const auto self = static_cast<std::uint32_t>(parts_.size());
     Part part;
-    part.first = static_cast<std::uint32_t>(first), part.count = static_cast<std::uint32_t>(count);
+    part.first = static_cast<std::uint32_t>(first);
+    part.count = static_cast<std::uint32_t>(count);
     for (std::size_t i = first; i < first + count; ++i)
       for (const Vec3& corner : triangles_[i].places) part.box.extend(corner);
     parts_.push_back(part);
@@ -124,7 +129,8 @@ private:
                      begin + static_cast<std::ptrdiff_t>(count),
                      [&](const Triangle& x, const Triangle& y) { return middle(x) < middle(y); });
     const std::uint32_t left = build(first, half), right = build(first + half, count - half);
-    parts_[self].left = left, parts_[self].right = right;
+    parts_[self].left = left;
+    parts_[self].right = right;
     return self;
   }
 

@@ -139,7 +139,10 @@ std::uint32_t vertexFor(const Mesh& mesh, const AtPlace& vertices, std::uint32_t
   for (auto v = first; v != last; ++v) {
     const auto& n = mesh.normals[v->second];
     const double along = normal.dot(Vec3(double{n[0]}, double{n[1]}, double{n[2]}));
-    if (along > most) most = along, best = v->second;
+    if (along > most) {
+      most = along;
+      best = v->second;
+    }
   }
   return best;
 }

@@ -14,7 +14,8 @@ int appendWhole(int file, std::string_view text) {
   while (!text.empty()) {
     const ssize_t written = ::write(file, text.data(), text.size());
     if (written > 0) {
-      text.remove_prefix(static_cast<std::size_t>(written)), added += written;
+      text.remove_prefix(static_cast<std::size_t>(written));
+      added += written;
       continue;
     }
     if (written < 0 && errno == EINTR) continue;

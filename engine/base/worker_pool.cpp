@@ -41,7 +41,8 @@ void WorkerPool::run(std::size_t count, const std::function<void(std::size_t)>& 
   };
   {
     const std::lock_guard lock(mutex_);
-    piece_ = &pieceOfStage, count_ = count;
+    piece_ = &pieceOfStage;
+    count_ = count;
     next_ = 0;
     ++round_;
   }

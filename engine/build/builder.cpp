@@ -22,7 +22,9 @@ PlaceAttributes placeOf(const Declaration& d) {
 Notification notificationOf(const EventMessage& m, const NodeRegistry& types) {
   const ArgumentKind argument = types.command(m.commandId)->argument;
   Notification n;
-  n.event = m.event, n.command = m.commandId, n.delay = m.delay + m.latency;
+  n.event = m.event;
+  n.command = m.commandId;
+  n.delay = m.delay + m.latency;
   n.target = std::string(m.target.name);
   if (argument == ArgumentKind::PartAndTracker)
     n.arguments = {std::string(kAttachPartNames[static_cast<std::size_t>(m.part)])};
@@ -88,7 +90,10 @@ private:
         parent_[d.index()] = carrier->declaration;
     for (const Attr attr : d.type().actsBy())
       for (const NodeReference& r : d.references(attr)) mention(r);
-    for (const EventMessage& m : d.eventMessages()) mention(m.target), mention(m.field);
+    for (const EventMessage& m : d.eventMessages()) {
+      mention(m.target);
+      mention(m.field);
+    }
   }
 
   void mention(const NodeReference& r) {
@@ -112,13 +117,16 @@ public:
   Built build() {
     built_.load = std::make_unique<LoadedScene>();
     LoadedScene& load = *built_.load;
-    load.number = input_.number, load.file = input_.document.file(), load.owner = input_.owner;
+    load.number = input_.number;
+    load.file = input_.document.file();
+    load.owner = input_.owner;
     load.X_WO = input_.X_WO;
     load.nodes.resize(input_.document.size());
     load.lines.reserve(input_.document.size());
     std::size_t statics = 0;
     for (std::uint32_t i = 0; i < input_.document.size(); ++i) statics += layout_.isStatic(i);
-    load.statics.reserve(statics), built_.staticRecords.reserve(statics);
+    load.statics.reserve(statics);
+    built_.staticRecords.reserve(statics);
     for (const Declaration d : input_.document) {
       load.lines.push_back(d.line());
       addTerms(d);

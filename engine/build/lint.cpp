@@ -35,8 +35,10 @@ void LintScope::note(const Declaration& node) {
     for (const NodeReference& body : node.references("collidee"))
       if (NodeUse* use = noted(body)) use->simulated = true;
   if (node.has("parent"))
-    if (NodeUse* use = noted(*node.reference("parent")))
-      use->isParent = true, use->levels += node.is(Trait::Level);
+    if (NodeUse* use = noted(*node.reference("parent"))) {
+      use->isParent = true;
+      use->levels += node.is(Trait::Level);
+    }
   for (const AttributeSpec& attribute : node.type().attributes())
     if (attribute.kind == ValueKind::Reference && attribute.acts)
       for (const NodeReference& other : node.references(attribute.attr))

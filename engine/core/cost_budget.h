@@ -68,7 +68,8 @@ inline NodeDegradation degradationAt(std::span<const DegradationStep> ladder, st
     level -= taken;
     if (taken == 0) break;
     if (c == DegradationStep::Half) r.pace = static_cast<std::uint8_t>(taken);
-    r.rests |= c == DegradationStep::Rest, r.hidden |= c == DegradationStep::Hide;
+    r.rests |= c == DegradationStep::Rest;
+    r.hidden |= c == DegradationStep::Hide;
     for (std::uint32_t i = 0; c == DegradationStep::Lod && i < taken; ++i) r.lod *= kLodLevel;
   }
   return r;

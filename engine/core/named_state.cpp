@@ -55,7 +55,8 @@ std::vector<NamedState::Field> NamedState::take() {
     if (g.field.value.empty()) g.field.value = fmt::format("#{:016x}", g.hash.value());
     all.push_back(std::move(g.field));
   }
-  fields_.clear(), places_.clear();
+  fields_.clear();
+  places_.clear();
   return all;
 }
 

@@ -122,12 +122,15 @@ std::optional<std::string> NodeRegistry::faultOf(const RegisteredType& added) co
 }
 
 void NodeRegistry::listWords() {
-  commands_.clear(), events_.clear();
+  commands_.clear();
+  events_.clear();
   const auto list = [&](std::span<const CommandSpec> rows) {
     for (const CommandSpec& row : rows)
       if (command(row.id) == nullptr) commands_.push_back(&row);
   };
-  list(kSwitchCommands), list(kPlacedCommands), list(kCommonCommands);
+  list(kSwitchCommands);
+  list(kPlacedCommands);
+  list(kCommonCommands);
   for (const Index i : byName_) {
     list(types_[i].type().commands);
     for (const EventSpec& row : types_[i].type().events)

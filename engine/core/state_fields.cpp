@@ -57,7 +57,10 @@ std::uint64_t StateBytes::whole() {
 
 std::uint64_t StateBytes::real() {
   constexpr std::size_t kSize = sizeof(double);
-  if (left_.size() < kSize) return fail(), 0;
+  if (left_.size() < kSize) {
+    fail();
+    return 0;
+  }
   std::uint64_t value = 0;
   for (unsigned i = 0; i < kSize; ++i) value |= std::uint64_t{left_[i]} << (8 * i);
   left_ = left_.subspan(kSize);
@@ -66,7 +69,10 @@ std::uint64_t StateBytes::real() {
 
 std::string StateBytes::text() {
   const std::uint64_t size = whole();
-  if (size > left_.size()) return fail(), std::string();
+  if (size > left_.size()) {
+    fail();
+    return std::string();
+  }
   std::string words(left_.begin(), left_.begin() + static_cast<std::ptrdiff_t>(size));
   left_ = left_.subspan(static_cast<std::size_t>(size));
   return words;

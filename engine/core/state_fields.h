@@ -128,7 +128,10 @@ private:
       value = static_cast<T>(bits);
     if (static_cast<std::uint64_t>(value) != bits) fail();
     if constexpr (std::is_enum_v<T>)
-      if (value < T{} || value > lastOf(T{})) value = T{}, fail();
+      if (value < T{} || value > lastOf(T{})) {
+        value = T{};
+        fail();
+      }
   }
 
   void visitAll(Vec3& v) {
@@ -142,7 +145,10 @@ private:
       for (int r = 0; r < 3; ++r) visit(m(r, c));
   }
   void visitAll(Quat& q) { visitAll(q.coeffs()); }
-  void visitAll(Pose& X) { visitAll(X.p), visitAll(X.q); }
+  void visitAll(Pose& X) {
+    visitAll(X.p);
+    visitAll(X.q);
+  }
   void visitAll(Affine& X) {
     const std::string_view outer = std::exchange(outer_, name_);
     name_ = "axes";
@@ -152,10 +158,14 @@ private:
     for (int r = 0; r < 3; ++r) visit(X.matrix()(r, 3));
     name_ = std::exchange(outer_, outer);
   }
-  void visitAll(NodeRef& r) { visit(r.load), visit(r.position); }
+  void visitAll(NodeRef& r) {
+    visit(r.load);
+    visit(r.position);
+  }
   template <class A, class B>
   void visitAll(std::pair<A, B>& p) {
-    visit(p.first), visit(p.second);
+    visit(p.first);
+    visit(p.second);
   }
   template <class T, std::size_t N>
   void visitAll(std::array<T, N>& list) {
@@ -230,9 +240,10 @@ public:
       T::fields(value, *this);
     else if constexpr (requires { value.has_value(); }) {
       if (value) (*this)({}, *value);
-    } else if constexpr (requires { value.first, value.second; })
-      (*this)({}, value.first), (*this)({}, value.second);
-    else if constexpr (requires { value.begin(); } && !std::is_same_v<T, std::string>)
+    } else if constexpr (requires { value.first, value.second; }) {
+      (*this)({}, value.first);
+      (*this)({}, value.second);
+    } else if constexpr (requires { value.begin(); } && !std::is_same_v<T, std::string>)
       for (const auto& element : value) (*this)({}, element);
     else if constexpr (std::is_same_v<T, std::string>)
       hash_.add(std::string_view(value));
@@ -307,7 +318,10 @@ public:
   std::uint64_t real();
   std::string text();
   bool failed() const { return failed_; }
-  void fail() { failed_ = true, left_ = {}; }
+  void fail() {
+    failed_ = true;
+    left_ = {};
+  }
   std::size_t left() const { return left_.size(); }
 
 private:

@@ -25,7 +25,10 @@ public:
   void add(std::string_view v);
   void add(const Vec3& v);
   void add(const Quat& q);
-  void add(const Pose& X) { add(X.p), add(X.q); }
+  void add(const Pose& X) {
+    add(X.p);
+    add(X.q);
+  }
   void add(const Affine& X);
   void add(NodeRef r) { add((std::uint64_t{r.load} << 32) | r.position); }
 

@@ -70,7 +70,10 @@ private:
     const Word* w = in_.word("90, 180 or 270");
     if (!w) return false;
     for (const std::uint32_t degrees : {0u, 90u, 180u, 270u})
-      if (w->text == std::to_string(degrees)) return output_.shape.rotate = degrees, true;
+      if (w->text == std::to_string(degrees)) {
+        output_.shape.rotate = degrees;
+        return true;
+      }
     return wrong(*w, quotedWord(w->text) +
                          " is not a turn that a picture can make; write 90, 180 or 270 (clockwise)");
   }

@@ -55,7 +55,10 @@ public:
       Vec3 normal;
       for (std::size_t i = 0; i < size(); ++i) {
         const double sign = mirrored[i] ? -1 : 1, clear = sign * sides_[i].inFront(point);
-        if (clear < least) least = clear, normal = sign * sides_[i].normal;
+        if (clear < least) {
+          least = clear;
+          normal = sign * sides_[i].normal;
+        }
       }
       if (least > kClear) return true;
       pull += normal;
@@ -102,8 +105,10 @@ std::vector<std::vector<std::size_t>> groupsOf(const std::vector<WallEntry>& wal
     taken[first] = true;
     for (std::size_t at = 0; at < group.size(); ++at)
       for (std::size_t other = first + 1; other < walls.size(); ++other)
-        if (!taken[other] && meet(walls[group[at]].wall, walls[other].wall))
-          taken[other] = true, group.push_back(other);
+        if (!taken[other] && meet(walls[group[at]].wall, walls[other].wall)) {
+          taken[other] = true;
+          group.push_back(other);
+        }
     groups.push_back(std::move(group));
   }
   return groups;

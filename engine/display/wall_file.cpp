@@ -129,9 +129,12 @@ private:
     const auto name = in_.name("the wall's name", "a wall");
     if (!name) return;
     const Word nameWord = in_.last();
-    entry_ = {}, corners_ = {};
+    entry_ = {};
+    corners_ = {};
     entry_.wall.name = *name;
-    entry_.line = in_.line(), entry_.column = nameWord.column, entry_.excerpt = in_.excerpt();
+    entry_.line = in_.line();
+    entry_.column = nameWord.column;
+    entry_.excerpt = in_.excerpt();
     if (!in_.fields(*this, kFields, "a wall")) return;
     for (std::size_t i = 0; i < corners_.size(); ++i)
       if (!corners_[i])

@@ -172,7 +172,11 @@ private:
       for (const Edge& f : e2) {
         const double apart = gap(e, f);
         closed += apart <= kClosed ? 1 : 0;
-        if (apart < best) best = apart, at1 = &e, at2 = &f;
+        if (apart < best) {
+          best = apart;
+          at1 = &e;
+          at2 = &f;
+        }
       }
     if (closed >= 3)
       return error(two, fmt::format("wall \"{}\" lies on wall \"{}\" of line {}; leave one of them out",

@@ -69,8 +69,10 @@ void blend(const InputStamp& a, const InputStamp& b, Nanoseconds time, bool leap
 }
 
 void sampleTrack(const InputTrack& track, Nanoseconds time, TrackerSample& sample) {
-  sample.stamp = time, sample.measured = 0;
-  sample.knots.clear(), sample.controls.clear();
+  sample.stamp = time;
+  sample.measured = 0;
+  sample.knots.clear();
+  sample.controls.clear();
   const auto after = std::ranges::upper_bound(track.stamps, time, {}, &InputStamp::time);
   if (after == track.stamps.begin()) return copy(*after, sample);
   const InputStamp& before = *(after - 1);

@@ -124,7 +124,10 @@ private:
     const auto name = in_.name("the tracker's name", "a tracker");
     if (!name) return nullptr;
     const Word nameWord = in_.last();
-    if (!in_.more()) return in_.word("the time in seconds"), nullptr;
+    if (!in_.more()) {
+      in_.word("the time in seconds");
+      return nullptr;
+    }
     const auto time = in_.seconds("the time");
     if (!time) return nullptr;
     stamp_.time = *time;
@@ -251,7 +254,8 @@ private:
     InputTrack* track = begin();
     if (!track) return;
     if (!track->stamps.empty()) stamp_.X_RT = track->stamps.back().X_RT;
-    stamp_.valid = false, stamp_.controlsOnly = true;
+    stamp_.valid = false;
+    stamp_.controlsOnly = true;
     if (fields(false)) track->stamps.push_back(stamp_);
   }
 

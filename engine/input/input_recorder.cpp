@@ -81,13 +81,18 @@ void InputRecorder::record(const TrackerSample& tracker, Nanoseconds time) {
 /// were.
 void InputRecorder::recordKnot(TrackerSample tracker, const PoseKnot& knot, Nanoseconds end) {
   if (const auto last = last_.find(logName(tracker.name)); last != last_.end()) {
-    tracker.buttons = last->second.buttons, tracker.axes = last->second.axes;
+    tracker.buttons = last->second.buttons;
+    tracker.axes = last->second.axes;
     tracker.valid = tracker.controlsOnly = false;
     if (knot.jump && last->second.valid) write(tracker, knot.time - 1);
   }
   for (const ControlKnot& c : tracker.controls)
-    if (c.time == knot.time) tracker.buttons = c.buttons, tracker.axes = c.axes;
-  tracker.X_RT = knot.X, tracker.valid = true;
+    if (c.time == knot.time) {
+      tracker.buttons = c.buttons;
+      tracker.axes = c.axes;
+    }
+  tracker.X_RT = knot.X;
+  tracker.valid = true;
   if (knot.time < end) write(tracker, knot.time);
 }
 
@@ -97,7 +102,8 @@ void InputRecorder::recordControls(TrackerSample tracker, Nanoseconds end) {
   for (std::size_t i = 0; i < controls.size() && controls[i].time < end; ++i) {
     const bool jumps = i + 1 < controls.size() && controls[i + 1].time == controls[i].time;
     if (jumps) continue;  // the later one says what is from then on
-    tracker.buttons = controls[i].buttons, tracker.axes = controls[i].axes;
+    tracker.buttons = controls[i].buttons;
+    tracker.axes = controls[i].axes;
     write(tracker, controls[i].time);
   }
 }

@@ -62,7 +62,10 @@ private:
   void filter() {
     const auto cutoff = in_.number("the filter's lowest cutoff", 0, 1000);
     const auto beta = cutoff ? in_.number("the filter's beta", 0, 10000) : std::nullopt;
-    if (beta && in_.finished()) rig_.cutoff = *cutoff, rig_.beta = *beta;
+    if (beta && in_.finished()) {
+      rig_.cutoff = *cutoff;
+      rig_.beta = *beta;
+    }
   }
   void seconds(double& value, std::string_view what, double most) {
     const auto s = in_.number(what, 0, most);

@@ -25,7 +25,8 @@ double eased(double s) {
 
 InputStamp lostAt(Nanoseconds time, const InputTrack& track) {
   InputStamp lost;
-  lost.time = time, lost.valid = false;
+  lost.time = time;
+  lost.valid = false;
   if (!track.stamps.empty()) lost.X_RT = track.stamps.back().X_RT;
   return lost;
 }
@@ -91,7 +92,8 @@ std::vector<TrackerFeed::Hearing> TrackerFeed::hearings(Nanoseconds clock) {
     const Nanoseconds last = c.ever ? c.last : c.lastControl;
     const bool toldLately = c.toldSilent && clock - *c.toldSilent < kSilenceToldEvery;
     if (!now && ever && !c.silentSince && !toldLately) {
-      c.silentSince = last, c.toldSilent = clock;
+      c.silentSince = last;
+      c.toldSilent = clock;
       news.push_back({c.tracker->name, false, toSeconds(clock - last)});
     } else if (now && c.silentSince) {
       news.push_back({c.tracker->name, true, toSeconds(last - *c.silentSince)});
@@ -108,7 +110,10 @@ bool TrackerFeed::pose(std::string_view name, Nanoseconds clock, const Pose& X_S
   if (!X_SD.finite() || X_SD.p.cwiseAbs().maxCoeff() * rig_.unit > kFarthest || !(squared > 0.25) ||
       !(squared < 4))
     return refuse();
-  if (c->ever && clock <= c->last) return ++counts_.late, false;
+  if (c->ever && clock <= c->last) {
+    ++counts_.late;
+    return false;
+  }
   const double dt = toSeconds(clock - c->last);
   if (!heard(*c, clock)) {
     c->from = c->ever ? poseAt(*c, clock).value_or(c->X_RT) : Pose();
@@ -122,7 +127,8 @@ bool TrackerFeed::pose(std::string_view name, Nanoseconds clock, const Pose& X_S
   }
   c->X_SD = {X_SD.p, X_SD.q.normalized()};
   c->X_RT = c->filter.pass(rig_.inRig(c->X_SD, *c->tracker), c->ever ? dt : 0);
-  c->last = clock, c->ever = true;
+  c->last = clock;
+  c->ever = true;
   ++counts_.taken;
   return true;
 }
@@ -134,7 +140,8 @@ void TrackerFeed::freeze(std::string_view name, Nanoseconds clock, bool frozen) 
       c.frozen = poseAt(c, clock);
       continue;
     }
-    c.from = *c.frozen, c.found = clock;
+    c.from = *c.frozen;
+    c.found = clock;
     c.frozen.reset();
   }
 }
@@ -153,7 +160,11 @@ std::optional<HeadNow> TrackerFeed::soon(std::string_view name, Nanoseconds cloc
 
 void TrackerFeed::change(Channel& c, Nanoseconds clock, bool changes) {
   ++counts_.taken;
-  if (!controlled(c, clock)) c.controlled = true, c.beat = 0, c.lastControl = c.lastChange = clock;
+  if (!controlled(c, clock)) {
+    c.controlled = true;
+    c.beat = 0;
+    c.lastControl = c.lastChange = clock;
+  }
   const double gap = std::max(0.0, toSeconds(clock - c.lastControl));
   if (changes)
     c.lastChange = clock;
@@ -240,7 +251,8 @@ void TrackerFeed::addChanges(std::span<const Change> changes, const InputStamp& 
       s.X_RT = det::interpolate(first.X_RT, now.X_RT, way);
       s.X_RT.q.normalize();
     }
-    s.buttons = change.buttons, s.axes = change.axes;
+    s.buttons = change.buttons;
+    s.axes = change.axes;
     track.stamps.push_back(s);
   }
 }
@@ -251,7 +263,11 @@ void TrackerFeed::addStamps(Channel& c, InputTrack& track, Nanoseconds clock, Na
   changes.swap(c.changes);
   const bool controls = controlled(c, clock);
   const bool forgotten = controls && toSeconds(clock - c.lastControl) > kKeptWithoutNews;
-  if (!there(c, clock) || forgotten) c.buttons = 0, c.axes = {}, changes.clear();
+  if (!there(c, clock) || forgotten) {
+    c.buttons = 0;
+    c.axes = {};
+    changes.clear();
+  }
   const auto X = poseAt(c, clock);
   const bool wasValid = track.stamps.back().valid, wasThere = wasValid || track.stamps.back().controlsOnly;
   if (!X && !controls) {
@@ -259,7 +275,10 @@ void TrackerFeed::addStamps(Channel& c, InputTrack& track, Nanoseconds clock, Na
     return;
   }
   InputStamp now = X ? InputStamp() : lostAt(end, track);
-  now.time = end, now.buttons = c.buttons, now.axes = c.axes, now.controlsOnly = !X;
+  now.time = end;
+  now.buttons = c.buttons;
+  now.axes = c.axes;
+  now.controlsOnly = !X;
   if (X) now.X_RT = *X;
   if (end <= track.stamps.back().time) {  // frame 0
     track.stamps.back() = now;
@@ -292,10 +311,15 @@ void TrackerFeed::sampleNow(Nanoseconds clock, InputSample& sample) const {
     const Channel& c = channels_[i];
     TrackerSample& t = sample.trackers[i] = {};
     const auto X = poseAt(c, clock);
-    t.name = c.tracker->name, t.valid = X.has_value(), t.measured = measuredBy(c, clock);
+    t.name = c.tracker->name;
+    t.valid = X.has_value();
+    t.measured = measuredBy(c, clock);
     if (X) t.X_RT = *X;
     t.controlsOnly = !X && controlled(c, clock);
-    if (there(c, clock)) t.buttons = c.buttons, t.axes = c.axes;
+    if (there(c, clock)) {
+      t.buttons = c.buttons;
+      t.axes = c.axes;
+    }
   }
 }
 
@@ -304,10 +328,15 @@ std::vector<TrackerFeed::Status> TrackerFeed::status(Nanoseconds clock) const {
   for (const Channel& c : channels_) {
     Status s;
     const bool ever = c.ever || c.controlled;
-    s.name = c.tracker->name, s.heard = there(c, clock), s.posed = c.ever;
+    s.name = c.tracker->name;
+    s.heard = there(c, clock);
+    s.posed = c.ever;
     s.age = ever ? toSeconds(clock - (c.ever ? c.last : c.lastControl)) : 0;
     s.rate = s.heard && c.period > 0 ? 1 / c.period : 0;
-    s.X_SD = c.X_SD, s.X_RT = c.X_RT, s.buttons = c.buttons, s.axes = c.axes;
+    s.X_SD = c.X_SD;
+    s.X_RT = c.X_RT;
+    s.buttons = c.buttons;
+    s.axes = c.axes;
     all.push_back(std::move(s));
   }
   return all;

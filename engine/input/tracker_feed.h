@@ -125,7 +125,10 @@ private:
   };
 
   Channel* channel(std::string_view name);
-  bool refuse() { return ++counts_.refused, false; }
+  bool refuse() {
+    ++counts_.refused;
+    return false;
+  }
   bool heard(const Channel& c, Nanoseconds clock) const;
   /// Returns true if it is there without a pose.
   bool controlled(const Channel& c, Nanoseconds clock) const;

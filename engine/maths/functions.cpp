@@ -177,11 +177,17 @@ struct Binary {
 /// Expects x > 0, finite.
 Binary decompose(double x) {
   int k = 0;
-  if (x < 0x1p-1022) x *= 0x1p54, k = -54;
+  if (x < 0x1p-1022) {
+    x *= 0x1p54;
+    k = -54;
+  }
   const auto bits = std::bit_cast<std::uint64_t>(x);
   k += static_cast<int>(bits >> 52) - 1023;
   double m = std::bit_cast<double>((bits & 0x000fffffffffffffULL) | 0x3ff0000000000000ULL);
-  if (m >= 0x1.6a09e667f3bcdp+0) m *= 0.5, ++k;
+  if (m >= 0x1.6a09e667f3bcdp+0) {
+    m *= 0.5;
+    ++k;
+  }
   return {m, k};
 }
 
@@ -307,7 +313,10 @@ double atan2(double y, double x) {
   } else {
     // Keep products of the two inside the range of normal numbers.
     const int e = exponentOf(std::max(ax, ay));
-    if (e > 400 || e < -400) ay = scale(ay, -e), ax = scale(ax, -e);
+    if (e > 400 || e < -400) {
+      ay = scale(ay, -e);
+      ax = scale(ax, -e);
+    }
     const bool steep = ay > ax;
     const Sum a = steep ? atanRatio(ax, ay) : atanRatio(ay, ax);
     // The angle from the nearest axis is a; from there to the positive x axis:
@@ -392,7 +401,10 @@ double cbrt(double x) {
   if (!(std::fabs(x) <= std::numeric_limits<double>::max()) || x == 0) return x;
   double a = std::fabs(x);
   int k = 0;
-  if (a < 0x1p-1022) a *= 0x1p54, k = -18;
+  if (a < 0x1p-1022) {
+    a *= 0x1p54;
+    k = -18;
+  }
   const int e = exponentOf(a), third = (e >= 0 ? e : e - 2) / 3;  // rounded down
   a = scale(a, -3 * third);                                       // in [1, 8)
   double r = 0.75 + 0.19 * a;

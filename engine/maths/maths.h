@@ -55,8 +55,14 @@ struct Aabb {
   Vec3 lo = Vec3::Constant(1e300);
   Vec3 hi = Vec3::Constant(-1e300);
 
-  void include(const Vec3& p) { lo = lo.cwiseMin(p), hi = hi.cwiseMax(p); }
-  void include(const Aabb& b) { lo = lo.cwiseMin(b.lo), hi = hi.cwiseMax(b.hi); }
+  void include(const Vec3& p) {
+    lo = lo.cwiseMin(p);
+    hi = hi.cwiseMax(p);
+  }
+  void include(const Aabb& b) {
+    lo = lo.cwiseMin(b.lo);
+    hi = hi.cwiseMax(b.hi);
+  }
   bool empty() const { return lo.x() > hi.x(); }
   Vec3 centre() const { return 0.5 * (lo + hi); }
   bool overlaps(const Aabb& b) const {

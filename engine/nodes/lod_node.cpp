@@ -29,7 +29,8 @@ void LodNode::simulate(FrameContext& frame) {
 }
 
 void LodNode::choose(Scene& scene, std::size_t level) {
-  level_ = level, chosen_ = true;
+  level_ = level;
+  chosen_ = true;
   for (std::size_t i = 0; i < children_.size(); ++i)
     if (const auto* child = dynamic_cast<const PlacedNode*>(scene.find(children_[i])))
       scene.placements().setShown(child->placement(), i == level, Hider::Level);

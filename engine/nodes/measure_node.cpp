@@ -167,8 +167,10 @@ std::unique_ptr<Node> makeMeasure(const NodeRequest& r) {
     return reference ? std::string(reference->name) : std::string();
   };
   ThrowMeasureAttributes a;
-  a.body = named("body"), a.ground = named("ground");
-  a.text = named("text"), a.against = named("against");
+  a.body = named("body");
+  a.ground = named("ground");
+  a.text = named("text");
+  a.against = named("against");
   a.label = std::string(d.text("label"));
   a.from = d.choice<MeasureFrom>("from");
   a.duration = fromSeconds(d.number("duration"));

@@ -28,7 +28,8 @@ Vec3 meanTurned(double angle, const Vec3& v) {
          across = angle / 2 * (1 - squared / 12 * (1 - squared / 30));
   if (std::fabs(angle) > 1e-2) {
     const det::SinCos t = det::sincos(0.5 * angle);
-    along = 2 * t.sin * t.cos / angle, across = 2 * t.sin * t.sin / angle;
+    along = 2 * t.sin * t.cos / angle;
+    across = 2 * t.sin * t.sin / angle;
   }
   return {along * v.x() - across * v.y(), across * v.x() + along * v.y(), v.z()};
 }

@@ -31,7 +31,8 @@ void SoundNode::onLeave(Scene& scene) {
 }
 
 void SoundNode::startAt(Nanoseconds when, Scene& scene) {
-  since_ = when, due_ = when + attributes_.length;
+  since_ = when;
+  due_ = when + attributes_.length;
   scene.schedule().wakeAt(due_, self());
   publish(scene);
 }

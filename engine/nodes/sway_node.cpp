@@ -46,7 +46,9 @@ bool SwayNode::resume(Scene& scene) {
 void SwayNode::findTargets(Scene& scene) {
   if (sway_.targets.empty()) sway_.targets.push_back(self());
   const std::size_t count = sway_.targets.size();
-  nodes_.resize(count), placements_.resize(count, kNoPlacement), swings_.resize(count);
+  nodes_.resize(count);
+  placements_.resize(count, kNoPlacement);
+  swings_.resize(count);
   axes_.resize(count, Mat3::Identity());
   for (std::size_t k = 0; k < count; ++k) prepareTarget(k, scene);
   const auto standsUpright = [&](const Swing& s) {
@@ -66,7 +68,9 @@ void SwayNode::prepareTarget(std::size_t k, Scene& scene) {
     axes_[k] = placed->attributes().X_PN.linear();
     swings_[k].place = placed->attributes().X_PN.translation();
   }
-  swings_[k].along = axes_[k](0, 0), swings_[k].across = axes_[k](1, 0), swings_[k].up = axes_[k](2, 2);
+  swings_[k].along = axes_[k](0, 0);
+  swings_[k].across = axes_[k](1, 0);
+  swings_[k].up = axes_[k](2, 2);
   Affine X_PN = Affine::Identity();
   X_PN.linear() = axes_[k];
   swings_[k].widens = sphereScale(X_PN);
@@ -77,7 +81,8 @@ void SwayNode::preparePhases() {
     Angles a;
     for (int i = 0; i < 3; ++i) {
       const det::SinCos at = det::sincos(angle[i]);
-      a.sin[i] = at.sin, a.cos[i] = at.cos;
+      a.sin[i] = at.sin;
+      a.cos[i] = at.cos;
     }
     return a;
   };
@@ -94,7 +99,8 @@ SwayNode::Moment SwayNode::momentAt(Nanoseconds elapsed) const {
   Moment m;
   for (int i = 0; i < 3; ++i) {
     const det::SinCos angle = det::sincos(kTurn * sway_.frequency[i] * t);
-    m.first.sin[i] = angle.sin, m.first.cos[i] = angle.cos;
+    m.first.sin[i] = angle.sin;
+    m.first.cos[i] = angle.cos;
   }
   m.turn = det::expRotation(sway_.angularVelocity * t).toRotationMatrix();
   return m;
@@ -124,15 +130,23 @@ inline void SwayNode::put(std::size_t k, const Mat3& turn, const Angles& block, 
   if (axes_.empty()) {
     const double c = turn(0, 0), s = turn(1, 0);
     const double along = c * swing.along - s * swing.across, across = s * swing.along + c * swing.across;
-    m[0] = along, m[1] = -across, m[2] = 0;
-    m[4] = across, m[5] = along, m[6] = 0;
-    m[8] = 0, m[9] = 0, m[10] = swing.up;
+    m[0] = along;
+    m[1] = -across;
+    m[2] = 0;
+    m[4] = across;
+    m[5] = along;
+    m[6] = 0;
+    m[8] = 0;
+    m[9] = 0;
+    m[10] = swing.up;
   } else {
     const Mat3 axes = turn * axes_[k];
     for (int i = 0; i < 9; ++i) m[static_cast<std::size_t>(4 * (i / 3) + i % 3)] = axes(i / 3, i % 3);
   }
   const Vec3 at = swing.place + (block.sin.cwiseProduct(step.cos) + block.cos.cwiseProduct(step.sin));
-  m[3] = at.x(), m[7] = at.y(), m[11] = at.z();
+  m[3] = at.x();
+  m[7] = at.y();
+  m[11] = at.z();
   place.widens = swing.widens;
 }
 
@@ -268,8 +282,10 @@ std::unique_ptr<Node> makeSway(const NodeRequest& r) {
   SwayAttributes a;
   for (const NodeReference& target : d.references("target"))
     if (const NodeRef node = r.resolve(target); node.valid()) a.targets.push_back(node);
-  a.amplitude = d.vec3("amplitude"), a.frequency = d.vec3("frequency");
-  a.phase = d.vec3("phase") * kDegree, a.phaseStep = d.vec3("phasestep") * kDegree;
+  a.amplitude = d.vec3("amplitude");
+  a.frequency = d.vec3("frequency");
+  a.phase = d.vec3("phase") * kDegree;
+  a.phaseStep = d.vec3("phasestep") * kDegree;
   a.angularVelocity = d.vec3("angularvelocity") * kDegree;
   return std::make_unique<SwayNode>(r.self, r.name, r.place, std::move(a), d.flag("initstate"));
 }

@@ -130,7 +130,9 @@ void TriggerNode::followVisitor(FrameContext& frame, Nanoseconds until) {
       // What was held down before was not pressed here; at the very start it was.
       if (t && frame.now.step > 0) buttons_ = heldBefore(*t, time, frame);
     }
-    looked_ = true, seen_ = time, p_RV_ = p_RV;
+    looked_ = true;
+    seen_ = time;
+    p_RV_ = p_RV;
     if (t) watchButtons(*t, time, time == frame.now.time);
   }
   if (until == frame.now.time) X_NR_ = X_NR;
@@ -165,7 +167,10 @@ void TriggerNode::receive(const Message& m, FrameContext& frame) {
   const Nanoseconds at = frame.effective(m);
   const bool before = switch_.on();
   if (before) followVisitor(frame, at);  // what has happened up to the command still counts
-  if (switch_.apply(m) && (!before || m.command == CommandId::Reset)) inside_ = looked_ = false, seen_ = at;
+  if (switch_.apply(m) && (!before || m.command == CommandId::Reset)) {
+    inside_ = looked_ = false;
+    seen_ = at;
+  }
   if (!switch_.on() || !looked_) pressed_ = 0;
 }
 
@@ -184,7 +189,10 @@ void TriggerNode::watchButtons(const TrackerSample& t, Nanoseconds time, bool at
   raiseReleases(now, time);
   constexpr Event press[] = {Event("button1"), Event("button2"), Event("button3"), Event("button4")};
   for (std::uint32_t b = 0; b < 4; ++b)
-    if (inside_ && (now & ~buttons_ & (1U << b))) raise(press[b], time), pressed_ |= 1U << b;
+    if (inside_ && (now & ~buttons_ & (1U << b))) {
+      raise(press[b], time);
+      pressed_ |= 1U << b;
+    }
   buttons_ = now;
 }
 
@@ -226,9 +234,11 @@ std::unique_ptr<Node> makeTrigger(const NodeRequest& r) {
   Region region;
   if (const auto box = d.box("box")) {
     region.form = Region::Form::Box;
-    region.centre = box->centre, region.halfSize = 0.5 * box->edges;
+    region.centre = box->centre;
+    region.halfSize = 0.5 * box->edges;
   } else if (const auto sphere = d.sphere("sphere")) {
-    region.centre = sphere->centre, region.radius = sphere->radius;
+    region.centre = sphere->centre;
+    region.radius = sphere->radius;
   }
   const bool wand = d.kind() == "wandtrigger";
   return std::make_unique<TriggerNode>(r.type(), r.self, r.name, r.place, region,

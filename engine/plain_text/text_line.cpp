@@ -41,7 +41,8 @@ void splitWords(std::string_view line, std::vector<Word>& words) {
   std::uint32_t column = 1;
   for (std::size_t i = 0; i < line.size() && line[i] != '#';) {
     if (isBlank(line[i])) {
-      ++i, ++column;
+      ++i;
+      ++column;
       continue;
     }
     const std::size_t begin = i;

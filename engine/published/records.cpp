@@ -36,12 +36,21 @@ InstanceRecord makeInstance(const Affine& X_WN, const Mesh& mesh, MeshId id, boo
 }
 
 void ViewerRecord::set(const Pose& X_WR, const Pose& X_RH) {
-  for (int i = 0; i < 3; ++i) rigPosition[i] = X_WR.p[i], headPosition[i] = X_RH.p[i];
-  for (int i = 0; i < 4; ++i) rigOrientation[i] = X_WR.q.coeffs()[i], headOrientation[i] = X_RH.q.coeffs()[i];
+  for (int i = 0; i < 3; ++i) {
+    rigPosition[i] = X_WR.p[i];
+    headPosition[i] = X_RH.p[i];
+  }
+  for (int i = 0; i < 4; ++i) {
+    rigOrientation[i] = X_WR.q.coeffs()[i];
+    headOrientation[i] = X_RH.q.coeffs()[i];
+  }
 }
 
 void ChangeSet::clear() {
-  instances.clear(), chunks.clear(), statics.clear(), lights.clear();
+  instances.clear();
+  chunks.clear();
+  statics.clear();
+  lights.clear();
   lightsChanged = false;
 }
 

@@ -62,7 +62,10 @@ void Degradation::spread() {
   for (const auto& [ref, level] : levels_) {
     const NodeDegradation own = degradationAt(termsOf(ref)->gives, level);
     // A static object cannot be hidden or changed in its chunk.
-    if (own.hidden || own.lod != 1) tree_.find(ref), tree_.promoteBelow(ref);
+    if (own.hidden || own.lod != 1) {
+      tree_.find(ref);
+      tree_.promoteBelow(ref);
+    }
   }
   for (const auto& [number, l] : tree_.loads())
     for (std::uint32_t i = 0; !levels_.empty() && i < l->nodes.size(); ++i) {
@@ -84,7 +87,10 @@ void Degradation::degrade(NodeRef ref, const NodeDegradation& before, const Node
   const LoadedScene* l = std::as_const(tree_).load(ref.load);
   Node* node = l ? l->nodes[ref.position].get() : nullptr;
   if (!node) return;
-  if (hasPace(*node)) node->scheduleState().rests = now.rests, node->scheduleState().pace = now.pace;
+  if (hasPace(*node)) {
+    node->scheduleState().rests = now.rests;
+    node->scheduleState().pace = now.pace;
+  }
   const PlacedNode* placed = node->placed();
   if (!placed || placed->placement() == kNoPlacement) return;
   if (before.hidden != now.hidden) placements_.setShown(placed->placement(), !now.hidden, Hider::Degradation);
@@ -128,8 +134,15 @@ void Degradation::forget(std::uint32_t load) {
 }
 
 void Degradation::hash(StateHash& h) const {
-  for (const auto& [ref, level] : levels_) h.add(ref), h.add(level);
-  for (const auto& [ref, paced] : paced_) h.add(ref), h.add(paced.since), h.add(paced.rests);
+  for (const auto& [ref, level] : levels_) {
+    h.add(ref);
+    h.add(level);
+  }
+  for (const auto& [ref, paced] : paced_) {
+    h.add(ref);
+    h.add(paced.since);
+    h.add(paced.rests);
+  }
 }
 
 void Degradation::state(StateFields& f) {

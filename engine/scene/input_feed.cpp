@@ -46,11 +46,13 @@ const PoseTrack* InputFeed::poseTrackOf(const std::string& tracker, const FrameC
 void InputFeed::toWorld(PoseTrack& track, Nanoseconds start, Nanoseconds end) {
   const Pose X_WR = rigPose();
   PoseTrack &rig = rigTrack_, &ridden = ridden_;
-  rig.clear(), ridden.clear();
+  rig.clear();
+  ridden.clear();
   if (!rigs_.empty()) {
     rig = poseTracks_.within(rigs_.back().placement, rigStart_, start, end, placements_);
   } else if (X_WR.p != rigStart_.p || X_WR.q.coeffs() != rigStart_.q.coeffs()) {
-    rig.push_back({start, rigStart_, false}), rig.push_back({end, X_WR, false});
+    rig.push_back({start, rigStart_, false});
+    rig.push_back({end, X_WR, false});
   }
   if (rig.empty()) {
     for (PoseKnot& k : track) k.X = X_WR * k.X;

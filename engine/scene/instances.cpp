@@ -19,7 +19,10 @@ InstanceId Instances::add(PlacementId placement, MeshId mesh, bool drawn, NodeRe
     free_.pop_back();
   }
   Instance& i = all_[id];
-  i.placement = placement, i.owner = owner, i.drawn = drawn, i.live = true;
+  i.placement = placement;
+  i.owner = owner;
+  i.drawn = drawn;
+  i.live = true;
   if (first_.size() <= placement) first_.resize(placement + std::size_t{1}, kNone);
   i.next = std::exchange(first_[placement], id);
   setMesh(id, mesh);
@@ -72,7 +75,8 @@ void Instances::markAt(PlacementId placement) {
 /// Writes all of a record but the place.
 inline void Instances::describe(const Instance& i, bool shown, const Degradation& degradation,
                                 InstanceRecord& r) {
-  r.mesh = i.mesh, r.owner = i.owner;
+  r.mesh = i.mesh;
+  r.owner = i.owner;
   r.flags =
       (i.drawn && shown ? InstanceRecord::kShown : 0) | (i.transparent ? InstanceRecord::kTransparent : 0);
   r.lodFactor = i.leveled ? static_cast<float>(degradation.of(i.owner).lod) : 0;

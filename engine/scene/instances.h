@@ -87,7 +87,10 @@ private:
       bool drawn = i.drawn, live = i.live;
       f("placement", i.placement), f("mesh", i.mesh), f("owner", i.owner), f("next", i.next);
       f("drawn", drawn), f("live", live);
-      if (f.restores()) i.drawn = drawn, i.live = live;
+      if (f.restores()) {
+        i.drawn = drawn;
+        i.live = live;
+      }
     }
   };
 

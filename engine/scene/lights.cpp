@@ -14,7 +14,10 @@ LightRecord afternoonSun() {
   LightRecord sun;
   const Vec3 direction = Vec3(-0.45, 0.35, -0.8).normalized();
   const float colour[3] = {1.0f, 0.96f, 0.88f};
-  for (int i = 0; i < 3; ++i) sun.direction[i] = direction[i], sun.colour[i] = colour[i];
+  for (int i = 0; i < 3; ++i) {
+    sun.direction[i] = direction[i];
+    sun.colour[i] = colour[i];
+  }
   sun.range = 1;
   return sun;
 }
@@ -89,7 +92,10 @@ LightRecord Lights::inWorld(const Light& light) const {
   const Affine& X_WN = placements_.world(light.placement);
   const Vec3 p = X_WN * Vec3(r.position[0], r.position[1], r.position[2]);
   const Vec3 d = (X_WN.linear() * Vec3(r.direction[0], r.direction[1], r.direction[2])).stableNormalized();
-  for (int k = 0; k < 3; ++k) r.position[k] = p[k], r.direction[k] = d[k];
+  for (int k = 0; k < 3; ++k) {
+    r.position[k] = p[k];
+    r.direction[k] = d[k];
+  }
   return r;
 }
 

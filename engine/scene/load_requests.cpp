@@ -47,7 +47,11 @@ void LoadRequests::drop(std::uint32_t number) {
 }
 
 void LoadRequests::hash(StateHash& h) const {
-  for (const Change& c : pending_) h.add(c.at), h.add(c.number), h.add(c.load);
+  for (const Change& c : pending_) {
+    h.add(c.at);
+    h.add(c.number);
+    h.add(c.load);
+  }
 }
 
 void LoadRequests::state(StateFields& f) {

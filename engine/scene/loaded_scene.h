@@ -83,7 +83,8 @@ public:
   /// take() waits for late loads. If not (live shows and their replays), the scene asks again in the next
   /// frame.
   virtual bool takesEffect(std::uint32_t number, Nanoseconds now) {
-    static_cast<void>(number), static_cast<void>(now);
+    static_cast<void>(number);
+    static_cast<void>(now);
     return true;
   }
   /// Returns the load and waits until it is ready; null if it could not be loaded and the reason was

@@ -79,7 +79,10 @@ public:
   }
 
   void hash(StateHash& h) const {
-    for (const Alarm& a : alarms_) h.add(a.at), h.add(a.node);
+    for (const Alarm& a : alarms_) {
+      h.add(a.at);
+      h.add(a.node);
+    }
   }
   void stateOfAlarms(StateFields& f);
   void stateOfWatchers(StateFields& f);

@@ -145,7 +145,10 @@ const Affine& Placements::world(PlacementId id) const {
     if (e.heldParts == HeldParts::All) return &X_WH_[at];
     return standsInWorld(e) ? &X_PN_[at] : nullptr;
   };
-  if (const Affine* X_WN = given(id)) return updateLocal(id), *X_WN;
+  if (const Affine* X_WN = given(id)) {
+    updateLocal(id);
+    return *X_WN;
+  }
   if (!entries_[id].stale) return X_WN_[id];
   chain_.clear();
   for (PlacementId at = id; entries_[at].stale && !given(at); at = entries_[at].parent) chain_.push_back(at);
@@ -203,7 +206,9 @@ void Placements::join(PlacementId id, FleetId fleet, std::uint32_t member) {
     return;
   }
   fleets_[fleet].members[member] = id;
-  e.fleet = fleet, e.member = member, e.move = 0;
+  e.fleet = fleet;
+  e.member = member;
+  e.move = 0;
 }
 
 void Placements::removeFleet(FleetId id) {
@@ -302,7 +307,10 @@ void Placements::state(StateFields& f) {
   }
   for (PlacementId id = 0; id < entries_.size(); ++id) {
     Entry& e = entries_[id];
-    if (f.restores()) e.stale = id != kWorldPlacement, e.changed = false;
+    if (f.restores()) {
+      e.stale = id != kWorldPlacement;
+      e.changed = false;
+    }
     if (!e.live) continue;
     f("local", X_PN_[id]);
     if (e.heldParts != HeldParts::Nothing) f("held at", X_WH_[id]);
@@ -316,7 +324,8 @@ void Placements::state(StateFields& f) {
   const auto isThere = [&](PlacementId id) { return id < entries_.size() && entries_[id].live; };
   const auto isFree = [&](PlacementId id) { return id < entries_.size() && !entries_[id].live; };
   const auto twice = [](auto list) {
-    return std::ranges::sort(list), std::ranges::adjacent_find(list) != list.end();
+    std::ranges::sort(list);
+    return std::ranges::adjacent_find(list) != list.end();
   };
   if (!std::ranges::all_of(free_, isFree) || twice(free_)) f.fail();
   if (std::ranges::any_of(movedWatched_, [&](PlacementId id) { return id >= entries_.size(); })) f.fail();

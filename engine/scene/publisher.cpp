@@ -12,7 +12,10 @@ void Publisher::showChunk(LoadedScene& load) {
 }
 
 void Publisher::hideChunk(const LoadedScene& load) {
-  if (load.chunkShown) chunks_.push_back({load.chunk, false}), --chunksShown_;
+  if (load.chunkShown) {
+    chunks_.push_back({load.chunk, false});
+    --chunksShown_;
+  }
   std::erase_if(statics_, [&](const ChangeSet::StaticItem& s) { return s.chunk == load.chunk; });
 }
 

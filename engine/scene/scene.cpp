@@ -229,8 +229,10 @@ void Scene::warn(const Node& about, const std::string& what) {
   const LoadedScene* from = std::as_const(tree_).load(about.self().load);
   SourcePosition where;
   if (from) where.file = from->file;
-  if (from && about.self().position < from->lines.size())
-    where.line = from->lines[about.self().position], where.column = 1;
+  if (from && about.self().position < from->lines.size()) {
+    where.line = from->lines[about.self().position];
+    where.column = 1;
+  }
   const std::string name = about.name().empty() ? std::string(about.type().name) : "\"" + about.name() + "\"";
   loader_.report({Severity::Warning, where, name + " " + what, {}});
 }
@@ -350,9 +352,13 @@ std::uint64_t Scene::stateHash() const {
   std::uint64_t pending = 0;
   for (const Message& m : messages_.pending()) {
     StateHash one(m.sequence);
-    one.add(m.due), one.add(m.sender), one.add(m.target), one.add(static_cast<std::uint32_t>(m.command));
+    one.add(m.due);
+    one.add(m.sender);
+    one.add(m.target);
+    one.add(static_cast<std::uint32_t>(m.command));
     for (const std::string& a : m.arguments) one.add(std::string_view(a));
-    one.add(std::string_view(m.targetInside)), one.add(std::string_view(m.nodeInside));
+    one.add(std::string_view(m.targetInside));
+    one.add(std::string_view(m.nodeInside));
     pending += one.value();
   }
   h.add(pending);

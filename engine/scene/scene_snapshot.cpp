@@ -47,7 +47,8 @@ std::uint64_t SceneSnapshot::digest() {
 std::uint64_t SceneSnapshot::filesOf(const Scene& scene) {
   StateHash hash;
   for (const auto& [number, l] : scene.tree_.loads()) {
-    hash.add(number), hash.add(l->script);
+    hash.add(number);
+    hash.add(l->script);
     for (const MeshId mesh : l->meshes) hash.add(mesh);
   }
   return hash.value();

@@ -99,7 +99,10 @@ std::size_t strayComma(std::string_view list) {
   bool word = false;  // since the last comma
   for (std::size_t i = 0; i < list.size(); ++i) {
     if (list[i] == ',' && !word) return i;
-    if (list[i] == ',') last = i, word = false;
+    if (list[i] == ',') {
+      last = i;
+      word = false;
+    }
     word = word || std::string_view(", \t\r\n").find(list[i]) == std::string_view::npos;
   }
   return word ? list.npos : last;
@@ -113,7 +116,8 @@ Checker::Checker(Document& document, FindingCollector& report)
     const auto at = std::ranges::find(kCommonRows, name, &AttributeSpec::name);
     return static_cast<std::size_t>(at - std::begin(kCommonRows));
   };
-  priority_ = positionOf("priority"), onOverrun_ = positionOf("onoverrun");
+  priority_ = positionOf("priority");
+  onOverrun_ = positionOf("onoverrun");
 }
 
 void Checker::take(const RawDeclaration& raw) {

@@ -71,7 +71,10 @@ Piece takeUntil(char separator, std::string_view& rest, std::size_t& offset) {
   const std::size_t end = std::min(rest.find(separator), rest.size());
   std::string_view part = rest.substr(0, end);
   std::size_t start = offset;
-  while (!part.empty() && blank(part.front())) part.remove_prefix(1), ++start;
+  while (!part.empty() && blank(part.front())) {
+    part.remove_prefix(1);
+    ++start;
+  }
   while (!part.empty() && blank(part.back())) part.remove_suffix(1);
   const std::size_t taken = std::min(end + 1, rest.size());
   rest.remove_prefix(taken);
@@ -80,7 +83,10 @@ Piece takeUntil(char separator, std::string_view& rest, std::size_t& offset) {
 }
 
 Piece takeWord(std::string_view& rest, std::size_t& offset) {
-  while (!rest.empty() && blank(rest.front())) rest.remove_prefix(1), ++offset;
+  while (!rest.empty() && blank(rest.front())) {
+    rest.remove_prefix(1);
+    ++offset;
+  }
   const std::size_t end = std::min(rest.find_first_of(kBlanks), rest.size());
   const Piece piece{rest.substr(0, end), offset};
   rest.remove_prefix(end);

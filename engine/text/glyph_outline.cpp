@@ -78,11 +78,20 @@ public:
       const char command = rest_.front();
       rest_.remove_prefix(1);
       switch (command) {
-      case 'M': end(), line_.add(point(), false); break;
+      case 'M':
+        end();
+        line_.add(point(), false);
+        break;
       case 'L': line_.add(point(), false); break;
       case 'A': arc(); break;
-      case 'Z': line_.closed = true, end(); break;
-      case 'D': end(), dot(point()); break;
+      case 'Z':
+        line_.closed = true;
+        end();
+        break;
+      case 'D':
+        end();
+        dot(point());
+        break;
       default: end(); break;  // ;
       }
     }

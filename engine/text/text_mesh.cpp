@@ -105,7 +105,8 @@ Laid layText(std::string_view utf8, TextAlign align) {
     const double width = layLine(line, y, laid.bands);
     const double shift = align == TextAlign::Left ? 0 : align == TextAlign::Centre ? -width / 2 : -width;
     for (std::size_t i = first; i < laid.bands.size(); ++i) laid.bands[i].x += shift;
-    laid.left = std::min(laid.left, shift), laid.right = std::max(laid.right, shift + width);
+    laid.left = std::min(laid.left, shift);
+    laid.right = std::max(laid.right, shift + width);
     laid.bottom = y;
     y -= kLineHeight;
     line.clear();
@@ -169,7 +170,10 @@ std::unique_ptr<Mesh> textMesh(std::string_view utf8, const TextStyle& style) {
   for (const PlacedBand& b : laid.bands) writeFront(b, 0, true, out);
   out.endPart(painted(style.colour, style.lit));
   if (style.depth > 0) {
-    for (const PlacedBand& b : laid.bands) writeSides(b, depth, out), writeFront(b, depth, false, out);
+    for (const PlacedBand& b : laid.bands) {
+      writeSides(b, depth, out);
+      writeFront(b, depth, false, out);
+    }
     out.endPart(painted(style.colour, style.lit, kShade));
   }
   if (style.background) {

@@ -103,9 +103,19 @@ char32_t firstCharacter(std::string_view text, std::size_t& bytes) {
 void append(std::string& text, char32_t c) {
   const auto put = [&](char32_t byte) { text += static_cast<char>(static_cast<unsigned char>(byte)); };
   if (c < 0x80) return put(c);
-  if (c < 0x800) return put(0xC0 | c >> 6), put(0x80 | (c & 0x3F));
-  if (c < 0x10000) return put(0xE0 | c >> 12), put(0x80 | (c >> 6 & 0x3F)), put(0x80 | (c & 0x3F));
-  put(0xF0 | c >> 18), put(0x80 | (c >> 12 & 0x3F)), put(0x80 | (c >> 6 & 0x3F)), put(0x80 | (c & 0x3F));
+  if (c < 0x800) {
+    put(0xC0 | c >> 6);
+    return put(0x80 | (c & 0x3F));
+  }
+  if (c < 0x10000) {
+    put(0xE0 | c >> 12);
+    put(0x80 | (c >> 6 & 0x3F));
+    return put(0x80 | (c & 0x3F));
+  }
+  put(0xF0 | c >> 18);
+  put(0x80 | (c >> 12 & 0x3F));
+  put(0x80 | (c >> 6 & 0x3F));
+  put(0x80 | (c & 0x3F));
 }
 
 bool isHidden(char32_t code) {

@@ -56,7 +56,10 @@ public:
   virtual void receive(const Difference&) {}
   virtual void receive(const StatePart&) {}
   /// The node's incarnation was silent for the deadline, or it said good-bye.
-  virtual void left(std::uint8_t node, std::uint64_t incarnation) { (void)node, (void)incarnation; }
+  virtual void left(std::uint8_t node, std::uint64_t incarnation) {
+    (void)node;
+    (void)incarnation;
+  }
 };
 
 class Bus {

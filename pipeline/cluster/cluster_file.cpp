@@ -26,7 +26,8 @@ bool canBeInterface(std::string_view text) {
 class ClusterParser {
 public:
   ClusterParser(std::string_view text, const std::string& file, Diagnostics& out) : in_(text, file, out) {
-    cluster_.file = file, cluster_.wallsAt.where.file = file;
+    cluster_.file = file;
+    cluster_.wallsAt.where.file = file;
   }
 
   std::optional<ClusterFile> run() {
@@ -57,7 +58,8 @@ private:
                                              quotedWord(wall.text), other.name));
       if (std::ranges::find(node.walls, wall.text) != node.walls.end())
         return in_.error(wall, quotedWord(wall.text) + " is named twice");
-      node.walls.emplace_back(wall.text), node.wallColumns.push_back(wall.column);
+      node.walls.emplace_back(wall.text);
+      node.wallColumns.push_back(wall.column);
     }
     cluster_.nodes.push_back(std::move(node));
   }
@@ -79,7 +81,10 @@ private:
   }
   void lead() {
     const Word* word = only("the name of a node");
-    if (word) lead_ = word->text, leadAt_ = in_.place(*word);
+    if (word) {
+      lead_ = word->text;
+      leadAt_ = in_.place(*word);
+    }
   }
   void interface() {
     const Word* word = only("a network interface or its address");
@@ -89,7 +94,8 @@ private:
                        fmt::format("{} is no network interface: use its IPv4 address or its name, up to {} "
                                    "letters, digits, '-', '_', '.', ':' and '@'",
                                    quotedWord(word->text), kMostInterface));
-    cluster_.interface = word->text, cluster_.interfaceAt = in_.place(*word);
+    cluster_.interface = word->text;
+    cluster_.interfaceAt = in_.place(*word);
   }
   void partition() {
     const auto name = in_.name("the partition's name", "a partition");
@@ -172,7 +178,10 @@ std::optional<WallFile> loadWallsOf(const ClusterFile& cluster, const std::strin
   auto walls = loadWalls(cluster.walls, folder, found);
   if (walls) return walls;
   for (Diagnostic d : found.all()) {
-    if (d.where.file.empty()) d.where = cluster.wallsAt.where, d.excerpt = cluster.wallsAt.excerpt;
+    if (d.where.file.empty()) {
+      d.where = cluster.wallsAt.where;
+      d.excerpt = cluster.wallsAt.excerpt;
+    }
     out.add(std::move(d));
   }
   return std::nullopt;

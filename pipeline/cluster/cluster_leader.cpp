@@ -53,7 +53,8 @@ private:
 
 ClusterLeader::ClusterLeader(LeaderOptions options, std::uint64_t session)
     : options_(std::move(options)), followers_(options_.cluster.nodes.size()), words_(followers_.size()) {
-  session_.number = std::max(session, options_.above + 1), session_.compatibility = written(options_.key),
+  session_.number = std::max(session, options_.above + 1);
+  session_.compatibility = written(options_.key);
   session_.giver = kNoNode;
 }
 
@@ -121,15 +122,18 @@ std::optional<ShowUnderWay> ClusterLeader::takeOver() {
   for (auto node = newestOf(untried); node && !double_; node = newestOf(untried)) {
     untried &= ~bit(*node);
     const Follower& f = followers_[*node];
-    session_.resumes = f.plays, session_.giver = static_cast<std::uint8_t>(*node);
+    session_.resumes = f.plays;
+    session_.giver = static_cast<std::uint8_t>(*node);
     bus_->send(session_);
     wait(Clock::now() + kGiving, [&] { return incoming_.complete() || f.plays == 0; });
     if (!incoming_.complete()) continue;
     SceneTransfer transfer = incoming_.take();
     if (!isTime(transfer.time)) continue;
     session_.giver = kNoNode;
-    pending_.signature.frame = transfer.frame, pending_.signature.time = transfer.time;
-    pending_.standsAfter = transfer.still, pending_.presentation = transfer.presentation;
+    pending_.signature.frame = transfer.frame;
+    pending_.signature.time = transfer.time;
+    pending_.standsAfter = transfer.still;
+    pending_.presentation = transfer.presentation;
     options_.tell(
         fmt::format("the show goes on after frame {}, with the scene of {}", transfer.frame, nameOf(*node)));
     return ShowUnderWay{pending_.signature,
@@ -138,7 +142,8 @@ std::optional<ShowUnderWay> ClusterLeader::takeOver() {
   }
   if (session_.resumes != 0 && !double_)
     options_.tell("the others play, but none sends its scene: the show restarts");
-  session_.resumes = 0, session_.giver = kNoNode;
+  session_.resumes = 0;
+  session_.giver = kNoNode;
   return {};
 }
 
@@ -223,7 +228,8 @@ void ClusterLeader::send(const InputSample* input) {
   bus_->send(
       written_.write({session_.number, serial_, members, std::exchange(explain_, 0)}, pending_, input));
   const std::uint64_t bytes = written_.bytes();
-  ++stats_.orders, stats_.orderBytes += bytes;
+  ++stats_.orders;
+  stats_.orderBytes += bytes;
   stats_.mostOrderBytes = std::max(stats_.mostOrderBytes, bytes);
 }
 
@@ -233,9 +239,12 @@ void ClusterLeader::answerRequests() {
   SceneTransfer transfer;
   {
     const std::lock_guard lock(mutex_);
-    transfer.session = session_.number, transfer.serial = serial_;
-    transfer.frame = pending_.signature.frame, transfer.time = pending_.signature.time;
-    transfer.still = pending_.standsAfter, transfer.presentation = pending_.presentation;
+    transfer.session = session_.number;
+    transfer.serial = serial_;
+    transfer.frame = pending_.signature.frame;
+    transfer.time = pending_.signature.time;
+    transfer.still = pending_.standsAfter;
+    transfer.presentation = pending_.presentation;
     const bool underWay = serial_ > 0 || session_.resumes != 0;
     for (std::size_t i = 0; i < followers_.size() && underWay; ++i) {
       Follower& f = followers_[i];
@@ -248,7 +257,10 @@ void ClusterLeader::answerRequests() {
   transfer.scene = save_();
   {
     const std::lock_guard lock(mutex_);
-    for (const std::uint64_t to : asking) transfer.to = to, transfers_.push_back(transfer);
+    for (const std::uint64_t to : asking) {
+      transfer.to = to;
+      transfers_.push_back(transfer);
+    }
   }
   changed_.notify_all();
 }
@@ -302,7 +314,8 @@ void ClusterLeader::leaveOutStuckFollowers() {
 void ClusterLeader::release() {
   bool released = false;
   while (!epochs_.empty() && epochs_.front().awaited == 0 && epochs_.front().drawnHere) {
-    go_ = epochs_.front().serial, session_.shown = epochs_.front().frame + 1;
+    go_ = epochs_.front().serial;
+    session_.shown = epochs_.front().frame + 1;
     epochs_.pop_front();
     released = true;
   }
@@ -344,13 +357,17 @@ void ClusterLeader::receive(const Presence& p) {
   // A node that is discovered again repeats its last sample, which may be out of date.
   Word& word = words_[p.node];
   if (word.incarnation == p.incarnation && p.count <= word.count) return;
-  word.incarnation = p.incarnation, word.count = p.count;
+  word.incarnation = p.incarnation;
+  word.count = p.count;
   if (f.incarnation != p.incarnation) {
     if (f.member) leaveOut(p.node, "restarted");
     f = {};
     f.incarnation = p.incarnation;
   }
-  f.session = p.session, f.plays = p.plays, f.serial = p.serial, f.show = p.show;
+  f.session = p.session;
+  f.plays = p.plays;
+  f.serial = p.serial;
+  f.show = p.show;
   f.phase = p.session == session_.number ? static_cast<Phase>(p.phase) : Phase::Waiting;
   f.asks = f.phase == Phase::Asking || (f.asks && f.differs && f.phase == Phase::Ready);
   if (f.member && f.phase == Phase::Leaving) {

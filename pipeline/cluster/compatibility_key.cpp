@@ -12,17 +12,21 @@ namespace stadion::cluster {
 
 std::uint64_t CompatibilityKey::show() const {
   StateHash hash;
-  hash.add(script), hash.add(input);
+  hash.add(script);
+  hash.add(input);
   return hash.value();
 }
 
 std::uint64_t hashOf(const ClusterFile& file) {
   StateHash hash;
   for (const ClusterNode& node : file.nodes) {
-    hash.add(std::string_view(node.name)), hash.add(std::uint64_t{node.walls.size()});
+    hash.add(std::string_view(node.name));
+    hash.add(std::uint64_t{node.walls.size()});
     for (const std::string& wall : node.walls) hash.add(std::string_view(wall));
   }
-  hash.add(std::uint64_t{file.lead}), hash.add(file.deadline), hash.add(file.hashEvery);
+  hash.add(std::uint64_t{file.lead});
+  hash.add(file.deadline);
+  hash.add(file.hashEvery);
   hash.add(file.stopOnDifference);
   return hash.value();
 }

@@ -70,14 +70,24 @@ std::unique_ptr<Follower> Follower::unconnected(FollowerOptions options, std::ui
 
 // Expects the lock.
 void Follower::announce(Phase phase) {
-  told_ = phase, toldSerial_ = appliedSerial_;
+  told_ = phase;
+  toldSerial_ = appliedSerial_;
   Presence p{};
-  p.node = static_cast<std::uint8_t>(options_.node), p.incarnation = incarnation_, p.count = ++announced_;
-  p.cluster = options_.key.cluster, p.session = joined_, p.phase = static_cast<std::uint8_t>(phase);
-  if (kept_)
-    p.plays = kept_->transfer.session, p.serial = kept_->transfer.serial, p.show = kept_->show;
-  else if (plays_ && !differs_)
-    p.plays = joined_, p.serial = appliedSerial_, p.show = show_;
+  p.node = static_cast<std::uint8_t>(options_.node);
+  p.incarnation = incarnation_;
+  p.count = ++announced_;
+  p.cluster = options_.key.cluster;
+  p.session = joined_;
+  p.phase = static_cast<std::uint8_t>(phase);
+  if (kept_) {
+    p.plays = kept_->transfer.session;
+    p.serial = kept_->transfer.serial;
+    p.show = kept_->show;
+  } else if (plays_ && !differs_) {
+    p.plays = joined_;
+    p.serial = appliedSerial_;
+    p.show = show_;
+  }
   bus_->send(p);
 }
 
@@ -116,7 +126,8 @@ std::optional<JoinTerms> Follower::join() {
   for (std::unique_lock lock(mutex_);;) {
     if (auto joining = joinSession(lock)) return joining;
     if (!again_ || over_ || double_ || options_.stop()) return {};
-    again_ = false, joined_ = 0;  // another program leads now
+    again_ = false;
+    joined_ = 0;  // another program leads now
     announce(Phase::Waiting);
   }
 }
@@ -135,11 +146,15 @@ std::optional<JoinTerms> Follower::joinSession(std::unique_lock<std::mutex>& loc
     return {};
   }
   if (const std::string what = remark(theirs, options_.key, lead); !what.empty()) options_.tell(what);
-  joined_ = session_.number, show_ = theirs.show();
+  joined_ = session_.number;
+  show_ = theirs.show();
   std::erase_if(orders_, [&](const HeardOrder& o) { return o.numbers.session != joined_; });
   if (incoming_.session() != joined_) incoming_ = {};
   const std::uint64_t ofKept = kept_ ? kept_->transfer.session : joined_;
-  if (ofKept != joined_ && ofKept != session_.resumes) kept_.reset(), framesShown_ = 0;  // it is another show
+  if (ofKept != joined_ && ofKept != session_.resumes) {
+    kept_.reset();
+    framesShown_ = 0;
+  }  // it is another show
   JoinTerms joining{session_.rate, {}, {}, 0, theirs.input != 0};
   if (!session_.begun && session_.resumes == 0) return joining;
   if (session_.begun) awaitDouble(lock);
@@ -149,7 +164,10 @@ std::optional<JoinTerms> Follower::joinSession(std::unique_lock<std::mutex>& loc
   auto since = Clock::now();
   const auto has = [&] {
     if (std::exchange(received, incoming_.received()) != incoming_.received()) since = Clock::now();
-    if (Clock::now() - since > kLongWait) announce(Phase::Asking), since = Clock::now();
+    if (Clock::now() - since > kLongWait) {
+      announce(Phase::Asking);
+      since = Clock::now();
+    }
     return incoming_.complete() || hasEnded();
   };
   if (!await(lock, ("the scene's state from " + lead).c_str(), has) || hasEnded()) return {};
@@ -157,8 +175,10 @@ std::optional<JoinTerms> Follower::joinSession(std::unique_lock<std::mutex>& loc
       std::make_shared<const ResumableScene>(ResumableScene{incoming_.take(), show_, framesShown_});
   kept_ = kept;
   const SceneTransfer& transfer = kept->transfer;
-  appliedSerial_ = transfer.serial, plays_ = true;
-  joining.after.frame = transfer.frame, joining.after.time = transfer.time;
+  appliedSerial_ = transfer.serial;
+  plays_ = true;
+  joining.after.frame = transfer.frame;
+  joining.after.time = transfer.time;
   std::erase_if(orders_, [&](const HeardOrder& o) { return o.numbers.serial <= appliedSerial_; });
   joining.state = {kept, &transfer.scene.bytes};
   joining.files = transfer.scene.files;
@@ -191,8 +211,10 @@ std::optional<FrameOrder> Follower::next() {
     again_ = differs_ = true;
     return {};
   }
-  appliedSerial_ = heard.numbers.serial, frame_ = heard.order.signature.frame;
-  still_ = heard.order.standsAfter, presentation_ = heard.order.presentation;
+  appliedSerial_ = heard.numbers.serial;
+  frame_ = heard.order.signature.frame;
+  still_ = heard.order.standsAfter;
+  presentation_ = heard.order.presentation;
   const bool isNew = std::exchange(kept_, nullptr) || !plays_;
   plays_ = true;
   if (isNew) announce(told_);
@@ -201,7 +223,8 @@ std::optional<FrameOrder> Follower::next() {
   // The leader left us out for being late. A node that has caught up is taken back.
   if (!heard.order.drawn && told_ == Phase::Ready && orders_.empty()) announce(Phase::Ready);
   shows_.emplace_back(appliedSerial_, heard.order.drawn);
-  sample_ = std::move(heard.input), sampled_ = heard.sampled;
+  sample_ = std::move(heard.input);
+  sampled_ = heard.sampled;
   ++stats_.orders;
   return heard.order;
 }
@@ -221,10 +244,14 @@ bool Follower::explain(std::unique_lock<std::mutex>& lock) {
   const SceneTransfer theirs = incoming_.take();
   const std::optional<Differs> differs = compare_ ? compare_(theirs.scene) : std::nullopt;
   Difference told{};
-  told.node = static_cast<std::uint8_t>(options_.node), told.session = joined_, told.frame = frame_;
+  told.node = static_cast<std::uint8_t>(options_.node);
+  told.session = joined_;
+  told.frame = frame_;
   told.found = differs.has_value();
   Differs d = differs.value_or(Differs{});
-  told.where = d.where.data(), told.here = d.here.data(), told.there = d.there.data();
+  told.where = d.where.data();
+  told.here = d.here.data();
+  told.there = d.there.data();
   bus_->send(told);
   if (!differs) return false;
   const bool goesOn = options_.cluster.stopOnDifference;  // to the last order, which follows
@@ -248,8 +275,10 @@ bool Follower::mayShow(const TimeSignature& now) {
   // Repeated after a while: a host that has just connected does not use all topics at once, in either
   // direction.
   while (go_ < serial && !hasEnded() && !options_.stop())
-    if (changed_.wait_for(lock, kPollInterval) == std::cv_status::timeout)
-      bus_->send(told), announceProgress();
+    if (changed_.wait_for(lock, kPollInterval) == std::cv_status::timeout) {
+      bus_->send(told);
+      announceProgress();
+    }
   if (go_ == serial && latest_ == options_.node)
     stats_.barrier.add(std::chrono::duration<double, std::milli>(Clock::now() - drawn).count());
   if (go_ < serial) return false;
@@ -361,7 +390,8 @@ void Follower::receive(const Go& go) {
   {
     const std::lock_guard lock(mutex_);
     if (go.session != joined_) return;
-    go_ = std::max(go_, go.serial), latest_ = go.latest;
+    go_ = std::max(go_, go.serial);
+    latest_ = go.latest;
   }
   changed_.notify_all();
 }
@@ -388,10 +418,16 @@ std::shared_ptr<const ResumableScene> Follower::kept() const {
 void Follower::keep(const TimeSignature& last, SavedScene scene) {
   ResumableScene kept;
   SceneTransfer& transfer = kept.transfer;
-  transfer.frame = last.frame, transfer.time = last.time, transfer.scene = std::move(scene);
+  transfer.frame = last.frame;
+  transfer.time = last.time;
+  transfer.scene = std::move(scene);
   const std::lock_guard lock(mutex_);
-  transfer.session = joined_, transfer.serial = appliedSerial_, kept.show = show_;
-  transfer.still = still_, transfer.presentation = presentation_, kept.framesShown = framesShown_;
+  transfer.session = joined_;
+  transfer.serial = appliedSerial_;
+  kept.show = show_;
+  transfer.still = still_;
+  transfer.presentation = presentation_;
+  kept.framesShown = framesShown_;
   kept_ = std::make_shared<const ResumableScene>(std::move(kept));
   giveIfAsked();
 }

@@ -19,7 +19,8 @@ Pose read(const stadion_wire_Pose& X) {
 /// The sequence borrows its elements, so they must not move.
 template <class Sequence, class T>
 void lend(std::vector<T>& from, Sequence& to) {
-  to._buffer = from.data(), to._release = false;
+  to._buffer = from.data();
+  to._release = false;
   to._length = to._maximum = static_cast<std::uint32_t>(from.size());
 }
 
@@ -31,7 +32,10 @@ auto spanOf(const Sequence& s) {
 stadion_wire_Tracker written(const TrackerSample& t) {
   stadion_wire_Tracker w{};
   t.name.copy(w.name, sizeof(w.name) - 1);
-  w.pose = written(t.X_RT), w.buttons = t.buttons, w.stamp = t.stamp, w.valid = t.valid;
+  w.pose = written(t.X_RT);
+  w.buttons = t.buttons;
+  w.stamp = t.stamp;
+  w.valid = t.valid;
   w.controls_only = t.controlsOnly;
   std::ranges::copy(t.axes, w.axes);
   return w;
@@ -76,13 +80,17 @@ bool makesSense(const HeardOrder& heard) {
 TrackerSample read(const stadion_wire_Tracker& w) {
   TrackerSample t;
   t.name.assign(w.name, strnlen(w.name, sizeof(w.name)));
-  t.X_RT = read(w.pose), t.buttons = w.buttons, t.stamp = w.stamp, t.valid = w.valid;
+  t.X_RT = read(w.pose);
+  t.buttons = w.buttons;
+  t.stamp = w.stamp;
+  t.valid = w.valid;
   t.controlsOnly = w.controls_only;
   std::ranges::copy(w.axes, t.axes.begin());
   for (const stadion_wire_PoseKnot& k : spanOf(w.knots)) t.knots.push_back({k.time, read(k.pose), k.jump});
   for (const stadion_wire_ControlKnot& k : spanOf(w.controls)) {
     ControlKnot& knot = t.controls.emplace_back();
-    knot.time = k.time, knot.buttons = k.buttons;
+    knot.time = k.time;
+    knot.buttons = k.buttons;
     std::ranges::copy(k.axes, knot.axes.begin());
   }
   return t;
@@ -111,29 +119,42 @@ std::optional<Standstill> readStandstill(std::uint8_t still) {
 
 const Order& WrittenOrder::write(const OrderNumbers& numbers, const FrameOrder& o, const InputSample* input) {
   Order& w = order_;
-  w.session = numbers.session, w.serial = numbers.serial, w.members = numbers.members,
+  w.session = numbers.session;
+  w.serial = numbers.serial;
+  w.members = numbers.members;
   w.explain = numbers.explain;
-  w.frame = o.signature.frame, w.time = o.signature.time, w.step = o.signature.step;
-  decisions_.clear(), trackers_.clear();
+  w.frame = o.signature.frame;
+  w.time = o.signature.time;
+  w.step = o.signature.step;
+  decisions_.clear();
+  trackers_.clear();
   for (const DegradationDecision& d : o.signature.decisions)
     decisions_.push_back({d.load, d.position, d.level});
   lend(decisions_, w.decisions);
-  w.last = o.last, w.shown = written(o.presentation);
-  w.still = static_cast<std::uint8_t>(o.still), w.stands_after = static_cast<std::uint8_t>(o.standsAfter);
+  w.last = o.last;
+  w.shown = written(o.presentation);
+  w.still = static_cast<std::uint8_t>(o.still);
+  w.stands_after = static_cast<std::uint8_t>(o.standsAfter);
   w.sampled = input != nullptr;
   const std::size_t count = input ? input->trackers.size() : 0;
-  if (knots_.size() < count) knots_.resize(count), controls_.resize(count);
+  if (knots_.size() < count) {
+    knots_.resize(count);
+    controls_.resize(count);
+  }
   for (std::size_t i = 0; i < count; ++i) {
     const TrackerSample& t = input->trackers[i];
     stadion_wire_Tracker& tracker = trackers_.emplace_back(written(t));
-    knots_[i].clear(), controls_[i].clear();
+    knots_[i].clear();
+    controls_[i].clear();
     for (const PoseKnot& k : t.knots) knots_[i].push_back({k.time, written(k.X), k.jump});
     for (const ControlKnot& k : t.controls) {
       stadion_wire_ControlKnot& knot = controls_[i].emplace_back();
-      knot.time = k.time, knot.buttons = k.buttons;
+      knot.time = k.time;
+      knot.buttons = k.buttons;
       std::ranges::copy(k.axes, knot.axes);
     }
-    lend(knots_[i], tracker.knots), lend(controls_[i], tracker.controls);
+    lend(knots_[i], tracker.knots);
+    lend(controls_[i], tracker.controls);
   }
   lend(trackers_, w.trackers);
   return w;
@@ -153,13 +174,17 @@ std::optional<HeardOrder> readOrder(const Order& w) {
   HeardOrder heard;
   heard.numbers = {w.session, w.serial, w.members, w.explain};
   TimeSignature& now = heard.order.signature;
-  now.frame = w.frame, now.time = w.time, now.step = w.step;
+  now.frame = w.frame;
+  now.time = w.time;
+  now.step = w.step;
   for (const stadion_wire_Decision& d : spanOf(w.decisions))
     if (!now.decisions.add({d.load, d.position, d.level})) return {};
   const auto shown = cluster::read(w.shown);
   const auto still = readStandstill(w.still), standsAfter = readStandstill(w.stands_after);
   if (!shown || !still || !standsAfter) return {};
-  heard.order.presentation = *shown, heard.order.still = *still, heard.order.standsAfter = *standsAfter;
+  heard.order.presentation = *shown;
+  heard.order.still = *still;
+  heard.order.standsAfter = *standsAfter;
   heard.order.last = w.last;
   heard.sampled = w.sampled;
   heard.input.time = w.time;

@@ -16,11 +16,16 @@ constexpr std::uint64_t kMostState = 4ULL << 30;  ///< [byte]
 void send(Bus& bus, const SceneTransfer& transfer) {
   bus.waitForReaders();
   StatePart part{};
-  part.to = transfer.to, part.session = transfer.session, part.serial = transfer.serial;
-  part.frame = transfer.frame, part.time = transfer.time;
-  part.still = static_cast<std::uint8_t>(transfer.still), part.shown = written(transfer.presentation);
+  part.to = transfer.to;
+  part.session = transfer.session;
+  part.serial = transfer.serial;
+  part.frame = transfer.frame;
+  part.time = transfer.time;
+  part.still = static_cast<std::uint8_t>(transfer.still);
+  part.shown = written(transfer.presentation);
   const std::vector<std::uint8_t>& bytes = transfer.scene.bytes;
-  part.files = transfer.scene.files, part.size = bytes.size();
+  part.files = transfer.scene.files;
+  part.size = bytes.size();
   do {
     const std::size_t size = std::min(kPart, bytes.size() - part.offset);
     // The sequence borrows the bytes and only reads them.
@@ -41,11 +46,16 @@ void IncomingScene::add(const StatePart& part) {
   if (part.offset == 0) {
     complete_ = false;
     transfer_ = {};
-    transfer_.to = part.to, transfer_.session = part.session, transfer_.serial = part.serial;
-    transfer_.frame = part.frame, transfer_.time = part.time, transfer_.scene.files = part.files;
+    transfer_.to = part.to;
+    transfer_.session = part.session;
+    transfer_.serial = part.serial;
+    transfer_.frame = part.frame;
+    transfer_.time = part.time;
+    transfer_.scene.files = part.files;
     transfer_.still = readStandstill(part.still).value_or(Standstill::None);
     transfer_.presentation = read(part.shown).value_or(Presentation{});
-    size_ = part.size, received_ = 0;
+    size_ = part.size;
+    received_ = 0;
   }
   if (part.serial != transfer_.serial || part.session != transfer_.session || part.size != size_) return;
   if (part.frame != transfer_.frame || part.time != transfer_.time || part.to != transfer_.to) return;
@@ -57,7 +67,8 @@ void IncomingScene::add(const StatePart& part) {
 }
 
 SceneTransfer IncomingScene::take() {
-  complete_ = false, received_ = 0;
+  complete_ = false;
+  received_ = 0;
   return std::exchange(transfer_, {});
 }
 

@@ -146,8 +146,10 @@ template <class G>
                                                  const VolumePlanes* volumes, Found& found,
                                                  unsigned long long* tested) {
   const unsigned present = group.present() & ((1u << lanes) - 1);
-  for (unsigned lane = 0; lane < kLanesOfAGroup; ++lane)
-    found.maybe[lane] = 0, found.surely[lane] = in.inside;
+  for (unsigned lane = 0; lane < kLanesOfAGroup; ++lane) {
+    found.maybe[lane] = 0;
+    found.surely[lane] = in.inside;
+  }
   for (unsigned rest = in.touches; rest != 0; rest &= rest - 1) {
     const auto v = static_cast<unsigned>(__builtin_ctz(rest));
     const unsigned bit = 1u << v;

@@ -46,7 +46,8 @@ DrawItem itemOf(const DrawnRecord& drawn, const Vec3& origin, const PixelScale& 
   item.owner = r.owner;
   item.distance = drawn.distance;
   item.pixels = scale.of(r.radius, drawn.distance);
-  item.level = drawn.level, item.views = drawn.views;
+  item.level = drawn.level;
+  item.views = drawn.views;
   return item;
 }
 
@@ -68,7 +69,9 @@ void setLights(const SlotView& state, DrawList& out) {
       d.direction[k] = static_cast<float>(l.direction[k]);
       d.colour[k] = l.colour[k];
     }
-    d.range = l.range, d.cosInner = l.cosInner, d.cosOuter = l.cosOuter;
+    d.range = l.range;
+    d.cosInner = l.cosInner;
+    d.cosOuter = l.cosOuter;
     d.shadows = d.kind == DrawLight::Kind::Directional && l.range > 0;
     out.lights.push_back(d);
   }
@@ -84,8 +87,10 @@ void setSky(const SkyRecord& sky, DrawList& out) {
   const auto copy = [](const float(&from)[3], std::array<float, 3>& to) {
     std::copy(from, from + 3, to.begin());
   };
-  copy(sky.zenith, out.sky.zenith), copy(sky.horizon, out.sky.horizon);
-  copy(sky.ground, out.sky.ground), copy(sky.ambient, out.sky.ambient);
+  copy(sky.zenith, out.sky.zenith);
+  copy(sky.horizon, out.sky.horizon);
+  copy(sky.ground, out.sky.ground);
+  copy(sky.ambient, out.sky.ambient);
   out.sky.hazeDistance = sky.haze;
 }
 
@@ -117,14 +122,17 @@ void WallCull::fill(const SlotView& state, const CullOptions& options, DrawList&
   FrameProbe* probe = parts_.probe;
   out.wall = wall_;
   out.shadows.light = -1;
-  opaque_.clear(), transparent_.clear(), added_.clear();
+  opaque_.clear();
+  transparent_.clear();
+  added_.clear();
   const RoomCull::Visibility room = [&] {
     const SpanScope span(probe, Span::Test);
     return parts_.room.visibleIn(state, options.eyes);
   }();
   const VisibleSet& seen = room.on(wall_);
   if (!seen.looks) {
-    out.opaque.clear(), out.transparent.clear();
+    out.opaque.clear();
+    out.transparent.clear();
     out.viewCount = 0;
     return;
   }
@@ -144,7 +152,8 @@ void WallCull::fill(const SlotView& state, const CullOptions& options, DrawList&
   }
   {
     const SpanScope span(probe, Span::Sort);
-    order_.sortOpaque(opaque_), order_.sortTransparent(transparent_);
+    order_.sortOpaque(opaque_);
+    order_.sortTransparent(transparent_);
   }
   {
     const SpanScope span(probe, Span::Fill);
@@ -194,7 +203,8 @@ void WallCull::write(DrawList& out) const {
       items[i] = itemOf(things[i], out.origin, scale);
     }
   };
-  out.opaque.resize(opaque_.size()), out.transparent.resize(transparent_.size());
+  out.opaque.resize(opaque_.size());
+  out.transparent.resize(transparent_.size());
   if (out.filling) out.filling->begin();
   for (std::size_t from = 0; from < opaque_.size(); from += DrawList::kPortion) {
     const std::size_t count = std::min(DrawList::kPortion, opaque_.size() - from);

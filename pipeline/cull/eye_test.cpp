@@ -30,8 +30,10 @@ EyeTest::EyeTest(const DrawList& list, bool oneSample, std::uint32_t width, std:
           clip.row(3).transpose() + (side % 2 == 0 ? 1.0 : -1.0) * clip.row(side / 2).transpose();
       const Vec4 unit = plane / plane.head<3>().norm();
       Sides& s = sides_[view];
-      s.x[side] = static_cast<float>(unit[0]), s.y[side] = static_cast<float>(unit[1]);
-      s.z[side] = static_cast<float>(unit[2]), s.offset[side] = static_cast<float>(unit[3]);
+      s.x[side] = static_cast<float>(unit[0]);
+      s.y[side] = static_cast<float>(unit[1]);
+      s.z[side] = static_cast<float>(unit[2]);
+      s.offset[side] = static_cast<float>(unit[3]);
     }
     Lens& lens = lenses_[view];
     for (int row = 0; row < 3; ++row)

@@ -19,7 +19,8 @@ double leastScale(const Mat3& m, double most) {
 
 void LevelChoice::setViewer(const ViewerRecord& viewer) {
   viewer_ = &viewer;
-  walls_.clear(), known_.clear();
+  walls_.clear();
+  known_.clear();
 }
 
 // Most shows have no levels: what only they need is made when the first one is met.

@@ -58,7 +58,10 @@ BoundsTree MovingBounds::update(const SlotView& state) {
   }
   noteChanged(state);
   BoundsTree tree;
-  tree.origin = origin_, tree.count = count, tree.floats = floats_.data(), tree.layout = layout_;
+  tree.origin = origin_;
+  tree.count = count;
+  tree.floats = floats_.data();
+  tree.layout = layout_;
   for (const std::uint32_t block : changed_) refit(state, block);
   BoundsTree full = tree;  // it may grow: then what is above has been kept up, too
   full.count = capacity_;
@@ -66,8 +69,10 @@ BoundsTree MovingBounds::update(const SlotView& state) {
   for (std::uint32_t level = kBlockLevel; level <= full.top(); ++level, holds *= BoundsLayout::kWide) {
     std::uint32_t done = ~0U;
     for (const std::uint32_t block : changed_)
-      if (const std::uint32_t node = block / holds; node != done)
-        putBoxes(floats_.data(), layout_, level, node, node + 1, tree.nodes(level - 1)), done = node;
+      if (const std::uint32_t node = block / holds; node != done) {
+        putBoxes(floats_.data(), layout_, level, node, node + 1, tree.nodes(level - 1));
+        done = node;
+      }
   }
   return tree;
 }

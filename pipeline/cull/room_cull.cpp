@@ -93,12 +93,14 @@ void RoomCull::eachPart(const Each& each) const {
 }
 
 void RoomCull::search(const SlotView& state, const EyeChoice& choice, SearchedFrame& frame) {
-  volumes_.clear(), wallsOf_.clear();
+  volumes_.clear();
+  wallsOf_.clear();
   frame.walls.resize(walls_.size());
   for (std::uint32_t number = 0; number < walls_.size(); ++number) {
     const WallViews& wall = walls_[number];
     VisibleSet& set = frame.walls[number];
-    set.tested = 0, set.records.clear();
+    set.tested = 0;
+    set.records.clear();
     set.from = wall.camera ? wall.camera->view() : std::nullopt;
     set.looks = !wall.camera || set.from;
     if (!set.looks) continue;
@@ -138,7 +140,8 @@ void RoomCull::reached(const SlotView& state, const EyeChoice& choice, std::size
   const Visibility visible = visibleIn(state, choice);
   if (!visible.on(wall).looks) return;
   const std::lock_guard lock(mutex_);
-  volumes_.clear(), wallsOf_.clear();
+  volumes_.clear();
+  wallsOf_.clear();
   addVolumes(static_cast<std::uint32_t>(wall), visible.on(wall).placed);
   eachTree(state, [&](const BoundsTree& tree, const auto& recordAt) {
     bounds_.find(tree, volumes_);

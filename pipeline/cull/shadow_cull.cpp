@@ -16,7 +16,9 @@ Mat3 axesTowards(const Vec3& light) {
   const Vec3 helper = std::abs(light.z()) < 0.99 ? Vec3::UnitZ() : Vec3::UnitY();
   const Vec3 right = helper.cross(light).normalized();
   Mat3 axes;
-  axes.row(0) = right, axes.row(1) = light.cross(right), axes.row(2) = light;
+  axes.row(0) = right;
+  axes.row(1) = light.cross(right);
+  axes.row(2) = light;
   return axes;
 }
 

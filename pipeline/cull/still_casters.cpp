@@ -84,7 +84,8 @@ DrawItem RingPlace::itemOf(const InstanceRecord& r) const {
     const double shift = k % 4 == 3 ? centre_W[k / 4] : 0.0;
     item.model[static_cast<std::size_t>(k)] = static_cast<float>(r.model[k] - shift);
   }
-  item.mesh = r.mesh, item.owner = r.owner;
+  item.mesh = r.mesh;
+  item.owner = r.owner;
   return item;
 }
 

@@ -36,7 +36,9 @@ Vec3 notFarther(const Vec3& way, double most) {
 
 TrackerSample tracker(const char* name, const Pose& X_RT, Nanoseconds time) {
   TrackerSample t;
-  t.name = name, t.X_RT = X_RT, t.stamp = time;
+  t.name = name;
+  t.X_RT = X_RT;
+  t.stamp = time;
   return t;
 }
 
@@ -81,18 +83,23 @@ void DeskVisitor::setButton(std::uint32_t button, bool down) {
 void DeskVisitor::setGamepad(const std::array<double, kTrackerAxes>& axes, std::uint32_t buttons) {
   const std::lock_guard lock(mutex_);
   for (std::size_t i = 0; i < axes.size(); ++i) padAxes_[i] = std::clamp(orZero(axes[i]), -1.0, 1.0);
-  pressed_ |= buttons & ~padButtons_, letGo_ |= padButtons_ & ~buttons;
+  pressed_ |= buttons & ~padButtons_;
+  letGo_ |= padButtons_ & ~buttons;
   padButtons_ = buttons;
 }
 
 void DeskVisitor::letGo() {
   const std::lock_guard lock(mutex_);
-  buttons_ = 0, axes_ = {}, step_ = Vec3::Zero();
+  buttons_ = 0;
+  axes_ = {};
+  step_ = Vec3::Zero();
 }
 
 void DeskVisitor::reset() {
   const std::lock_guard lock(mutex_);
-  returning_ = true, yaw_ = pitch_ = 0, wantedHand_ = kHandAtRest;
+  returning_ = true;
+  yaw_ = pitch_ = 0;
+  wantedHand_ = kHandAtRest;
 }
 
 Quat DeskVisitor::heading() const {
@@ -115,15 +122,19 @@ void DeskVisitor::freezeHead(bool frozen) {
   if (frozen) {
     frozen_ = headTold();
   } else {
-    easesFrom_ = *frozen_, eased_ = 0;
+    easesFrom_ = *frozen_;
+    eased_ = 0;
     frozen_.reset();
   }
 }
 
 void DeskVisitor::restart() {
   const std::lock_guard lock(mutex_);
-  sampled_ = -1, pressed_ = letGo_ = down_ = 0, eased_ = 1;
-  frozen_.reset(), told_.reset();
+  sampled_ = -1;
+  pressed_ = letGo_ = down_ = 0;
+  eased_ = 1;
+  frozen_.reset();
+  told_.reset();
 }
 
 Vec3 DeskVisitor::handWanted() const {
@@ -145,7 +156,9 @@ void DeskVisitor::sampleAt(Nanoseconds showTime, InputSample& sample) {
   if (sampled_ >= 0 && showTime > sampled_) advance(std::min(toSeconds(showTime - sampled_), 0.25));
   sampled_ = showTime;
   fill(showTime, sample);
-  pressed_ = newlyPressed(), letGo_ = 0, down_ = sample.trackers[1].buttons;
+  pressed_ = newlyPressed();
+  letGo_ = 0;
+  down_ = sample.trackers[1].buttons;
 }
 
 void DeskVisitor::fill(Nanoseconds showTime, InputSample& sample) const {

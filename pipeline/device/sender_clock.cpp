@@ -14,8 +14,12 @@ constexpr int kCopies = 1;                          ///< duplicates of a datagra
 }  // namespace
 
 void SenderClock::begin(Nanoseconds sent, Nanoseconds arrived) {
-  known_ = true, newest_ = sent, at_ = since_ = arrived, offset_ = least_ = arrived - sent;
-  older_.reset(), repeats_ = 0;
+  known_ = true;
+  newest_ = sent;
+  at_ = since_ = arrived;
+  offset_ = least_ = arrived - sent;
+  older_.reset();
+  repeats_ = 0;
 }
 
 SenderClock::Reading SenderClock::read(Nanoseconds sent, Nanoseconds arrived) {
@@ -27,7 +31,8 @@ SenderClock::Reading SenderClock::read(Nanoseconds sent, Nanoseconds arrived) {
   if (sent == newest_ && what_ == Stamped::Poses) {
     if (++repeats_ <= kCopies) return {};
     // The clock stands still, or ticks slower than measurements come, so it does not give their times.
-    at_ = since_ = arrived, offset_ = least_ = arrived - sent;
+    at_ = since_ = arrived;
+    offset_ = least_ = arrived - sent;
     return {arrived};
   }
   if (setBackWithinAPeriod(sent, arrived)) {
@@ -37,11 +42,17 @@ SenderClock::Reading SenderClock::read(Nanoseconds sent, Nanoseconds arrived) {
   }
   if (sent > newest_) {
     period_ += (period_ == 0 ? 1 : 0.1) * (static_cast<double>(sent - newest_) - period_);
-    older_.reset(), repeats_ = 0;
+    older_.reset();
+    repeats_ = 0;
   }
-  newest_ = sent, at_ = arrived;
+  newest_ = sent;
+  at_ = arrived;
   const Nanoseconds offset = arrived - sent;
-  if (arrived - since_ >= kWindow) offset_ = least_, since_ = arrived, least_ = offset;
+  if (arrived - since_ >= kWindow) {
+    offset_ = least_;
+    since_ = arrived;
+    least_ = offset;
+  }
   least_ = std::min(least_, offset);
   offset_ = std::min(offset_, offset);
   return {sent + offset_};

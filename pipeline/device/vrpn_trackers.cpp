@@ -23,7 +23,9 @@ struct VrpnTrackers::Connection {
     channels.register_change_handler(this, &Connection::turned);
     thread = std::thread([this] {
       while (!ending) {
-        poses.mainloop(), buttons.mainloop(), channels.mainloop();
+        poses.mainloop();
+        buttons.mainloop();
+        channels.mainloop();
         std::this_thread::sleep_for(std::chrono::milliseconds(1));
       }
     });

@@ -20,7 +20,10 @@ struct DrawTotals {
   std::uint64_t frames = 0, calls = 0, instances = 0, triangles = 0;
   void add(const DrawCounts& c) { add({1, c.calls, c.instances, c.triangles}); }
   void add(const DrawTotals& t) {
-    frames += t.frames, calls += t.calls, instances += t.instances, triangles += t.triangles;
+    frames += t.frames;
+    calls += t.calls;
+    instances += t.instances;
+    triangles += t.triangles;
   }
 };
 

@@ -38,8 +38,12 @@ void InstanceBatch::add(std::uint32_t views) {
 }
 
 void InstanceBatches::add(const DrawItem& item) {
-  matrices_.push_back(item.model), distances_.push_back(item.distance);
-  if (withOwners_) owners_.push_back(item.owner), pixels_.push_back(item.pixels);
+  matrices_.push_back(item.model);
+  distances_.push_back(item.distance);
+  if (withOwners_) {
+    owners_.push_back(item.owner);
+    pixels_.push_back(item.pixels);
+  }
 }
 
 void InstanceBatches::addRun(std::span<const DrawItem> run, bool mirrored) {
@@ -56,8 +60,10 @@ void InstanceBatches::addRun(std::span<const DrawItem> run, bool mirrored) {
 
 void InstanceBatches::begin(bool withOwners) {
   withOwners_ = withOwners;
-  matrices_.clear(), distances_.clear();
-  owners_.clear(), pixels_.clear();
+  matrices_.clear();
+  distances_.clear();
+  owners_.clear();
+  pixels_.clear();
   opaque_.clear();
   transparent_.clear();
   taken_ = refused_ = 0;

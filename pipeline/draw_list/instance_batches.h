@@ -45,7 +45,8 @@ public:
   void addTransparent(std::span<const DrawItem> items);
   void build(std::span<const DrawItem> opaque, std::span<const DrawItem> transparent) {
     begin();
-    addOpaque(opaque, opaque.size()), addTransparent(transparent);
+    addOpaque(opaque, opaque.size());
+    addTransparent(transparent);
   }
   /// So many opaque items were taken up.
   std::size_t taken() const { return taken_; }

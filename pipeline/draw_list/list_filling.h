@@ -28,7 +28,8 @@ public:
   /// Nothing is there yet.
   void restart() {
     const std::lock_guard lock(mutex_);
-    handed_ = void_ = false, there_ = 0;
+    handed_ = void_ = false;
+    there_ = 0;
   }
   /// Everything but the items is there, and how many there will be.
   void begin() {
@@ -83,7 +84,8 @@ private:
   void set(std::size_t there, bool isVoid) {
     {
       const std::lock_guard lock(mutex_);
-      there_ = there, void_ = isVoid;
+      there_ = there;
+      void_ = isVoid;
     }
     changed_.notify_all();
   }

@@ -23,7 +23,10 @@ struct FrameTicket {
   std::chrono::steady_clock::time_point posed{};
 
   /// Drawing was not possible for this long, so the frame counts as begun that much later.
-  void delay(std::chrono::steady_clock::duration by) { began += by, posed += by; }
+  void delay(std::chrono::steady_clock::duration by) {
+    began += by;
+    posed += by;
+  }
 };
 
 }  // namespace stadion

@@ -28,7 +28,9 @@ DrawItem itemOf(MeshId id, const Mesh& mesh, const Vec3& place) {
     item.model[4 * row + row] = static_cast<float>(scale);
     item.model[4 * row + 3] = static_cast<float>(centre[static_cast<Eigen::Index>(row)]);
   }
-  item.mesh = id, item.distance = kDistance, item.pixels = 10'000;
+  item.mesh = id;
+  item.distance = kDistance;
+  item.pixels = 10'000;
   item.level = static_cast<std::uint32_t>(mesh.levels.size());
   return item;
 }

@@ -303,7 +303,8 @@ Nanoseconds Loader::soundLength(const Declaration& d, Diagnostics& findings) {
   const auto info = read();
   if (info) return info.value().length();
   Diagnostic missing = info.error();
-  missing.where = d.where("file"), missing.excerpt = d.excerpt("file");
+  missing.where = d.where("file");
+  missing.excerpt = d.excerpt("file");
   missing.severity = Severity::Warning;
   missing.message += "; a second of silence stands in for it";
   findings.add(missing);

@@ -112,7 +112,8 @@ FrameLoop::FrameLoop(Stages& stages, const FrameLoopOptions& options, const std:
   pacer_.startLate(std::chrono::nanoseconds(options.late));
   if (!options.after) return;
   clock_ = FrameClock(options.rate, *options.after, options.frameTimes);
-  lastSignature_ = *options.after, lastSignature_.decisions = {};
+  lastSignature_ = *options.after;
+  lastSignature_.decisions = {};
   nextIndex_ = options.after->frame + 1;
   begun_ = true;  // the show may stand still at that frame
 }
@@ -285,7 +286,9 @@ void FrameLoop::Pipeline::stopIfBroken() {
   if (!loop_.broken_) return;
   slots_.stop();
   for (ListQueue& q : queues_) q.stop();
-  swap_.stop(), opened_.stop(), warm_.stop();
+  swap_.stop();
+  opened_.stop();
+  warm_.stop();
 }
 
 std::optional<FrameOrder> FrameLoop::nextOrder() {

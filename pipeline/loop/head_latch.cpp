@@ -32,7 +32,8 @@ HeadLatch::Taken HeadLatch::take(const DrawList& list, TimePoint seen) {
   const double turn = det::logRotation(head->X_RH.q * sampled.q.conjugate()).norm();
   ++counts_.latched;
   if (way > reach_.metres || turn > reach_.radians) ++counts_.beyond;
-  counts_.farthest = std::max(counts_.farthest, way), counts_.widest = std::max(counts_.widest, turn);
+  counts_.farthest = std::max(counts_.farthest, way);
+  counts_.widest = std::max(counts_.widest, turn);
   taken_.X_RH = reach_.within(sampled, head->X_RH);
   taken_.measured = head->measured > 0 ? TimePoint(nanoseconds(head->measured)) : now;
   return taken_;

@@ -188,12 +188,17 @@ Failure ShowStages::draw(std::size_t wall, const DrawList& list) {
   began_ = list.ticket.began;
   const bool wanted = list.ticket.last || (parts_.sink && parts_.sink->wants(list.ticket.signature));
   if (DrawOutcome outcome = wallRenderer_->draw(wall, list, wanted); outcome.failure || !outcome.drawn) {
-    if (!outcome.failure)
-      drawn.late.inARow = std::max(drawn.late.inARow, ++drawn.lateNow), ++drawn.late.frames;
+    if (!outcome.failure) {
+      drawn.late.inARow = std::max(drawn.late.inARow, ++drawn.lateNow);
+      ++drawn.late.frames;
+    }
     return std::move(outcome.failure);
   }
-  drawn.lateNow = 0, drawn.posed = list.ticket.posed;
-  drawn.views = list.viewCount, drawn.frame = list.ticket.signature.frame, drawn.read = false;
+  drawn.lateNow = 0;
+  drawn.posed = list.ticket.posed;
+  drawn.views = list.viewCount;
+  drawn.frame = list.ticket.signature.frame;
+  drawn.read = false;
   drawn.totals = wallRenderer_->totals(wall);
   return wanted ? readPictures(wall) : std::nullopt;
 }

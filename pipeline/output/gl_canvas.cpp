@@ -14,7 +14,9 @@ Result<std::unique_ptr<WindowCanvas>> GlCanvas::create(Window& window, std::size
 
 GlCanvas::~GlCanvas() {
   enter();
-  overlays_.clear(), eyes_.clear(), pass_.reset();
+  overlays_.clear();
+  eyes_.clear();
+  pass_.reset();
   context_.release();
 }
 

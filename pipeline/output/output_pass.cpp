@@ -55,7 +55,8 @@ void PictureTexture::upload(const Picture& picture) {
     gl_.TexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, w, h, GL_RGBA, GL_UNSIGNED_BYTE, pixels);
     return;
   }
-  width_ = picture.width, height_ = picture.height;
+  width_ = picture.width;
+  height_ = picture.height;
   gl_.TexImage2D(GL_TEXTURE_2D, 0, GL_RGBA8, w, h, 0, GL_RGBA, GL_UNSIGNED_BYTE, pixels);
   gl_.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
   gl_.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
@@ -77,7 +78,9 @@ OutputPass::OutputPass(const GlTable& gl, GlProgram program)
 }
 
 void OutputPass::begin(std::uint32_t width, std::uint32_t height, GLenum buffer) {
-  width_ = width, height_ = height, buffer_ = buffer;
+  width_ = width;
+  height_ = height;
+  buffer_ = buffer;
   gl_.BindFramebuffer(GL_FRAMEBUFFER, 0);
   gl_.DrawBuffer(buffer);
   gl_.Viewport(0, 0, static_cast<GLsizei>(width), static_cast<GLsizei>(height));

@@ -140,7 +140,9 @@ void PictureRows::warp(std::uint32_t y, std::uint32_t begin, std::span<std::uint
   for (std::int32_t i = 0; i < count; ++i) {  // without a branch: the compiler makes vectors of it
     const float s = (static_cast<float>(first + i) + 0.5f) / width;
     const float z = m[6] * s + m[7] * t + m[8];
-    depth[i] = z, right[i] = (m[0] * s + m[1] * t + m[2]) / z, below[i] = (m[3] * s + m[4] * t + m[5]) / z;
+    depth[i] = z;
+    right[i] = (m[0] * s + m[1] * t + m[2]) / z;
+    below[i] = (m[3] * s + m[4] * t + m[5]) / z;
   }
   for (std::int32_t i = 0; i < count; ++i)
     pixels[static_cast<std::size_t>(i)] = depth[i] > 0 ? sample(right[i], below[i]) : kOpaqueBlack;

@@ -87,7 +87,8 @@ void PixelCanvas::drawRows(const CanvasPane& pane, const Part& part, const Eyes&
   const Colours& colours = coloursOf(pane);
   const auto width = static_cast<std::size_t>(part.right - part.left);
   const auto begin = static_cast<std::uint32_t>(part.left - pane.x);
-  row_.resize(width), other_.resize(width);
+  row_.resize(width);
+  other_.resize(width);
   for (std::int32_t y = part.top; y < part.bottom; ++y) {
     const auto line = static_cast<std::uint32_t>(y - pane.y);
     const bool second = pane.mix == EyeMix::Right || pane.mix == EyeMix::Anaglyph ||
@@ -128,7 +129,9 @@ Picture PixelCanvas::read() {
     for (std::uint32_t x = 0; x < rows_.width; ++x) {
       const std::uint32_t p = rows_.row(y)[x];
       std::uint8_t* to = picture.at(x, y);
-      to[0] = p >> 16 & 255, to[1] = p >> 8 & 255, to[2] = p & 255;
+      to[0] = p >> 16 & 255;
+      to[1] = p >> 8 & 255;
+      to[2] = p & 255;
     }
   return picture;
 }

@@ -110,7 +110,10 @@ void point(Picture& picture, std::uint32_t x, std::uint32_t y, std::array<std::u
   for (std::uint32_t v = y; v < y + scale && v < picture.height; ++v)
     for (std::uint32_t u = x; u < x + scale && u < picture.width; ++u) {
       std::uint8_t* p = picture.at(u, v);
-      p[0] = colour[0], p[1] = colour[1], p[2] = colour[2], p[3] = 255;
+      p[0] = colour[0];
+      p[1] = colour[1];
+      p[2] = colour[2];
+      p[3] = 255;
     }
 }
 

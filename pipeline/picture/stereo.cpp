@@ -24,15 +24,19 @@ void copyRow(const Picture& from, std::uint32_t row, Picture& to, std::uint32_t 
 
 Picture sideBySide(const Picture& left, const Picture& right) {
   Picture out(left.width * 2, left.height);
-  for (std::uint32_t y = 0; y < left.height; ++y)
-    copyRow(left, y, out, 0, y), copyRow(right, y, out, left.width, y);
+  for (std::uint32_t y = 0; y < left.height; ++y) {
+    copyRow(left, y, out, 0, y);
+    copyRow(right, y, out, left.width, y);
+  }
   return out;
 }
 
 Picture topBottom(const Picture& left, const Picture& right) {
   Picture out(left.width, left.height * 2);
-  for (std::uint32_t y = 0; y < left.height; ++y)
-    copyRow(left, y, out, 0, y), copyRow(right, y, out, 0, left.height + y);
+  for (std::uint32_t y = 0; y < left.height; ++y) {
+    copyRow(left, y, out, 0, y);
+    copyRow(right, y, out, 0, left.height + y);
+  }
   return out;
 }
 

@@ -60,7 +60,8 @@ private:
       if (p[i] > 0) to = std::min(to, q[i] / p[i]);
     }
     if (from > to) return false;
-    b = a + to * d, a = a + from * d;
+    b = a + to * d;
+    a = a + from * d;
     return true;
   }
 
@@ -112,7 +113,8 @@ Vec3 cubeCorner(const WallFile& walls) {
 
 /// Draws an edge as the eye sees it on the wall.
 void drawEdge(Sketch& sketch, const EyeFrustum& frustum, Vec3 a, Vec3 b) {
-  a = frustum.X_ER * a, b = frustum.X_ER * b;
+  a = frustum.X_ER * a;
+  b = frustum.X_ER * b;
   if (a.z() > b.z()) std::swap(a, b);  // a is farther away
   if (a.z() > -kNear) return;
   if (b.z() > -kNear) b = a + (b - a) * ((-kNear - a.z()) / (b.z() - a.z()));

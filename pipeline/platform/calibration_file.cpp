@@ -137,7 +137,10 @@ SourcePosition placeOf(const std::string& text, std::size_t byte, const std::str
   SourcePosition place{file, 1, 1};
   for (std::size_t i = 0; i + 1 < byte && i < text.size(); ++i) {
     ++place.column;
-    if (text[i] == '\n') ++place.line, place.column = 1;
+    if (text[i] == '\n') {
+      ++place.line;
+      place.column = 1;
+    }
   }
   return place;
 }
@@ -198,7 +201,8 @@ std::optional<Diagnostic> writeCalibration(const std::string& file, const Calibr
   if (!folder.empty()) std::filesystem::create_directories(folder, wrong);
   if (wrong) {
     Diagnostic why;
-    why.where.file = folder.string(), why.message = "cannot be made: " + wrong.message();
+    why.where.file = folder.string();
+    why.message = "cannot be made: " + wrong.message();
     return why;
   }
   return writeFile(file, toJson(calibration));

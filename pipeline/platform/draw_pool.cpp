@@ -66,7 +66,8 @@ void DrawPool::work() {
 void DrawPool::take(Job& job, std::unique_lock<std::mutex>& lock) {
   const RunningStage running(job.stage);
   const std::size_t i = job.next++;
-  ++job.running, ++working_;
+  ++job.running;
+  ++working_;
   lock.unlock();
   std::exception_ptr thrown;
   try {
@@ -75,8 +76,13 @@ void DrawPool::take(Job& job, std::unique_lock<std::mutex>& lock) {
     thrown = std::current_exception();
   }
   lock.lock();
-  --job.running, --working_;
-  if (thrown && i < job.firstThrown) job.firstThrown = i, job.thrown = thrown, job.next = job.count;
+  --job.running;
+  --working_;
+  if (thrown && i < job.firstThrown) {
+    job.firstThrown = i;
+    job.thrown = thrown;
+    job.next = job.count;
+  }
   if (job.isDone() || working_ + 1 == most_) changed_.notify_all();
 }
 

@@ -30,15 +30,19 @@ ScopedRealtimePriority::ScopedRealtimePriority(For threads) : handedDown_(thread
   if (syscall(SYS_sched_getattr, 0, &now, sizeof now, 0) != 0 || now.policy != SCHED_OTHER) return;
   nice_ = now.nice;
   Attributes realTime, shortTurns;
-  realTime.policy = SCHED_RR, realTime.priority = 1, realTime.flags = handedDown_ ? 0 : kResetOnFork;
-  shortTurns.nice = now.nice, shortTurns.runtime = kShortTurn;
+  realTime.policy = SCHED_RR;
+  realTime.priority = 1;
+  realTime.flags = handedDown_ ? 0 : kResetOnFork;
+  shortTurns.nice = now.nice;
+  shortTurns.runtime = kShortTurn;
   changed_ = set(realTime) || set(shortTurns);
 }
 
 ScopedRealtimePriority::~ScopedRealtimePriority() {
   if (!changed_) return;
   Attributes usual;
-  usual.nice = nice_, usual.flags = handedDown_ ? 0 : kResetOnFork;  // only root may undo it
+  usual.nice = nice_;
+  usual.flags = handedDown_ ? 0 : kResetOnFork;  // only root may undo it
   set(usual);
 }
 

@@ -26,7 +26,8 @@ void SettingTrials::beginRound() {
 
 void SettingTrials::measured(double framesPerSecond, double cpuMs) {
   Tried& tried = tried_[round_.front()];
-  tried.framesPerSecond.push_back(framesPerSecond), tried.cpuMs.push_back(cpuMs);
+  tried.framesPerSecond.push_back(framesPerSecond);
+  tried.cpuMs.push_back(cpuMs);
   goOn();
 }
 

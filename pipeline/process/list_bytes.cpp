@@ -38,7 +38,9 @@ std::size_t bytesOf(const std::vector<T>& values) {
 
 Head headOf(const DrawList& list, const ListNews& news) {
   Head h{};
-  h.frame = list.ticket.signature.frame, h.wall = list.wall, h.viewCount = list.viewCount;
+  h.frame = list.ticket.signature.frame;
+  h.wall = list.wall;
+  h.viewCount = list.viewCount;
   std::copy_n(list.origin.data(), 3, h.origin);
   for (std::size_t v = 0; v < list.views.size(); ++v) {
     std::copy_n(list.views[v].view.data(), 16, h.view[v]);
@@ -46,16 +48,23 @@ Head headOf(const DrawList& list, const ListNews& news) {
     h.eye[v] = list.views[v].eye;
   }
   h.sky = list.sky;
-  h.shadowLight = list.shadows.light, h.shadowAxes = list.shadows.axes;
-  h.lights = list.lights.size(), h.opaque = list.opaque.size(), h.transparent = list.transparent.size();
-  h.meshes = news.meshes.size(), h.gone = news.gone.size();
+  h.shadowLight = list.shadows.light;
+  h.shadowAxes = list.shadows.axes;
+  h.lights = list.lights.size();
+  h.opaque = list.opaque.size();
+  h.transparent = list.transparent.size();
+  h.meshes = news.meshes.size();
+  h.gone = news.gone.size();
   return h;
 }
 
 RingHead headOf(const DrawShadowRing& ring, bool stillIsNew) {
   RingHead h{};
-  h.offset = ring.offset, h.movingArea = ring.movingArea;
-  h.stillKey = ring.stillKey, h.movingKey = ring.movingKey, h.moving = ring.moving.size();
+  h.offset = ring.offset;
+  h.movingArea = ring.movingArea;
+  h.stillKey = ring.stillKey;
+  h.movingKey = ring.movingKey;
+  h.moving = ring.moving.size();
   h.still = stillIsNew && ring.still ? ring.still->size() : 0;
   h.stillIsNew = stillIsNew;
   return h;
@@ -84,7 +93,9 @@ private:
 };
 
 void fill(DrawList& list, const Head& h) {
-  list.ticket.signature.frame = h.frame, list.wall = h.wall, list.viewCount = h.viewCount;
+  list.ticket.signature.frame = h.frame;
+  list.wall = h.wall;
+  list.viewCount = h.viewCount;
   std::copy_n(h.origin, 3, list.origin.data());
   for (std::size_t v = 0; v < list.views.size(); ++v) {
     std::copy_n(h.view[v], 16, list.views[v].view.data());
@@ -92,12 +103,15 @@ void fill(DrawList& list, const Head& h) {
     list.views[v].eye = h.eye[v];
   }
   list.sky = h.sky;
-  list.shadows.light = h.shadowLight, list.shadows.axes = h.shadowAxes;
+  list.shadows.light = h.shadowLight;
+  list.shadows.axes = h.shadowAxes;
 }
 
 bool readRing(ValueReader& in, const RingHead& h, DrawShadowRing& ring) {
-  ring.offset = h.offset, ring.movingArea = h.movingArea;
-  ring.stillKey = h.stillKey, ring.movingKey = h.movingKey;
+  ring.offset = h.offset;
+  ring.movingArea = h.movingArea;
+  ring.stillKey = h.stillKey;
+  ring.movingKey = h.movingKey;
   if (!in.get(ring.moving, h.moving)) return false;
   if (!h.stillIsNew) return true;
   auto still = std::make_shared<std::vector<DrawItem>>();
@@ -120,13 +134,16 @@ std::size_t write(const DrawList& list, const ListNews& news, StillKeys& known, 
   }
   Writer out(to);
   out.put(head);
-  out.put(list.lights), out.put(list.opaque), out.put(list.transparent);
+  out.put(list.lights);
+  out.put(list.opaque);
+  out.put(list.transparent);
   for (std::size_t i = 0; shadows && i < kShadowRings; ++i) {
     const DrawShadowRing& ring = list.shadows.rings[i];
     out.put(ring.moving);
     if (head.rings[i].still > 0) out.put(*ring.still);
   }
-  out.put(news.meshes), out.put(news.gone);
+  out.put(news.meshes);
+  out.put(news.gone);
   return out.bytes();
 }
 

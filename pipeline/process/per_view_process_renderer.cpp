@@ -31,11 +31,17 @@ void takeSeen(const std::vector<DrawItem>& from, std::uint32_t view, std::vector
 
 /// What one view draws of the list.
 void takeView(const DrawList& from, std::uint32_t view, DrawList& to) {
-  to.ticket = from.ticket, to.wall = from.wall;
-  to.origin = from.origin, to.viewer = from.viewer;
-  to.views[0] = from.views[view], to.viewCount = std::min(from.viewCount, 1u);
-  to.sky = from.sky, to.lights = from.lights, to.shadows = from.shadows;
-  takeSeen(from.opaque, view, to.opaque), takeSeen(from.transparent, view, to.transparent);
+  to.ticket = from.ticket;
+  to.wall = from.wall;
+  to.origin = from.origin;
+  to.viewer = from.viewer;
+  to.views[0] = from.views[view];
+  to.viewCount = std::min(from.viewCount, 1u);
+  to.sky = from.sky;
+  to.lights = from.lights;
+  to.shadows = from.shadows;
+  takeSeen(from.opaque, view, to.opaque);
+  takeSeen(from.transparent, view, to.transparent);
 }
 
 /// A thread that does one thing after the other for one other thread, which goes on meanwhile.
@@ -76,7 +82,8 @@ private:
         thrown = std::current_exception();
       }
       lock.lock();
-      thrown_ = thrown, work_ = nullptr;
+      thrown_ = thrown;
+      work_ = nullptr;
       changed_.notify_all();
     }
   }
@@ -148,7 +155,9 @@ PerViewProcessRenderer::PerViewProcessRenderer(PerWallProcessParts parts,
     : processors_(processorsOfThisThread()), places_(processors_),
       bindsProcesses_(parts.rasteriserThreads == 0 && parts.processors.empty()) {
   PerWallProcessParts each = parts;
-  each.walls.clear(), each.names.clear(), each.processors.clear();
+  each.walls.clear();
+  each.names.clear();
+  each.processors.clear();
   for (std::size_t i = 0; i < parts.walls.size(); ++i) {
     auto wall = std::make_unique<Wall>();
     for (std::uint32_t view = 0; view < views[i]; ++view) {

@@ -135,8 +135,10 @@ bool PerWallProcessRenderer::hangs(Wall& wall) {
   const wall_process::ProcessStatus& status = wall.process.status();
   const auto now = Clock::now();
   if (now - wall.began > mostOf(wall)) return true;
-  if (status.state == 'R' || status.processorSeconds != wall.processor)
-    wall.processor = status.processorSeconds, wall.since = now;
+  if (status.state == 'R' || status.processorSeconds != wall.processor) {
+    wall.processor = status.processorSeconds;
+    wall.since = now;
+  }
   const bool live = !parts_.everyFrame && wall.process.state() != State::Opening;
   return now - wall.since > (status.state == 'T' ? kStopped : live ? kHangsLive : kHangs);
 }
@@ -273,7 +275,10 @@ DrawOutcome PerWallProcessRenderer::drawNewest(Wall& wall, const DrawList& list,
   if (wall.process.state() != State::Idle) return late();
   begin(wall, list, read);
   if (!awaitInTime(wall)) {
-    if (wall.process.state() == State::Down) died(wall, wall.process.end()), lookAfter(wall);
+    if (wall.process.state() == State::Down) {
+      died(wall, wall.process.end());
+      lookAfter(wall);
+    }
     return late();
   }
   if (Failure f = answered(wall)) return {std::move(f)};

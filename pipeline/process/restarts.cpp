@@ -6,7 +6,8 @@ namespace stadion::wall_process {
 
 Restarts::Death Restarts::died(Clock::time_point now) {
   if (drawn_ >= kSteady) deaths_ = 0;
-  drawn_ = 0, ++deaths_;
+  drawn_ = 0;
+  ++deaths_;
   constexpr std::size_t kMostDoublings = 10;
   const auto pause = kShortest * (1 << std::min(std::max<std::size_t>(deaths_, 2) - 2, kMostDoublings));
   next_ = deaths_ == 1 ? now : now + std::min<Milliseconds>(pause, kLongest);

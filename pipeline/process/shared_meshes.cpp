@@ -23,11 +23,13 @@ std::vector<std::uint8_t> encodeAll(const Mesh& mesh) {
   const std::vector<std::uint8_t> file = encode(mesh);
   std::vector<std::uint8_t> bytes;
   const std::uint64_t size = file.size(), levels = mesh.levels.size();
-  append(bytes, &size, 1), append(bytes, file.data(), file.size());
+  append(bytes, &size, 1);
+  append(bytes, file.data(), file.size());
   append(bytes, &levels, 1);
   for (const MeshLevel& level : mesh.levels) {
     const std::uint64_t counts[] = {level.indices.size(), level.submeshes.size()};
-    append(bytes, &level.error, 1), append(bytes, counts, 2);
+    append(bytes, &level.error, 1);
+    append(bytes, counts, 2);
     append(bytes, level.indices.data(), level.indices.size());
     append(bytes, level.submeshes.data(), level.submeshes.size());
   }
@@ -52,7 +54,8 @@ public:
   }
   bool get(std::span<const std::byte>& part, std::uint64_t bytes) {
     if (bytes > rest_.size()) return false;
-    part = rest_.first(bytes), rest_ = rest_.subspan(bytes);
+    part = rest_.first(bytes);
+    rest_ = rest_.subspan(bytes);
     return true;
   }
 

@@ -86,8 +86,11 @@ std::optional<std::string> WallProcess::start() {
   ++started_;
   state_ = State::Opening;
   OrderHead head;
-  head.width = setting_.width, head.height = setting_.height, head.renderer = setting_.renderer;
-  head.rasteriserThreads = setting_.rasteriserThreads, head.quality = setting_.quality;
+  head.width = setting_.width;
+  head.height = setting_.height;
+  head.renderer = setting_.renderer;
+  head.rasteriserThreads = setting_.rasteriserThreads;
+  head.quality = setting_.quality;
   head.processors = setting_.processors;
   const std::array<int, 3> segments{list_.descriptor(), sharedMeshes_.descriptor(), pictures_.descriptor()};
   order(head, segments);
@@ -112,12 +115,15 @@ void WallProcess::order(const OrderHead& head, std::span<const int> descriptors)
   OrderHead copy = head;
   iovec part{&copy, sizeof copy};
   msghdr message{};
-  message.msg_iov = &part, message.msg_iovlen = 1;
+  message.msg_iov = &part;
+  message.msg_iovlen = 1;
   alignas(cmsghdr) char control[CMSG_SPACE(3 * sizeof(int))] = {};
   if (!descriptors.empty()) {
-    message.msg_control = control, message.msg_controllen = sizeof control;
+    message.msg_control = control;
+    message.msg_controllen = sizeof control;
     cmsghdr* attached = CMSG_FIRSTHDR(&message);
-    attached->cmsg_level = SOL_SOCKET, attached->cmsg_type = SCM_RIGHTS;
+    attached->cmsg_level = SOL_SOCKET;
+    attached->cmsg_type = SCM_RIGHTS;
     attached->cmsg_len = CMSG_LEN(descriptors.size_bytes());
     std::memcpy(CMSG_DATA(attached), descriptors.data(), descriptors.size_bytes());
   }
@@ -141,7 +147,8 @@ void WallProcess::draw(const DrawList& list, OrderHead head) {
   const ListNews news = newsFor(list);
   pictures_.growTo(list.viewCount * pictureBytes(setting_));
   head.order = Order::Draw;
-  reads_ = head.read, holdsPictures_ = false;
+  reads_ = head.read;
+  holdsPictures_ = false;
   head.listBytes = write(list, news, known_, list_);
   state_ = State::Busy;
   order(head);
@@ -150,7 +157,8 @@ void WallProcess::draw(const DrawList& list, OrderHead head) {
 void WallProcess::readPictures() {
   OrderHead head;
   head.order = Order::Read;
-  reads_ = true, holdsPictures_ = false;
+  reads_ = true;
+  holdsPictures_ = false;
   state_ = State::Busy;
   order(head);
 }
@@ -163,7 +171,8 @@ ListNews WallProcess::newsFor(const DrawList& list) {
     for (const DrawItem& item : items)
       if (item.mesh != last) add(last = item.mesh, news);
   };
-  addAll(list.opaque), addAll(list.transparent);
+  addAll(list.opaque);
+  addAll(list.transparent);
   if (list.shadows.light < 0) return news;
   for (std::size_t i = 0; i < kShadowRings; ++i) {
     const DrawShadowRing& ring = list.shadows.rings[i];
@@ -217,8 +226,10 @@ bool WallProcess::receive(std::chrono::milliseconds atMost) {
   AnswerHead head;
   const bool whole = got >= static_cast<ssize_t>(sizeof head);
   if (whole) std::memcpy(&head, bytes, sizeof head);
-  if (!whole || head.magic != kMagic || head.textBytes != static_cast<std::size_t>(got) - sizeof head)
-    return isGone("said what makes no sense"), false;
+  if (!whole || head.magic != kMagic || head.textBytes != static_cast<std::size_t>(got) - sizeof head) {
+    isGone("said what makes no sense");
+    return false;
+  }
   answer_ = head;
   holdsPictures_ = reads_ && !head.failed && head.to != Order::Open;
   text_.assign(bytes + sizeof head, head.textBytes);

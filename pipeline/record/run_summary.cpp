@@ -198,7 +198,10 @@ std::string eventsText(const RunSummary& s) {
   if (s.events.empty()) return {};
   std::map<std::pair<std::string, std::string>, Again> again;
   for (const ShowEvent& h : s.events)
-    if (!h.metres) ++again[{h.event, h.node}].times, again[{h.event, h.node}].last = h.seconds;
+    if (!h.metres) {
+      ++again[{h.event, h.node}].times;
+      again[{h.event, h.node}].last = h.seconds;
+    }
   std::string text = "\nwhat happened\n";
   std::size_t lines = 0, told = 0;
   for (const ShowEvent& h : s.events) {

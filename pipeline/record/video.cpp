@@ -191,7 +191,8 @@ private:
     while (left > 0) {
       const ssize_t wrote = write(toEncoder_.get(), bytes, left);
       if (wrote > 0) {
-        bytes += wrote, left -= static_cast<std::size_t>(wrote);
+        bytes += wrote;
+        left -= static_cast<std::size_t>(wrote);
         deadline = std::chrono::steady_clock::now() + options_.patience;
       } else if (wrote < 0 && errno == EAGAIN) {
         if (abandoned_) return false;

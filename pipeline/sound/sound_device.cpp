@@ -64,7 +64,10 @@ public:
   }
   ~OpenAlDevice() override {
     while (!buffers_.empty()) stop(buffers_.begin()->first);
-    if (context_) al_.makeCurrent(nullptr), al_.destroyContext(context_);
+    if (context_) {
+      al_.makeCurrent(nullptr);
+      al_.destroyContext(context_);
+    }
     if (device_) al_.closeDevice(device_);
   }
   OpenAlDevice(const OpenAlDevice&) = delete;

@@ -63,7 +63,8 @@ void SoundPlayer::work() {
     if (ending_) break;
     std::swap(scape, next_);
     const SoundMix mix = nextMix_;
-    fresh_ = false, busy_ = true;
+    fresh_ = false;
+    busy_ = true;
     lock.unlock();
     try {
       follow(scape, mix);

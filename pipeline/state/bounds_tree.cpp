@@ -87,7 +87,10 @@ void putBoxes(float* floats, const BoundsLayout& layout, std::uint32_t level, st
     const Box box = level == 1 ? boxOfSpheres(from + node * BoundsLayout::kSphereFloats, lanes)
                                : boxOfBoxes(from + node * BoundsLayout::kBoxFloats, lanes);
     float* to = floats + layout.at[level] + node / kWide * BoundsLayout::kBoxFloats + node % kWide;
-    for (std::size_t k = 0; k < 3; ++k) to[k * kWide] = box.lo[k], to[(3 + k) * kWide] = box.hi[k];
+    for (std::size_t k = 0; k < 3; ++k) {
+      to[k * kWide] = box.lo[k];
+      to[(3 + k) * kWide] = box.hi[k];
+    }
   }
 }
 

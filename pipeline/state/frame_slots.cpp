@@ -109,7 +109,8 @@ bool FrameSlots::release(const Lease& lease) {
 void FrameSlots::limitInFlight(std::size_t frames, std::size_t wallsLeft) {
   const std::lock_guard lock(mutex_);
   if (mostInFlight_ == frames && wallsLeft_ == wallsLeft) return;  // the case in nearly every frame
-  mostInFlight_ = frames, wallsLeft_ = wallsLeft;
+  mostInFlight_ = frames;
+  wallsLeft_ = wallsLeft;
   changed_.notify_all();
 }
 

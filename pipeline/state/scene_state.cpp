@@ -216,7 +216,8 @@ std::size_t SceneState::publish(std::size_t slot, const ChangeSet& changes) {
 }
 
 void SceneState::begin(std::size_t slot) {
-  writing_ = slot, taken_ = 0;
+  writing_ = slot;
+  taken_ = 0;
   if (guard_) guard_->open(slot % memory_.size());
   // Odd during writing, also after a frame that was begun and abandoned.
   std::atomic<std::uint64_t>& writes = header(slot).writes;
@@ -270,8 +271,12 @@ std::size_t SceneState::finish(const ChangeSet& changes) {
 SlotView SceneState::view(std::size_t slot) const {
   const Header& h = header(slot);
   SlotView v;
-  v.writes = &h.writes, v.written = h.writes.load(std::memory_order_acquire);
-  v.signature = &h.signature, v.viewer = &h.viewer, v.sky = &h.sky, v.shadows = &h.shadows;
+  v.writes = &h.writes;
+  v.written = h.writes.load(std::memory_order_acquire);
+  v.signature = &h.signature;
+  v.viewer = &h.viewer;
+  v.sky = &h.sky;
+  v.shadows = &h.shadows;
   v.lights = {h.lights, h.lightCount};
   v.instances = {instances(slot), h.instanceCount};
   v.stamps = {stamps(slot), (h.instanceCount + kInstancesAStamp - 1) / kInstancesAStamp};

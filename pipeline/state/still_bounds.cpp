@@ -37,8 +37,10 @@ std::size_t splitOf(Items items) {
   std::array<float, 4> lo = items[0].at, hi = lo;
   double radii = 0;
   for (const Item& item : items) {
-    for (std::size_t k = 0; k < 4; ++k)
-      lo[k] = std::min(lo[k], item.at[k]), hi[k] = std::max(hi[k], item.at[k]);
+    for (std::size_t k = 0; k < 4; ++k) {
+      lo[k] = std::min(lo[k], item.at[k]);
+      hi[k] = std::max(hi[k], item.at[k]);
+    }
     radii += double{item.at[3]};
   }
   std::size_t widest = 0;

@@ -16,7 +16,10 @@ HangWatch::HangWatch(const SharedProgress& progress, Nanoseconds after, Clock cl
 std::optional<Nanoseconds> HangWatch::hangs() {
   const Nanoseconds now = clock_();
   const SharedProgress::Phase phase = progress_.phase();
-  if (now - looked_ > kAsleep || phase != phase_) since_ = now, phase_ = phase;
+  if (now - looked_ > kAsleep || phase != phase_) {
+    since_ = now;
+    phase_ = phase;
+  }
   looked_ = now;
   // The first picture waits for drivers and for uploads.
   const bool plays = phase == SharedProgress::Phase::Playing && shows();

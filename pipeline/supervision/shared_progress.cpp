@@ -107,7 +107,8 @@ int SharedProgress::keep(Kept kept, std::span<const std::uint8_t> scene) {
     const ssize_t written = pwrite(file_.get(), left.data(), left.size(), at);
     if (written < 0 && errno == EINTR) continue;
     if (written <= 0) return written < 0 ? errno : ENOSPC;
-    left = left.subspan(static_cast<std::size_t>(written)), at += written;
+    left = left.subspan(static_cast<std::size_t>(written));
+    at += written;
   }
   kept.bytes = scene.size();
   page_->kept.next() = kept;
@@ -170,7 +171,8 @@ std::vector<std::uint8_t> SharedProgress::scene() const {
     const ssize_t n = pread(file_.get(), bytes.data() + got, bytes.size() - got, at);
     if (n < 0 && errno == EINTR) continue;
     if (n <= 0) return {};
-    got += static_cast<std::size_t>(n), at += n;
+    got += static_cast<std::size_t>(n);
+    at += n;
   }
   return bytes;
 }

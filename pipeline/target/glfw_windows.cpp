@@ -120,7 +120,7 @@ public:
       glfw_.GetMonitorPos(all[i], &place.x, &place.y);
       const GLFWvidmode* mode = glfw_.GetVideoMode(all[i]);
       if (!mode) continue;
-      place.width = static_cast<std::uint32_t>(mode->width),
+      place.width = static_cast<std::uint32_t>(mode->width);
       place.height = static_cast<std::uint32_t>(mode->height);
       places_.push_back(place);
     }
@@ -172,14 +172,18 @@ public:
     glfw_.SetKeyCallback(handle_, [](GLFWwindow* w, int key, int, int action, int mods) {
       if (action == GLFW_REPEAT) return;
       WindowEvent e;
-      e.kind = WindowEvent::Kind::Key, e.key = keyOf(key), e.down = action == GLFW_PRESS;
+      e.kind = WindowEvent::Kind::Key;
+      e.key = keyOf(key);
+      e.down = action == GLFW_PRESS;
       e.shift = mods & GLFW_MOD_SHIFT;
       note(w, e);
     });
     glfw_.SetMouseButtonCallback(handle_, [](GLFWwindow* w, int button, int action, int mods) {
       WindowEvent e;
-      e.kind = WindowEvent::Kind::Button, e.button = static_cast<std::uint32_t>(button);
-      e.down = action == GLFW_PRESS, e.shift = mods & GLFW_MOD_SHIFT;
+      e.kind = WindowEvent::Kind::Button;
+      e.button = static_cast<std::uint32_t>(button);
+      e.down = action == GLFW_PRESS;
+      e.shift = mods & GLFW_MOD_SHIFT;
       note(w, e);
     });
     glfw_.SetCursorPosCallback(
@@ -233,7 +237,9 @@ public:
 private:
   static WindowEvent at(WindowEvent::Kind kind, double x, double y) {
     WindowEvent e;
-    e.kind = kind, e.x = x, e.y = y;
+    e.kind = kind;
+    e.x = x;
+    e.y = y;
     return e;
   }
   static void note(GLFWwindow* window, const WindowEvent& event) {

@@ -116,7 +116,8 @@ public:
     release();
     const int memory = shmget(IPC_PRIVATE, wholeSharedPages(bytes), IPC_CREAT | 0600);
     if (memory < 0) return false;
-    segment_.memory = memory, segment_.readOnly = 1;
+    segment_.memory = memory;
+    segment_.readOnly = 1;
     void* const address = shmat(memory, nullptr, 0);
     const bool shared = address != reinterpret_cast<void*>(-1) && attach(static_cast<char*>(address));
     shmctl(memory, IPC_RMID, nullptr);  // it goes with the last one that has it
@@ -142,7 +143,10 @@ private:
   }
   void release() {
     if (!segment_.address) return;
-    if (!xConnectionLost()) x_.XShmDetach(server_, &segment_), x_.XSync(server_, 0);
+    if (!xConnectionLost()) {
+      x_.XShmDetach(server_, &segment_);
+      x_.XSync(server_, 0);
+    }
     shmdt(segment_.address);
     segment_ = {};
     bytes_ = 0;
@@ -187,8 +191,11 @@ struct XPixels::X {
     picture.format = kWholePixels;
     picture.byteOrder = picture.bitmapOrder = format.lowFirst ? 0 : 1;
     picture.bitmapUnit = picture.pad = 32;
-    picture.depth = depth, picture.bits = static_cast<int>(format.bits);
-    picture.red = format.red, picture.green = format.green, picture.blue = format.blue;
+    picture.depth = depth;
+    picture.bits = static_cast<int>(format.bits);
+    picture.red = format.red;
+    picture.green = format.green;
+    picture.blue = format.blue;
   }
   ~X() {
     if (context && !xConnectionLost()) lib.XFreeGC(server, context);
@@ -197,7 +204,8 @@ struct XPixels::X {
   /// Memory for the pixels as the server wants them.
   void layOut(std::uint32_t width, std::uint32_t height) {
     const std::size_t perLine = (std::size_t{width} * static_cast<std::uint32_t>(picture.bits) + 31) / 32 * 4;
-    picture.width = static_cast<int>(width), picture.height = static_cast<int>(height);
+    picture.width = static_cast<int>(width);
+    picture.height = static_cast<int>(height);
     picture.bytesPerLine = static_cast<int>(perLine);
     const std::size_t bytes = perLine * height;
     sharing = sharing && shared.reserve(bytes);

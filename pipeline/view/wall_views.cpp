@@ -52,7 +52,8 @@ PlacedViews place(const ViewerRecord& viewer, const WallViews& wall, const EyeCh
   placed.depth = wall.depth;
   placed.X_WR = viewer.rig();
   if (camera) {
-    placed.count = 1, placed.views[0] = {&camera->screen, camera->eye, Eye::Left};
+    placed.count = 1;
+    placed.views[0] = {&camera->screen, camera->eye, Eye::Left};
     placed.origin = placed.X_WR * camera->eye;
     return placed;
   }

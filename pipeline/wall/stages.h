@@ -54,7 +54,10 @@ public:
   virtual void app(const TimeSignature& now, std::size_t slot) = 0;
   /// The show is paused after frame `now`: publishes the scene once more. A scene that was restored during
   /// the pause has not been published yet.
-  virtual void still(const TimeSignature& now, std::size_t slot) { (void)now, (void)slot; }
+  virtual void still(const TimeSignature& now, std::size_t slot) {
+    (void)now;
+    (void)slot;
+  }
   /// Returns true if this frame is needed; else it is neither culled nor drawn. Asked after app().
   virtual bool wantsDrawn(const FrameTicket&) const { return true; }
   /// Fills `list` with what wall `wall` shows of the frame in `slot`, in all its views.
@@ -71,13 +74,20 @@ public:
   }
 
   /// Just before draw(): a newer head may take the place of the list's.
-  virtual void latch(std::size_t wall, DrawList& list) { (void)wall, (void)list; }
+  virtual void latch(std::size_t wall, DrawList& list) {
+    (void)wall;
+    (void)list;
+  }
 
   virtual Failure openWall(std::size_t wall) = 0;
   /// Compiles the shaders and uploads the meshes that lists such as this one need. Nothing of it is shown or
   /// counted, and no state of the show changes. Called once, before the wall's first draw(), with that list,
   /// which is complete.
-  virtual Failure warmUp(std::size_t wall, const DrawList& list) { return (void)wall, (void)list, Failure(); }
+  virtual Failure warmUp(std::size_t wall, const DrawList& list) {
+    (void)wall;
+    (void)list;
+    return Failure();
+  }
   /// Cull may still be filling the list (ListFilling).
   virtual Failure draw(std::size_t wall, const DrawList& list) = 0;
   virtual void closeWall(std::size_t wall) = 0;

@@ -32,7 +32,9 @@ Failure WallContexts::open(std::size_t wall, GlProvider& provider, const MeshSto
   auto renderer = GlRenderer::create(c.target->gl(), c.target->turns(), meshes, width, height, quality);
   if (!renderer) return Reason(renderer.error());
   c.renderer = std::move(renderer.value());
-  c.width = width, c.height = height, c.quality = quality;
+  c.width = width;
+  c.height = height;
+  c.quality = quality;
   return {};
 }
 

@@ -98,8 +98,10 @@ void DegradationGovernor::caughtUp() {
     const std::lock_guard lock(mutex_);
     for (const std::uint64_t frame : appEndedBefore_) judgeNodes(frame);
     for (const std::uint64_t frame : shownBefore_) judgeFrame(frame);
-    appEndedBefore_.swap(appEnded_), shownBefore_.swap(shown_);
-    appEnded_.clear(), shown_.clear();
+    appEndedBefore_.swap(appEnded_);
+    shownBefore_.swap(shown_);
+    appEnded_.clear();
+    shown_.clear();
     lines.swap(lines_);
   }
   // Messages go out without the lock, so no thread waits for a terminal.
@@ -117,9 +119,16 @@ void DegradationGovernor::judgeNodes(std::uint64_t frame) {
     BudgetReport& r = g.report;
     const double ms = costs[i].cost.total();
     r.drawMeasured = costs[i].drawKnown || !r.drawCounted;
-    if (r.drawMeasured) ++r.frames, g.sum += ms, r.mean = g.sum / static_cast<double>(r.frames);
-    if (r.drawMeasured && ms > r.worst)
-      r.worst = ms, r.worstFrame = frame, r.worstStage = stageText(costs[i]);
+    if (r.drawMeasured) {
+      ++r.frames;
+      g.sum += ms;
+      r.mean = g.sum / static_cast<double>(r.frames);
+    }
+    if (r.drawMeasured && ms > r.worst) {
+      r.worst = ms;
+      r.worstFrame = frame;
+      r.worstStage = stageText(costs[i]);
+    }
     if (r.budget > 0 && costs[i].sure.total() > r.budget) noteOverrun(g, frame, costs[i]);
     const bool acts = options_.acts && r.levels > 0 && r.budget > 0 && costs[i].known;
     if (acts) g.policy.take(frame, costs[i].sure);
@@ -128,7 +137,8 @@ void DegradationGovernor::judgeNodes(std::uint64_t frame) {
 }
 
 void DegradationGovernor::noteOverrun(Governed& g, std::uint64_t frame, const NodeCost& cost) {
-  ++g.report.overruns, ++g.untold;
+  ++g.report.overruns;
+  ++g.untold;
   const bool muchWorse = cost.sure.total() > kMuchWorse * g.toldMs;
   if (now_ - g.toldAt < kToldApart && !muchWorse) return;
   const std::string others =
@@ -136,7 +146,9 @@ void DegradationGovernor::noteOverrun(Governed& g, std::uint64_t frame, const No
   lines_.push_back(fmt::format("over budget: {} took {:.3g} ms of {:g} in frame {}, most of it {}{}",
                                titleOf(g.subject.node), cost.sure.total(), g.report.budget, frame,
                                stageText(cost), others));
-  g.toldAt = now_, g.toldMs = cost.sure.total(), g.untold = 0;
+  g.toldAt = now_;
+  g.toldMs = cost.sure.total();
+  g.untold = 0;
 }
 
 std::string DegradationGovernor::stageText(const NodeCost& cost) const {
@@ -228,13 +240,20 @@ bool DegradationGovernor::see(const Scene& scene) {
       continue;
     }
     Governed g{n, policyOf(n.terms, options_.rate), 0, 0, {}};
-    g.report.budget = n.terms.budget, g.report.levels = levelsOf(n.terms.gives);
+    g.report.budget = n.terms.budget;
+    g.report.levels = levelsOf(n.terms.gives);
     g.report.drawCounted = !(n.drawn && options_.drawnElsewhere);
-    if (const auto name = names_.find(n.node))
-      g.report.name = name->path, g.report.file = name->file, g.report.line = name->line;
+    if (const auto name = names_.find(n.node)) {
+      g.report.name = name->path;
+      g.report.file = name->file;
+      g.report.line = name->line;
+    }
     governed_.push_back(std::move(g));
   }
-  for (Governed& g : known) g.report.now = 0, addTo(gone_, g.report);
+  for (Governed& g : known) {
+    g.report.now = 0;
+    addTo(gone_, g.report);
+  }
   byPriority_.clear();
   for (std::size_t i = 0; i < governed_.size(); ++i)
     if (governed_[i].report.levels > 0) byPriority_.push_back(i);
@@ -310,7 +329,9 @@ FrameDecisions DegradationGovernor::decide(std::uint64_t frame) {
                             is = degradationAt(g.subject.terms.gives, wanted);
       if (was.hidden != is.hidden || was.lod != is.lod) costs_.drawnOtherwise(i, frame, is.hidden);
       BudgetReport& r = g.report;
-      ++r.changes, r.highest = std::max(r.highest, wanted), r.now = wanted;
+      ++r.changes;
+      r.highest = std::max(r.highest, wanted);
+      r.now = wanted;
       tellChange(g, before, frame);
     }
     g.policy.applied(frame);
@@ -323,7 +344,8 @@ FrameDecisions DegradationGovernor::decide(std::uint64_t frame) {
 /// Reports when stress begins and when it can do no more, each as rarely as a node's overruns.
 void DegradationGovernor::applyStress(std::uint64_t frame) {
   const std::uint32_t before = std::exchange(stressApplied_, stress_.level());
-  stressFrom_ = frame, ++stressChanges_;
+  stressFrom_ = frame;
+  ++stressChanges_;
   highestStress_ = std::max(highestStress_, stressApplied_);
   const bool most = stressApplied_ == stress_.most();
   if (stressApplied_ == 0 || (before > 0 && !most)) return;
@@ -354,13 +376,19 @@ void DegradationGovernor::addTo(Reports& all, const BudgetReport& r) {
   if (first) return;
   BudgetReport sum = r;
   const BudgetReport& before = at->second;
-  sum.frames += before.frames, sum.overruns += before.overruns, sum.changes += before.changes;
+  sum.frames += before.frames;
+  sum.overruns += before.overruns;
+  sum.changes += before.changes;
   if (sum.frames > 0)
     sum.mean += (before.mean - r.mean) * static_cast<double>(before.frames) / static_cast<double>(sum.frames);
-  if (before.worst > r.worst)
-    sum.worst = before.worst, sum.worstFrame = before.worstFrame, sum.worstStage = before.worstStage;
+  if (before.worst > r.worst) {
+    sum.worst = before.worst;
+    sum.worstFrame = before.worstFrame;
+    sum.worstStage = before.worstStage;
+  }
   sum.drawMeasured = r.drawMeasured || before.drawMeasured;
-  sum.highest = std::max(sum.highest, before.highest), sum.now = std::max(sum.now, before.now);
+  sum.highest = std::max(sum.highest, before.highest);
+  sum.now = std::max(sum.now, before.now);
   at->second = std::move(sum);
 }
 

@@ -50,17 +50,24 @@ void DegradationPolicy::applied(std::uint64_t frame) {
   const LevelSavings &from = levels_[level_], &to = levels_[wanted_];
   mean_.app = from.app > 0 ? mean_.app * to.app / from.app : 0;
   mean_.drawn = from.drawn > 0 ? mean_.drawn * to.drawn / from.drawn : 0;
-  level_ = wanted_, since_ = frame;
-  seen_ = 0, calm_ = 0;
+  level_ = wanted_;
+  since_ = frame;
+  seen_ = 0;
+  calm_ = 0;
   strikes_.fill(0);
 }
 
 void DegradationPolicy::relay(std::vector<LevelSavings> levels, const std::vector<std::uint32_t>& becomes) {
   std::vector<std::optional<double>> known(levels.size()), settled(levels.size());
-  for (std::size_t l = 0; l < becomes.size(); ++l)
-    known.at(becomes[l]) = known_[l], settled.at(becomes[l]) = settled_[l];
-  levels_ = std::move(levels), known_ = std::move(known), settled_ = std::move(settled);
-  level_ = becomes.at(level_), wanted_ = becomes.at(wanted_);
+  for (std::size_t l = 0; l < becomes.size(); ++l) {
+    known.at(becomes[l]) = known_[l];
+    settled.at(becomes[l]) = settled_[l];
+  }
+  levels_ = std::move(levels);
+  known_ = std::move(known);
+  settled_ = std::move(settled);
+  level_ = becomes.at(level_);
+  wanted_ = becomes.at(wanted_);
 }
 
 void DegradationPolicy::note(const BudgetedCost& cost) {
@@ -136,7 +143,10 @@ std::uint64_t DegradationPolicy::waitFor() const {
 }
 
 void DegradationPolicy::takeBack(std::uint64_t frame) {
-  if (trying_ && frame - since_ >= kTrial * options_.patience) failures_ /= 2, trying_ = false;
+  if (trying_ && frame - since_ >= kTrial * options_.patience) {
+    failures_ /= 2;
+    trying_ = false;
+  }
   if (level_ == 0 || calm_ < waitFor()) return;
   wanted_ = level_ - 1;
 }

@@ -79,12 +79,18 @@ void NodeCosts::govern(std::vector<GovernedNode> nodes, std::map<NodeRef, std::v
       if (place[i]) moved[*place[i]] = costs[i];
     costs = std::move(moved);
   }
-  samples_ = std::move(samples), drawn_ = std::move(drawn);
-  nodes_ = std::move(nodes), above_ = std::move(above), sky_ = sky;
+  samples_ = std::move(samples);
+  drawn_ = std::move(drawn);
+  nodes_ = std::move(nodes);
+  above_ = std::move(above);
+  sky_ = sky;
 }
 
 void NodeCosts::drawnOtherwise(std::size_t governed, std::uint64_t frame, bool hidden) {
-  if (governed < drawn_.size()) drawn_[governed].since = frame, drawn_[governed].hidden = hidden;
+  if (governed < drawn_.size()) {
+    drawn_[governed].since = frame;
+    drawn_[governed].hidden = hidden;
+  }
 }
 
 void NodeCosts::take(const SpanRecord& r) {
@@ -162,7 +168,8 @@ std::vector<NodeCost> NodeCosts::of(std::uint64_t frame) const {
     const auto& [governed, isDraw, wall] = stage;
     if (ms <= most[governed]) continue;
     most[governed] = ms;
-    costs[governed].dearest = isDraw ? Span::Draw : Span::Cull, costs[governed].wall = wall;
+    costs[governed].dearest = isDraw ? Span::Draw : Span::Cull;
+    costs[governed].wall = wall;
   }
   return costs;
 }

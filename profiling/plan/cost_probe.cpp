@@ -59,7 +59,8 @@ CostProbe::Moment CostProbe::Moment::now() {
 
 void CostProbe::began(Span what, std::uint64_t frame, std::uint32_t wall) {
   if (!isStage(what)) return;
-  frame_ = frame, wall_ = wall;
+  frame_ = frame;
+  wall_ = wall;
   picturesEnd_.clear();
   began_ = Moment::now();
 }
@@ -93,11 +94,20 @@ void CostProbe::endStage(Span what, const Moment& now) {
   cost.walls.resize(walls_);
   const double own = now.own - began_.own;
   const double others = std::max(0.0, now.process - began_.process - own);
-  if (what == Span::App) cost.app = own, cost.appHelpers = others;
-  if (what == Span::Swap) cost.swap = own, seen.swapped = true;
+  if (what == Span::App) {
+    cost.app = own;
+    cost.appHelpers = others;
+  }
+  if (what == Span::Swap) {
+    cost.swap = own;
+    seen.swapped = true;
+  }
   if (wall_ >= walls_) return;
   if (what == Span::Cull) cost.walls[wall_].cull = own;
-  if (what == Span::Draw) endDraw(cost.walls[wall_], now), ++seen.drawn;
+  if (what == Span::Draw) {
+    endDraw(cost.walls[wall_], now);
+    ++seen.drawn;
+  }
 }
 
 /// Work after the last picture is counted with it.
@@ -106,7 +116,8 @@ void CostProbe::endDraw(WallCost& wall, const Moment& now) {
     return std::max(0.0, to.process - from.process - (to.own - from.own));
   };
   if (picturesEnd_.empty()) picturesEnd_.push_back(now);
-  inTurn_ += othersSince(began_, picturesEnd_.back()), rastered_ += othersSince(began_, now);
+  inTurn_ += othersSince(began_, picturesEnd_.back());
+  rastered_ += othersSince(began_, now);
   picturesEnd_.back() = now;
   Moment from = began_;
   for (const Moment& end : picturesEnd_) {

@@ -70,7 +70,8 @@ ShowCosts costsOf(const Json& whole) {
   const Json& j = whole.is_object() && whole.contains("costs") ? whole.at("costs") : whole;
   if (member(j, "format") != kCostsFormat) throw Wrong{fmt::format("its format is not \"{}\"", kCostsFormat)};
   ShowCosts costs;
-  costs.show = member(j, "show").get<std::string>(), costs.size = member(j, "size").get<std::string>();
+  costs.show = member(j, "show").get<std::string>();
+  costs.size = member(j, "size").get<std::string>();
   costs.look = j.value("look", costs.look);
   if (costs.look != "full" && costs.look != "plain")
     throw Wrong{fmt::format("\"look\" is \"{}\", neither full nor plain", costs.look)};

@@ -26,9 +26,13 @@ struct Window {
 Window windowOf(const Schedule& s) {
   Window w;
   w.last = s.shown.size();
-  if (w.last > kFilling + kEmptying + 1) w.first = kFilling, w.last -= kEmptying;
+  if (w.last > kFilling + kEmptying + 1) {
+    w.first = kFilling;
+    w.last -= kEmptying;
+  }
   if (w.first >= w.last) return w;
-  w.begin = s.shown[w.first].shown, w.end = s.shown[w.last - 1].shown;
+  w.begin = s.shown[w.first].shown;
+  w.end = s.shown[w.last - 1].shown;
   return w;
 }
 
@@ -86,7 +90,8 @@ Forecast forecastOf(const Schedule& schedule, const Plan& plan) {
     latencies.push_back(schedule.shown[i].shown - schedule.shown[i].began);
   }
   if (w.end > w.begin) f.perSecond = 1000 * static_cast<double>(w.last - w.first - 1) / (w.end - w.begin);
-  f.period = medianForecast(std::move(periods)), f.latency = medianForecast(std::move(latencies));
+  f.period = medianForecast(std::move(periods));
+  f.latency = medianForecast(std::move(latencies));
   f.uses = usesOf(schedule, w, plan);
   f.bottleneck = bottleneckOf(f.uses);
   return f;
@@ -100,7 +105,8 @@ std::vector<Remedy> remediesFor(const std::vector<FrameCost>& costs, const Plan&
   // The rasteriser has a thread for each core, and keeps the same part of them busy.
   const auto withCores = [&](double factor) {
     Plan p = plan;
-    p.machine.cores *= factor, p.machine.rasterThreads *= factor;
+    p.machine.cores *= factor;
+    p.machine.rasterThreads *= factor;
     return p;
   };
   for (const double factor : {2.0, 4.0})
@@ -109,13 +115,16 @@ std::vector<Remedy> remediesFor(const std::vector<FrameCost>& costs, const Plan&
   p.pipelined = !plan.pipelined;
   attempt(p.pipelined ? "pipelined" : "sequential", p);
   if (plan.walls > 1 && plan.machines == 1) {
-    p = plan, p.machines = 2;
+    p = plan;
+    p.machines = 2;
     attempt("two machines, half of the walls each", p);
   }
   if (plan.walls > 1 && plan.rasterisers == 1) {
-    p = plan, p.rasterisers = plan.walls;
+    p = plan;
+    p.rasterisers = plan.walls;
     attempt("a rasteriser for each wall (walls as processes)", p);
-    p = withCores(2), p.rasterisers = plan.walls;
+    p = withCores(2);
+    p.rasterisers = plan.walls;
     attempt(fmt::format("{:.0f} cores and a rasteriser for each wall", p.machine.cores), p);
   }
   std::ranges::stable_sort(remedies, std::greater(), [](const Remedy& r) { return r.then.perSecond; });

@@ -33,7 +33,8 @@ std::vector<TableRow> tableOf(const ShowCosts& costs, const Question& q) {
     for (const bool pipelined : {false, true}) {
       if (!(pipelined ? q.pipelined : q.sequential)) continue;
       Plan p = q.plan;
-      p.walls = walls, p.pipelined = pipelined;
+      p.walls = walls;
+      p.pipelined = pipelined;
       rows.push_back({p, forecastOf(scheduleOf(costs.frames, p), p)});
     }
   }
@@ -46,7 +47,9 @@ FrameCost meanOf(const ShowCosts& costs) {
   mean.walls.resize(costs.walls.size());
   const double part = 1 / static_cast<double>(costs.frames.size());
   for (const FrameCost& f : costs.frames) {
-    mean.app += part * f.app, mean.appHelpers += part * f.appHelpers, mean.swap += part * f.swap;
+    mean.app += part * f.app;
+    mean.appHelpers += part * f.appHelpers;
+    mean.swap += part * f.swap;
     for (std::size_t w = 0; w < f.walls.size(); ++w) {
       mean.walls[w].cull += part * f.walls[w].cull;
       mean.walls[w].pictures.resize(1, {0, 0, 0});  // all eyes together; here atOnce is a duration
@@ -168,11 +171,13 @@ std::string reportText(const ShowCosts& costs, const Question& q) {
 std::string reportJson(const ShowCosts& costs, const Question& q) {
   Json j{{"plan", planJson(q.plan)},
          {"forecast", forecastJson(forecastOf(scheduleOf(costs.frames, q.plan), q.plan))}};
-  j["table"] = Json::array(), j["remedies"] = Json::array();
+  j["table"] = Json::array();
+  j["remedies"] = Json::array();
   for (const TableRow& row : tableOf(costs, q)) {
     Json entry = forecastJson(row.forecast);
     entry.erase("uses");
-    entry["walls"] = row.plan.walls, entry["mode"] = modeOf(row.plan);
+    entry["walls"] = row.plan.walls;
+    entry["mode"] = modeOf(row.plan);
     j["table"].push_back(std::move(entry));
   }
   for (const Remedy& r : remediesFor(costs.frames, q.plan)) {

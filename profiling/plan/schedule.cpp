@@ -205,7 +205,8 @@ private:
         co_await simulation_.compute(machineOf(wall), costOf(ticket.frame).swap);
         note(row, Activity::Swap, ticket.frame, begin);
         out_.shown.push_back({ticket.frame, ticket.began, simulation_.now()});
-        arrived_ = 0, ++rounds_;
+        arrived_ = 0;
+        ++rounds_;
         std::ranges::fill(arrivedOf_, 0);
       } else {
         co_await simulation_.until([this, round] { return rounds_ != round; });
@@ -276,7 +277,8 @@ private:
         co_await simulation_.compute(machine, costOf(frame).swap);
         note(machine, Activity::Swap, frame, begin);
         out_.shown.push_back({frame, began, simulation_.now()});
-        arrived_ = 0, ++rounds_;
+        arrived_ = 0;
+        ++rounds_;
       } else {
         co_await simulation_.until([this, round] { return rounds_ != round; });
         note(machine, Activity::ForWalls, frame, begin);

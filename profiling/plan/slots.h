@@ -44,7 +44,8 @@ public:
     if (serial < chosen_.size()) return chosen_[serial];
     const std::size_t slot = next();
     if (slot == slots_.size()) return std::nullopt;
-    slots_[slot].state = State::Leased, slots_[slot].unread = readers_;
+    slots_[slot].state = State::Leased;
+    slots_[slot].unread = readers_;
     for (Slot& other : slots_)
       if (other.state == State::Published && other.written < slots_[slot].written) other.state = State::Free;
     chosen_.push_back({slot, slots_[slot].ticket});

@@ -36,7 +36,8 @@ namespace {
 /// As the standard requires: calls the handler until there is memory, or until it throws.
 template <class Take>
 void* allocate(std::size_t bytes, const Take& take) {
-  ++soFar.count, soFar.bytes += bytes;
+  ++soFar.count;
+  soFar.bytes += bytes;
   ofAll.fetch_add(1, std::memory_order_relaxed);
   for (;;) {
     if (void* memory = take()) return memory;

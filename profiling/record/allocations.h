@@ -16,7 +16,8 @@ struct Allocations {
 
   Allocations operator-(const Allocations& then) const { return {count - then.count, bytes - then.bytes}; }
   Allocations& operator+=(const Allocations& more) {
-    count += more.count, bytes += more.bytes;
+    count += more.count;
+    bytes += more.bytes;
     return *this;
   }
 };

@@ -118,7 +118,8 @@ struct BlackBox::Ring {
     for (std::size_t wall = 0; wall < walls; ++wall) {
       const bool known = wall < facts.walls;
       const StageFacts none, &cull = known ? facts.cull[wall] : none, &draw = known ? facts.draw[wall] : none;
-      add(&cull, sizeof cull), add(&draw, sizeof draw);
+      add(&cull, sizeof cull);
+      add(&draw, sizeof draw);
     }
     ++written;
   }
@@ -130,8 +131,10 @@ struct BlackBox::Ring {
     };
     FrameFacts facts(walls);
     take(static_cast<FrameRecord*>(&facts), sizeof(FrameRecord));
-    for (std::size_t wall = 0; wall < walls; ++wall)
-      take(&facts.cull[wall], sizeof(StageFacts)), take(&facts.draw[wall], sizeof(StageFacts));
+    for (std::size_t wall = 0; wall < walls; ++wall) {
+      take(&facts.cull[wall], sizeof(StageFacts));
+      take(&facts.draw[wall], sizeof(StageFacts));
+    }
     return facts;
   }
 };
@@ -210,7 +213,8 @@ BlackBox::BlackBox(BlackBoxOptions options, const NodeNames& names, Place place)
 void BlackBox::keep(FrameFacts facts) {
   if (const auto over = options_.overrun ? options_.overrun(facts.frame) : std::nullopt) {
     copyText(over->name, facts.over);
-    facts.overMs = static_cast<float>(over->ms), facts.overBudget = static_cast<float>(over->budget);
+    facts.overMs = static_cast<float>(over->ms);
+    facts.overBudget = static_cast<float>(over->budget);
   }
   ring_->put(facts);
   if (facts.cause == Cause::None) return;

@@ -24,7 +24,9 @@ public:
     bins_[binOf(ms)] += static_cast<std::uint32_t>(times);
   }
   void add(const CostSeries& other) {
-    sum_ += other.sum_, count_ += other.count_, most_ = std::max(most_, other.most_);
+    sum_ += other.sum_;
+    count_ += other.count_;
+    most_ = std::max(most_, other.most_);
     for (std::size_t i = 0; i < bins_.size(); ++i) bins_[i] += other.bins_[i];
   }
   double sum() const { return sum_; }

@@ -145,7 +145,8 @@ void judge(FrameFacts& f) {
   if (f.budget <= 0 || f.period <= kLate * f.budget) return;
   const std::vector<Suspect> stages = suspectsOf(f);
   const Suspect s = longest(f, stages);
-  f.stage = s.stage, f.wall = s.wall;
+  f.stage = s.stage;
+  f.wall = s.wall;
   f.holder = dearestDraw(f, f.wall);
   // Each stage may be short, and all together long.
   const bool tookLong = std::max(s.all(), sumOf(stages)) >= 0.5f * f.budget;
@@ -154,7 +155,9 @@ void judge(FrameFacts& f) {
   } else if (f.sampled == 0) {
     const auto waits = waitsOf(f);
     const Wait& wait = *std::ranges::max_element(waits, {}, &Wait::ms);
-    f.stage = wait.stage, f.wall = wait.wall, f.waited = wait.ms;
+    f.stage = wait.stage;
+    f.wall = wait.wall;
+    f.waited = wait.ms;
     f.cause = causeOf(wait, f);
   }
 }

@@ -71,8 +71,10 @@ void FrameJudge::take(std::size_t track, const SpanRecord& r) {
 }
 
 void FrameJudge::takeApp(Open& open, const SpanRecord& r, const StageFacts& stage, const Pending& before) {
-  open.facts.app = stage, open.app = r.began;
-  open.facts.tick = before.tick, open.facts.slot = before.slot;
+  open.facts.app = stage;
+  open.app = r.began;
+  open.facts.tick = before.tick;
+  open.facts.slot = before.slot;
   if (lastApp_ != ProfileClock::time_point{}) open.facts.sinceApp = milliseconds(r.began - lastApp_);
   lastApp_ = r.began;
 }
@@ -80,7 +82,8 @@ void FrameJudge::takeApp(Open& open, const SpanRecord& r, const StageFacts& stag
 void FrameJudge::takeNode(FrameFacts& facts, const SpanRecord& r) {
   if (r.took <= static_cast<double>(facts.nodeMs)) return;
   facts.nodeMs = static_cast<float>(r.took);
-  facts.node[0] = r.node.load, facts.node[1] = r.node.position;
+  facts.node[0] = r.node.load;
+  facts.node[1] = r.node.position;
 }
 
 void FrameJudge::take(const CountRecord& c) {
@@ -119,10 +122,14 @@ void FrameJudge::takePassedOver(Open& open) const {
     if (number >= open.facts.frame) return;
     const FrameFacts& f = passed.facts;
     if (held(f) <= held(open.facts)) continue;
-    open.app = passed.app, open.facts.appFrame = number;
-    open.facts.app = f.app, open.facts.tick = f.tick, open.facts.slot = f.slot;
+    open.app = passed.app;
+    open.facts.appFrame = number;
+    open.facts.app = f.app;
+    open.facts.tick = f.tick;
+    open.facts.slot = f.slot;
     open.facts.sinceApp = f.sinceApp;
-    open.facts.nodeMs = f.nodeMs, std::ranges::copy(f.node, open.facts.node);
+    open.facts.nodeMs = f.nodeMs;
+    std::ranges::copy(f.node, open.facts.node);
   }
 }
 
@@ -132,14 +139,18 @@ void FrameJudge::place(Open& open, const SpanRecord& swap) {
     if (began != ProfileClock::time_point{}) stage.at = milliseconds(began - lastShown_);
   };
   FrameFacts& f = open.facts;
-  placed(f.app, open.app), placed(f.swap, swap.began);
-  for (std::uint32_t wall = 0; wall < f.walls; ++wall)
-    placed(f.cull[wall], open.cull[wall]), placed(f.draw[wall], open.draw[wall]);
+  placed(f.app, open.app);
+  placed(f.swap, swap.began);
+  for (std::uint32_t wall = 0; wall < f.walls; ++wall) {
+    placed(f.cull[wall], open.cull[wall]);
+    placed(f.draw[wall], open.draw[wall]);
+  }
 }
 
 void FrameJudge::show(const SpanRecord& swap, const StageFacts& stage) {
   Open& open = frame(swap.frame);
-  open.facts.swap = stage, open.facts.sampled = swap.frame < sampledUntil_;
+  open.facts.swap = stage;
+  open.facts.sampled = swap.frame < sampledUntil_;
   takePassedOver(open);
   if (lastShown_ != ProfileClock::time_point{}) place(open, swap);
   FrameFacts facts = std::move(open.facts);

@@ -59,7 +59,8 @@ void FrameLog::measureOverhead() {
       const SpanScope span(&probe, Span::Simulate, NodeRef{1, 0});
     }
     probe.ended(Span::App);
-    inside.push_back(0), outside.push_back(0);
+    inside.push_back(0);
+    outside.push_back(0);
     for (SpanRecord r; track().spans().take(r);)
       (r.what == Span::App ? outside : inside).back() += r.own * 1e6 / kSpansARound;
     track().takeCount();
@@ -77,7 +78,8 @@ void FrameLog::measureOverhead() {
   // A thread that comes later gets a track that includes the measurement.
   tracks_.clear();
   number_ = nextNumber();
-  appFrame_ = kNoFrame, nextWhole_ = 0;
+  appFrame_ = kNoFrame;
+  nextWhole_ = 0;
 }
 
 /// Measures empty visits, in a frame that is not recorded as a whole.
@@ -300,7 +302,10 @@ std::optional<std::size_t> firstEnded(const std::vector<SpanTrack*>& tracks) {
   ProfileClock::time_point ended;
   for (std::size_t i = 0; i < tracks.size(); ++i) {
     const SpanRecord* next = tracks[i]->spans().next();
-    if (next && (!first || next->ended < ended)) first = i, ended = next->ended;
+    if (next && (!first || next->ended < ended)) {
+      first = i;
+      ended = next->ended;
+    }
   }
   return first;
 }
@@ -321,7 +326,8 @@ void FrameLog::collect() {
   {
     const std::lock_guard lock(mutex_);
     for (const auto& t : tracks_) tracks.push_back(t.get());
-    shared.swap(shared_), alone.swap(alone_);
+    shared.swap(shared_);
+    alone.swap(alone_);
   }
   SpanRecord record;
   while (const auto first = firstEnded(tracks))

@@ -27,12 +27,14 @@ void NodeNames::see(const Scene& scene) {
 
 NodeNames::File NodeNames::read(const Scene& scene, const LoadedScene& load) {
   File file;
-  file.name = load.file, file.owner = load.owner;
+  file.name = load.file;
+  file.owner = load.owner;
   file.nodes.resize(load.nodes.size());
   for (const auto& [name, position] : load.names) file.nodes[position].path = name;
   for (std::uint32_t i = 0; i < file.nodes.size(); ++i) {
     NodeName& n = file.nodes[i];
-    n.file = load.file, n.line = load.lines[i];
+    n.file = load.file;
+    n.line = load.lines[i];
     if (load.nodes[i]) n.type = load.nodes[i]->type().name;
     n.parent = scene.tree().parentOf({load.number, i});
     if (const auto terms = load.terms.find(i); terms != load.terms.end()) n.budget = terms->second.budget;

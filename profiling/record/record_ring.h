@@ -68,7 +68,10 @@ private:
   const Record* at(std::size_t number) const { return const_cast<RecordRing*>(this)->at(number); }
 
   /// Places are constructed one after the other.
-  void make() { std::construct_at(reinterpret_cast<Record*>(memory_.get()) + made_), ++made_; }
+  void make() {
+    std::construct_at(reinterpret_cast<Record*>(memory_.get()) + made_);
+    ++made_;
+  }
 
   std::size_t capacity_, made_ = 0;
   std::unique_ptr<std::byte[]> memory_;

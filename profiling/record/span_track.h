@@ -87,9 +87,16 @@ public:
       return;
     }
     Open& open = open_[depth_++];
-    open.what = what, open.frame = frame, open.wall = wall, open.node = node;
-    open.within = 0, open.spans = 0;
-    if (isStage(what)) open.use = ThreadUse::now(), delayed(open);
+    open.what = what;
+    open.frame = frame;
+    open.wall = wall;
+    open.node = node;
+    open.within = 0;
+    open.spans = 0;
+    if (isStage(what)) {
+      open.use = ThreadUse::now();
+      delayed(open);
+    }
     open.allocations = allocationsSoFar();
     open.began = ProfileClock::now();
   }
@@ -99,18 +106,29 @@ public:
     const Open& open = open_[depth_];
     const double recording = overhead_.inside + open.spans * (overhead_.inside + overhead_.outside);
     const double took = std::max(0.0, nanoseconds(now - open.began) - recording);
-    if (depth_ > 0) open_[depth_ - 1].within += took, open_[depth_ - 1].spans += open.spans + 1;
+    if (depth_ > 0) {
+      open_[depth_ - 1].within += took;
+      open_[depth_ - 1].spans += open.spans + 1;
+    }
     last_[static_cast<std::size_t>(open.what)] = took;
     SpanRecord* next = spans_.claim();
     if (!next) return;
     SpanRecord& r = *next;
-    r.began = open.began, r.ended = now, r.frame = open.frame, r.wall = open.wall, r.node = open.node;
-    r.what = open.what, r.depth = static_cast<std::uint8_t>(depth_), r.whole = whole_;
-    r.allocations = allocationsSoFar() - open.allocations, r.disturbed = disturbed_;
+    r.began = open.began;
+    r.ended = now;
+    r.frame = open.frame;
+    r.wall = open.wall;
+    r.node = open.node;
+    r.what = open.what;
+    r.depth = static_cast<std::uint8_t>(depth_);
+    r.whole = whole_;
+    r.allocations = allocationsSoFar() - open.allocations;
+    r.disturbed = disturbed_;
     disturbed_ = disturbed_ && depth_ > 0;
     r.use = isStage(open.what) ? ThreadUse::now().since(open.use) : ThreadUse{};
     if (isStage(open.what)) delayed(open, r.use);
-    r.took = 1e-6 * took, r.own = 1e-6 * std::max(0.0, took - open.within);
+    r.took = 1e-6 * took;
+    r.own = 1e-6 * std::max(0.0, took - open.within);
     spans_.push();
   }
   /// Marks the spans under way: the probe allocates in them.
@@ -134,8 +152,13 @@ public:
     SpanRecord* r = spans_.claim();
     if (!r) return 0;
     *r = {};
-    r->began = now - took, r->ended = now, r->frame = frame, r->node = light_.node, r->what = Span::Simulate;
-    r->depth = static_cast<std::uint8_t>(depth_), r->whole = false;
+    r->began = now - took;
+    r->ended = now;
+    r->frame = frame;
+    r->node = light_.node;
+    r->what = Span::Simulate;
+    r->depth = static_cast<std::uint8_t>(depth_);
+    r->whole = false;
     r->took = r->own = 1e-6 * nanoseconds(took);
     spans_.push();
     return 0;

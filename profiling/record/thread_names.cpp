@@ -27,8 +27,10 @@ std::vector<ThreadNames::Thread> ThreadNames::threads() const {
       placed.push_back({1000 + *seen.cull, {track, "Cull " + wallName(*seen.cull)}});
     else if (seen.draw)
       placed.push_back({2000 + *seen.draw, {track, "Draw " + wallName(*seen.draw)}});
-    else
-      ++helpers, placed.push_back({helpers, {track, "App helper " + std::to_string(helpers)}});
+    else {
+      ++helpers;
+      placed.push_back({helpers, {track, "App helper " + std::to_string(helpers)}});
+    }
   std::ranges::stable_sort(placed, {}, [](const auto& p) { return p.first; });
   std::vector<Thread> threads;
   for (auto& [place, thread] : placed) threads.push_back(std::move(thread));

@@ -93,7 +93,10 @@ Json jsonOf(const BaselineCase& c) {
   if (!c.times.empty()) j["times"] = c.times;
   for (const auto& [stage, clocks] : c.frames)
     for (const auto& [clock, kept] : clocks) j["frames"][stage][clock] = jsonOf(kept);
-  if (!c.instructions.empty()) j["instructions"] = c.instructions, j["counted_by"] = c.countedBy;
+  if (!c.instructions.empty()) {
+    j["instructions"] = c.instructions;
+    j["counted_by"] = c.countedBy;
+  }
   if (!c.nodeTimes.empty()) j["node_times"] = c.nodeTimes;
   if (!c.nodeInstructions.empty()) j["node_instructions"] = c.nodeInstructions;
   return j;
@@ -133,10 +136,20 @@ void takeUp(const RunFacts& found, const Metrics& asked, const SuiteCase& played
   const auto [at, isNew] = baseline.try_emplace(name);
   BaselineCase& c = at->second;
   if (isNew || asked.state) c.facts.state = found.state;
-  if (isNew || asked.images) c.facts.images = found.images, c.facts.renderer = found.renderer;
+  if (isNew || asked.images) {
+    c.facts.images = found.images;
+    c.facts.renderer = found.renderer;
+  }
   if (isNew || asked.counts) c.facts.counts = found.counts;
-  if (asked.times && !played.metrics.times) c.times.clear(), c.frames.clear(), c.nodeTimes.clear();
-  if (asked.instructions && !played.metrics.instructions) c.instructions.clear(), c.nodeInstructions.clear();
+  if (asked.times && !played.metrics.times) {
+    c.times.clear();
+    c.frames.clear();
+    c.nodeTimes.clear();
+  }
+  if (asked.instructions && !played.metrics.instructions) {
+    c.instructions.clear();
+    c.nodeInstructions.clear();
+  }
 }
 
 std::vector<std::string> othersThan(const Suite& suite, const Baseline& baseline) {

@@ -48,7 +48,9 @@ void addStage(const std::string& name, const std::vector<double>& rounds, std::v
     benchmarks.push_back(std::move(e));
   }
   Json middle = entry(name + "_median", rounds.size(), median(elapsed), median(rounds));
-  middle["run_name"] = name, middle["run_type"] = "aggregate", middle["aggregate_name"] = "median";
+  middle["run_name"] = name;
+  middle["run_type"] = "aggregate";
+  middle["aggregate_name"] = "median";
   middle["aggregate_unit"] = "time";
   benchmarks.push_back(std::move(middle));
 }
@@ -73,7 +75,10 @@ std::string benchmarkJsonOf(const SuiteResult& result) {
          {"warnings", Json::array()}};
   for (const CaseResult& c : result.cases) {
     Json whole = entry(c.name, 1, 1000 * c.seconds, 1000 * c.processorSeconds);
-    if (!c.fault.empty()) whole["error_occurred"] = true, whole["error_message"] = c.fault;
+    if (!c.fault.empty()) {
+      whole["error_occurred"] = true;
+      whole["error_message"] = c.fault;
+    }
     for (const auto& [name, value] : c.facts) {
       // Counters are numbers in this layout; hashes stay text.
       char* end = nullptr;

@@ -43,8 +43,10 @@ std::string testSuite(const std::string& suite, const CaseResult& c) {
 std::string junitOf(const SuiteResult& result) {
   std::size_t tests = 0;
   double seconds = 0;
-  for (const CaseResult& c : result.cases)
-    tests += c.checks.size() + (c.fault.empty() ? 0 : 1), seconds += c.seconds;
+  for (const CaseResult& c : result.cases) {
+    tests += c.checks.size() + (c.fault.empty() ? 0 : 1);
+    seconds += c.seconds;
+  }
   std::string text =
       fmt::format("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites name=\"{}\" "
                   "tests=\"{}\" failures=\"{}\" errors=\"{}\" time=\"{:.3f}\">\n",

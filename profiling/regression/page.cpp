@@ -64,11 +64,18 @@ constexpr double kLeastSpan = 0.06;
 std::string plot(const std::vector<Point>& points) {
   constexpr double kWidth = 340, kHeight = 110, kLeft = 60, kRight = 12, kTop = 10, kBottom = 20;
   double low = points.front().value, high = low;
-  for (const Point& p : points) low = std::min(low, p.value), high = std::max(high, p.value);
+  for (const Point& p : points) {
+    low = std::min(low, p.value);
+    high = std::max(high, p.value);
+  }
   const double middle = (low + high) / 2, least = middle == 0 ? 1 : kLeastSpan * std::abs(middle);
-  if (high - low < least) low = middle - least / 2, high = middle + least / 2;
+  if (high - low < least) {
+    low = middle - least / 2;
+    high = middle + least / 2;
+  }
   const double room = 0.08 * (high - low);
-  low -= room, high += room;
+  low -= room;
+  high += room;
   const double step =
       points.size() > 1 ? (kWidth - kLeft - kRight) / static_cast<double>(points.size() - 1) : 0;
   const auto x = [&](std::size_t i) { return kLeft + step * static_cast<double>(i); };

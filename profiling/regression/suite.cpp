@@ -57,7 +57,8 @@ private:
     const auto name = w ? in_.nameIn(*w, "a case") : std::nullopt;
     case_ = defaults_;
     case_.name = name.value_or("");
-    inCase_ = true, showGiven_ = false;
+    inCase_ = true;
+    showGiven_ = false;
     caseAt_ = in_.place(w ? *w : in_.keyword());
     in_.beginSection();
     if (!name) return;
@@ -127,8 +128,10 @@ private:
       if (!index) continue;
       if (given[*index])
         in_.error(in_.last(), fmt::format("\"{}\" is given twice; keep one of them", known[*index]));
-      else
-        given[*index] = true, take(*index);
+      else {
+        given[*index] = true;
+        take(*index);
+      }
     } while (in_.more());
   }
 

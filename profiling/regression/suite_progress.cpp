@@ -32,10 +32,13 @@ Json jsonOf(const CaseResult& r) {
 
 CaseResult resultOf(const Json& j) {
   CaseResult r;
-  j.at("name").get_to(r.name), j.at("seconds").get_to(r.seconds);
-  j.at("milliseconds").get_to(r.milliseconds), j.at("facts").get_to(r.facts);
+  j.at("name").get_to(r.name);
+  j.at("seconds").get_to(r.seconds);
+  j.at("milliseconds").get_to(r.milliseconds);
+  j.at("facts").get_to(r.facts);
   j.at("instructions").get_to(r.instructions);
-  j.at("processor_seconds").get_to(r.processorSeconds), j.at("elapsed_ms").get_to(r.elapsedMs);
+  j.at("processor_seconds").get_to(r.processorSeconds);
+  j.at("elapsed_ms").get_to(r.elapsedMs);
   j.at("frame_figures").get_to(r.frameFigures);
   j.at("warnings").get_to(r.warnings);
   for (const Json& c : j.at("checks"))

@@ -25,7 +25,8 @@ std::string tableOf(const SuiteResult& result) {
   std::size_t nameWidth = 4, metricWidth = 6;
   double seconds = 0;
   for (const CaseResult& c : result.cases) {
-    nameWidth = std::max(nameWidth, c.name.size()), seconds += c.seconds;
+    nameWidth = std::max(nameWidth, c.name.size());
+    seconds += c.seconds;
     for (const Check& k : c.checks) metricWidth = std::max(metricWidth, k.metric.size());
   }
   std::string text;

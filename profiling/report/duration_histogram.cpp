@@ -22,7 +22,9 @@ DurationHistogram durationHistogramOf(std::vector<float> ms) {
   if (ms.empty()) return d;
   std::ranges::sort(ms);
   d.mean = std::accumulate(ms.begin(), ms.end(), 0.0) / static_cast<double>(ms.size());
-  d.median = rank(ms, 50), d.p95 = rank(ms, 95), d.p99 = rank(ms, 99),
+  d.median = rank(ms, 50);
+  d.p95 = rank(ms, 95);
+  d.p99 = rank(ms, 99);
   d.most = static_cast<double>(ms.back());
   const double least = static_cast<double>(ms.front());
   const double room = std::max(d.p99 - least, 1e-6);

@@ -6,7 +6,9 @@ namespace stadion {
 
 void FrameSeries::add(const FrameFacts& f) {
   FrameRow row;
-  row.frame = f.frame, row.period = f.period, row.app = f.app.ms;
+  row.frame = f.frame;
+  row.period = f.period;
+  row.app = f.app.ms;
   walls_ = f.cull.size();
   for (const StageFacts& stage : f.cull) stages_.push_back(stage.ms);
   for (const StageFacts& stage : f.draw) stages_.push_back(stage.ms);

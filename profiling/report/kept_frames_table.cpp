@@ -30,7 +30,8 @@ void KeptFrames::take(std::size_t number, const SpanRecord& r) {
   for (const SpanRecord& wait : track.waits) add(r.frame, number, wait);
   add(r.frame, number, r);
   for (const SpanRecord& part : track.parts) add(r.frame, number, part);
-  track.waits.clear(), track.parts.clear();
+  track.waits.clear();
+  track.parts.clear();
 }
 
 /// For spans of nodes, there is room only for the most expensive ones.
@@ -79,8 +80,10 @@ void KeptFrames::consider(const FrameFacts& f) {
   Stretch candidate{f.frame - kAfter, 0};
   double sum = 0, count = 0;
   for (const auto& [number, frame] : frames_)
-    if (candidate.covers(number) && frame.facts.period > 0 && !frame.sampled)
-      sum += static_cast<double>(frame.facts.period), ++count;
+    if (candidate.covers(number) && frame.facts.period > 0 && !frame.sampled) {
+      sum += static_cast<double>(frame.facts.period);
+      ++count;
+    }
   if (count < static_cast<double>(kBefore)) return;
   candidate.score = sum / count;
   candidates_.push_back(candidate);

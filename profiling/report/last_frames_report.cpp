@@ -24,8 +24,10 @@ struct SlowestStages {
 
 SlowestStages slowestOf(const FrameFacts& f) {
   SlowestStages s{f.app.ms, 0, 0};
-  for (std::uint32_t wall = 0; wall < f.walls; ++wall)
-    s.cull = std::max(s.cull, f.cull[wall].ms), s.draw = std::max(s.draw, f.draw[wall].ms);
+  for (std::uint32_t wall = 0; wall < f.walls; ++wall) {
+    s.cull = std::max(s.cull, f.cull[wall].ms);
+    s.draw = std::max(s.draw, f.draw[wall].ms);
+  }
   return s;
 }
 
@@ -70,8 +72,14 @@ Json frameJson(const FrameFacts& f, const std::vector<std::string>& walls) {
          {"late", f.cause != Cause::None},
          {"app", stageJson(f.app)},
          {"swap", stageJson(f.swap)}};
-  if (f.cause != Cause::None) j["cause"] = nameOf(f.cause), j["said"] = toText(f, walls);
-  if (f.name[0] != 0) j["dearest_node"] = f.name, j["dearest_node_ms"] = shortMs(f.nodeMs);
+  if (f.cause != Cause::None) {
+    j["cause"] = nameOf(f.cause);
+    j["said"] = toText(f, walls);
+  }
+  if (f.name[0] != 0) {
+    j["dearest_node"] = f.name;
+    j["dearest_node_ms"] = shortMs(f.nodeMs);
+  }
   j["walls"] = Json::array();
   for (std::uint32_t wall = 0; wall < f.walls; ++wall)
     j["walls"].push_back({{"cull", stageJson(f.cull[wall])}, {"draw", stageJson(f.draw[wall])}});
@@ -150,7 +158,8 @@ std::string lastFramesText(const BlackBox::Content& content) {
 
 std::string lastFramesJson(const BlackBox::Content& content, const std::string& file) {
   Json j{{"format", "stadion last frames 1"}, {"file", file}, {"walls", content.walls}};
-  j["causes"] = Json::object(), j["frames"] = Json::array();
+  j["causes"] = Json::object();
+  j["frames"] = Json::array();
   for (const auto& [cause, count] : causesOf(content)) j["causes"][causeName(cause)] = count;
   for (const FrameFacts& f : content.frames) j["frames"].push_back(frameJson(f, content.walls));
   return j.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n";

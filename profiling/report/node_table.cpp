@@ -4,13 +4,20 @@ namespace stadion {
 namespace {
 
 void add(NodeRow& to, const NodeRow& row) {
-  to.receive += row.receive, to.simulate += row.simulate, to.dispatch += row.dispatch;
-  to.settle += row.settle, to.publish += row.publish, to.app += row.app, to.cull += row.cull,
-      to.draw += row.draw;
-  to.cullMeasured = to.cullMeasured && row.cullMeasured,
+  to.receive += row.receive;
+  to.simulate += row.simulate;
+  to.dispatch += row.dispatch;
+  to.settle += row.settle;
+  to.publish += row.publish;
+  to.app += row.app;
+  to.cull += row.cull;
+  to.draw += row.draw;
+  to.cullMeasured = to.cullMeasured && row.cullMeasured;
   to.drawMeasured = to.drawMeasured && row.drawMeasured;
   to.drawTooLittle = to.drawTooLittle || row.drawTooLittle;
-  to.total += row.total, to.share += row.share, to.visits += row.visits;
+  to.total += row.total;
+  to.share += row.share;
+  to.visits += row.visits;
   to.walls.resize(row.walls.size());
   for (std::size_t w = 0; w < row.walls.size(); ++w) {
     to.walls[w].cull += row.walls[w].cull;

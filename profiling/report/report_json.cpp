@@ -59,7 +59,8 @@ public:
                            {"count", e.count}});
     j["dynamics"] = data_.dynamics ? dynamics(*data_.dynamics) : json();
     j["nodes"] = nodes();  // last, because the other parts may add nodes
-    j["files"] = files_, j["kinds"] = kinds_;
+    j["files"] = files_;
+    j["kinds"] = kinds_;
     return j;
   }
 
@@ -124,7 +125,10 @@ private:
       for (std::size_t k = i; k < std::min(i + each, rows.size()); ++k) {
         const bool better = !worst || (worst->sampled && !rows[k].sampled) ||
                             (worst->sampled == rows[k].sampled && rows[k].period > worst->period);
-        if (better) worst = &rows[k], at = k;
+        if (better) {
+          worst = &rows[k];
+          at = k;
+        }
       }
       s["columns"].push_back({worst->frame, number(static_cast<double>(worst->period)),
                               worst->sampled ? 1 : 0, worst->cause == Cause::None ? 0 : 1,
@@ -248,7 +252,10 @@ private:
 
   static std::size_t placeIn(std::vector<std::string>& list, const std::string& text) {
     const auto at = std::ranges::find(list, text);
-    if (at == list.end()) return list.push_back(text), list.size() - 1;
+    if (at == list.end()) {
+      list.push_back(text);
+      return list.size() - 1;
+    }
     return static_cast<std::size_t>(at - list.begin());
   }
 

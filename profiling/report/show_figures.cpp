@@ -30,7 +30,8 @@ public:
     addCounts();
     explain();
     const double all = out_.app.measured + out_.cull.measured + out_.alone.measured;
-    out_.framesNeeded = framesNeeded(), out_.wholeFrames = profile.wholeFrames();
+    out_.framesNeeded = framesNeeded();
+    out_.wholeFrames = profile.wholeFrames();
     for (NodeRow& row : out_.nodes) row.share = all > 0 ? row.total / all : 0;
     std::ranges::sort(out_.nodes, [](const NodeRow& a, const NodeRow& b) {
       return a.total != b.total ? a.total > b.total : a.node < b.node;
@@ -79,13 +80,17 @@ private:
     row.node = ref;
     if (auto name = names_.find(ref)) row.name = std::move(*name);
     const double each = appScale_ / wholeFrames_;
-    row.receive = each * node.phases[0], row.simulate = each * node.phases[1];
-    row.dispatch = each * node.phases[2], row.settle = each * node.settle;
+    row.receive = each * node.phases[0];
+    row.simulate = each * node.phases[1];
+    row.dispatch = each * node.phases[2];
+    row.settle = each * node.settle;
     row.publish = shareOf(node.published, Span::Publish, kNoWall);
     row.app = row.receive + row.simulate + row.dispatch + row.settle + row.publish;
-    row.visitP95 = node.visit.percentile(95), row.visitMost = node.visit.most();
+    row.visitP95 = node.visit.percentile(95);
+    row.visitMost = node.visit.most();
     row.visits = static_cast<double>(node.visit.count()) / wholeFrames_;
-    row.drawingP95 = node.drawing.percentile(95), row.drawingMost = node.drawing.most();
+    row.drawingP95 = node.drawing.percentile(95);
+    row.drawingMost = node.drawing.most();
     row.drawings = node.drawing.count();
     row.allocations = static_cast<double>(node.allocations.count) / wholeFrames_;
     row.bytes = static_cast<double>(node.allocations.bytes) / wholeFrames_;
@@ -153,7 +158,8 @@ private:
   /// Adds costs that belong to no node of the script: trackers, and the eyes in front of the walls.
   void addVisitor() {
     NodeRow row;
-    row.name.path = "visitor", row.name.type = "rig";
+    row.name.path = "visitor";
+    row.name.type = "rig";
     row.receive = sum(Span::Input);
     const auto published = profile_.nodes().find(NodeRef{});
     if (published != profile_.nodes().end())
@@ -170,7 +176,8 @@ private:
 
   StageRow stageRow(Span stage, std::uint32_t wall) const {
     StageRow row;
-    row.stage = std::string(nameOf(stage)), row.wall = wallName(wall);
+    row.stage = std::string(nameOf(stage));
+    row.wall = wallName(wall);
     return row;
   }
 
@@ -181,7 +188,9 @@ private:
       StageRow row = stageRow(stageOf(what), wall);
       if (!isStage(what)) row.part = std::string(nameOf(what));
       row.ms = isStage(what) ? total.ms.sum() / frames_ : total.own / framesOf(what, wall);
-      row.p95 = total.ms.percentile(95), row.most = total.ms.most(), row.count = total.ms.count();
+      row.p95 = total.ms.percentile(95);
+      row.most = total.ms.most();
+      row.count = total.ms.count();
       row.wait = isWait(what);
       const double times = std::max(1.0, static_cast<double>(total.counted));
       row.allocations = static_cast<double>(total.allocations.count) / times;
@@ -192,8 +201,12 @@ private:
       const auto add = [&, wall = key.first, side = key.second](const std::string& part,
                                                                 const CostSeries& ms) {
         StageRow row = stageRow(Span::Draw, wall);
-        row.eye = side == 0 ? "left" : "right", row.part = part, row.alone = true;
-        row.ms = std::max(0.0, ms.mean()), row.p95 = ms.percentile(95), row.most = ms.most();
+        row.eye = side == 0 ? "left" : "right";
+        row.part = part;
+        row.alone = true;
+        row.ms = std::max(0.0, ms.mean());
+        row.p95 = ms.percentile(95);
+        row.most = ms.most();
         row.count = ms.count();
         out_.stages.push_back(std::move(row));
       };
@@ -214,7 +227,8 @@ private:
         row.of = name ? name->path : "a node";
       }
       row.what = std::string(nameOf(key.what));
-      row.mean = amount.sum() / frames_, row.most = amount.most();
+      row.mean = amount.sum() / frames_;
+      row.most = amount.most();
       out_.counts.push_back(std::move(row));
     }
   }
@@ -247,14 +261,18 @@ private:
     app.measured =
         appScale_ * profile_.wholeApp() / wholeFrames_ + helped - std::min(sum(Span::Workers), helped);
     double published = 0;
-    for (const NodeRow& row : out_.nodes) app.nodes += row.app, published += row.publish;
+    for (const NodeRow& row : out_.nodes) {
+      app.nodes += row.app;
+      published += row.publish;
+    }
     for (const Span s : {Span::Loading, Span::Mail, Span::Workers, Span::Sound, Span::Watching})
       app.named += sum(s);
     app.named += std::max(0.0, sum(Span::Publish) - published);
     app.named -= std::min(sum(Span::Workers), helped);
 
     StageBreakdown& cull = out_.cull;
-    cull.stage = "cull", cull.measured = sum(Span::Cull);
+    cull.stage = "cull";
+    cull.measured = sum(Span::Cull);
     for (const NodeRow& row : out_.nodes) cull.nodes += row.cull;
     // The parts without a node.
     for (const Span s : {Span::Test, Span::Fill, Span::ShadowCasts, Span::Sort})
@@ -262,7 +280,8 @@ private:
         if (profile_.shares(s, wall) == 0) cull.named += sum(s, wall);
 
     StageBreakdown& draw = out_.draw;
-    draw.stage = "draw", draw.measured = sum(Span::Draw);
+    draw.stage = "draw";
+    draw.measured = sum(Span::Draw);
     for (const Span s :
          {Span::Prepare, Span::Upload, Span::ShadowMaps, Span::Finish, Span::Read, Span::ForTurn})
       draw.named += sum(s);
@@ -273,7 +292,8 @@ private:
                    parts = partsOf(eye) * (factor == factors_.end() ? 1 : factor->second);
       const double whole = std::max(eye.whole.mean(), nodes + parts);
       const double took = sum(key.second == 0 ? Span::LeftEye : Span::RightEye, key.first);
-      draw.nodes += took * nodes / whole, draw.named += took * parts / whole;
+      draw.nodes += took * nodes / whole;
+      draw.named += took * parts / whole;
     }
   }
 
@@ -289,8 +309,10 @@ private:
     StageBreakdown& alone = out_.alone;
     alone.stage = "alone";
     for (const NodeRow& row : out_.nodes) alone.nodes += row.draw;
-    for (const auto& [key, eye] : profile_.eyes())
-      alone.measured += std::max(0.0, eye.whole.mean()), alone.named += partsOf(eye);
+    for (const auto& [key, eye] : profile_.eyes()) {
+      alone.measured += std::max(0.0, eye.whole.mean());
+      alone.named += partsOf(eye);
+    }
   }
   static double partsOf(const EyeCost& eye) {
     double sum = 0;

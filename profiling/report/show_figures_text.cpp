@@ -185,7 +185,8 @@ std::string toJson(const ShowFigures& f) {
   j["frames_needed"] = wouldDo ? nlohmann::json(f.framesNeeded) : nlohmann::json();
   j["whole_frames"] = f.wholeFrames;
   j["warm_up_ms"] = f.warmUpMs;
-  j["nodes"] = nlohmann::json::array(), j["stages"] = nlohmann::json::array();
+  j["nodes"] = nlohmann::json::array();
+  j["stages"] = nlohmann::json::array();
   for (const NodeRow& row : f.nodes) j["nodes"].push_back(toJson(row, f.walls));
   for (const StageRow& s : f.stages)
     j["stages"].push_back({{"stage", s.name()},

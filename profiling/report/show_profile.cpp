@@ -10,13 +10,19 @@ constexpr std::size_t kMostLoads = 256;
 
 void NodeWallCost::add(const NodeWallCost& other) {
   for (const auto& [what, count] : other.shares) shares[what] += count;
-  for (std::size_t eye = 0; eye < 2; ++eye) draw[eye] += other.draw[eye], drawn[eye] += other.drawn[eye];
+  for (std::size_t eye = 0; eye < 2; ++eye) {
+    draw[eye] += other.draw[eye];
+    drawn[eye] += other.drawn[eye];
+  }
 }
 
 void NodeProfile::add(const NodeProfile& other) {
   for (std::size_t i = 0; i < phases.size(); ++i) phases[i] += other.phases[i];
-  allocations += other.allocations, settle += other.settle, published += other.published;
-  visit.add(other.visit), drawing.add(other.drawing);
+  allocations += other.allocations;
+  settle += other.settle;
+  published += other.published;
+  visit.add(other.visit);
+  drawing.add(other.drawing);
   for (const auto& [wall, cost] : other.walls) walls[wall].add(cost);
 }
 
@@ -94,7 +100,10 @@ void ShowProfile::take(std::size_t track, const SpanRecord& r) {
 void ShowProfile::takePart(std::size_t track, const SpanRecord& r) {
   const bool partOfApp = r.what > Span::Swap && r.what <= Span::Watching;
   if (partOfApp && !r.whole) return;
-  if (r.what == Span::Receive) called_[track].push_back(r.node), visited_.push_back(r.node);
+  if (r.what == Span::Receive) {
+    called_[track].push_back(r.node);
+    visited_.push_back(r.node);
+  }
   if (r.what == Span::Mail) return takeMail(track, r);
   if (r.what == Span::App) shareRounds();
   add(r);
@@ -104,10 +113,16 @@ void ShowProfile::add(const SpanRecord& r) {
   SpanTotal& total = spans_[{r.what, r.wall}];
   total.ms.add(r.took);
   total.own += r.own;
-  if (!r.disturbed) total.allocations += r.allocations, ++total.counted;
+  if (!r.disturbed) {
+    total.allocations += r.allocations;
+    ++total.counted;
+  }
   if (r.what == Span::App) {
     ++frames_;
-    if (r.whole) ++wholeFrames_, wholeApp_ += r.took;
+    if (r.whole) {
+      ++wholeFrames_;
+      wholeApp_ += r.took;
+    }
   }
   if (r.node.valid()) addPhase(r.node, r);
   if (r.depth == 0 && isOfNode(r.what)) helped_ += r.took;
@@ -127,7 +142,8 @@ void ShowProfile::shareRounds() {
     for (const NodeRef ref : visited_) profileOf(ref).settle += r.own / static_cast<double>(visited_.size());
     if (visited_.empty()) add(r);
   }
-  rounds_.clear(), visited_.clear();
+  rounds_.clear();
+  visited_.clear();
 }
 
 void ShowProfile::addPhase(NodeRef told, const SpanRecord& r) {

@@ -37,11 +37,14 @@ void TraceFile::take(std::size_t number, const SpanRecord& r) {
     return;
   }
   threads_.see(number, r);
-  if (r.what == Span::App)
-    oldestFrame_ = std::min(oldestFrame_, r.frame), newestFrame_ = std::max(newestFrame_, r.frame);
+  if (r.what == Span::App) {
+    oldestFrame_ = std::min(oldestFrame_, r.frame);
+    newestFrame_ = std::max(newestFrame_, r.frame);
+  }
   if (cutFrom_ == kNoFrame && bytes_ + text_.size() > options_.mostBytes) cutFrom_ = newestFrame_ + 1;
   if (isAsked(r.frame)) write(number, r);
-  track.spans.clear(), track.waits.clear();
+  track.spans.clear();
+  track.waits.clear();
 }
 
 /// A counter keeps its value until the next one.

@@ -82,7 +82,8 @@ std::unique_ptr<RawTerminal> RawTerminal::take(int file) {
   savedTerminal.file = file;
   savedTerminal.raw = savedTerminal.before;
   savedTerminal.raw.c_lflag &= ~static_cast<tcflag_t>(ICANON | ECHO);
-  savedTerminal.raw.c_cc[VMIN] = 1, savedTerminal.raw.c_cc[VTIME] = 0;
+  savedTerminal.raw.c_cc[VMIN] = 1;
+  savedTerminal.raw.c_cc[VTIME] = 0;
   for (std::size_t i = 0; i < kEnding.size(); ++i) handle(kEnding[i], endBySignal, savedTerminal.actions[i]);
   handle(SIGTSTP, standStill, savedTerminal.stopAction);
   isTaken = true;

@@ -21,9 +21,10 @@ constexpr std::chrono::steady_clock::duration kOneRequest = std::chrono::millise
 extern "C" void requestStop(int signal) {
   const auto now = std::chrono::steady_clock::now().time_since_epoch().count();
   std::chrono::steady_clock::rep before = 0;
-  if (receivedAt.compare_exchange_strong(before, now))
-    received = signal, requested = true;
-  else if (now - before > kOneRequest.count()) {
+  if (receivedAt.compare_exchange_strong(before, now)) {
+    received = signal;
+    requested = true;
+  } else if (now - before > kOneRequest.count()) {
     giveTerminalBack();
     std::_Exit(128 + signal);
   }

@@ -47,11 +47,14 @@ std::string wholeContentOf(const FileDescriptor& file) {
 
 void ClusterNodes::add(std::string name, std::vector<std::string> words, std::unique_ptr<Journal> journal) {
   Node& node = nodes_.emplace_back();
-  node.name = std::move(name), node.words = std::move(words), node.journal = std::move(journal);
+  node.name = std::move(name);
+  node.words = std::move(words);
+  node.journal = std::move(journal);
 }
 
 void ClusterNodes::watchLead(std::unique_ptr<SharedProgress> progress, Nanoseconds after) {
-  progress_ = std::move(progress), hangsAfter_ = after;
+  progress_ = std::move(progress);
+  hangsAfter_ = after;
 }
 
 void ClusterNodes::sayOf(const Node& node, const std::string& what) {
@@ -61,9 +64,13 @@ void ClusterNodes::sayOf(const Node& node, const std::string& what) {
 }
 
 bool ClusterNodes::begin(Node& node) {
-  node.said = makeMemoryFile(), node.begun = Clock::now(), ++node.starts;
-  if (progress_ && &node == &nodes_[lead_])
-    progress_->enter(SharedProgress::Phase::Opening), watch_.emplace(*progress_, hangsAfter_);
+  node.said = makeMemoryFile();
+  node.begun = Clock::now();
+  ++node.starts;
+  if (progress_ && &node == &nodes_[lead_]) {
+    progress_->enter(SharedProgress::Phase::Opening);
+    watch_.emplace(*progress_, hangsAfter_);
+  }
   const bool well = !node.child.start(node.words, {-1, node.said.get(), 2});
   node.state = well ? State::Plays : State::Ended;
   if (well) return true;
@@ -104,7 +111,8 @@ void ClusterNodes::poll(Node& node) {
 
 void ClusterNodes::ended(Node& node, int status) {
   const bool over = once_ || *stop_ || leadIsGone();
-  node.state = State::Ended, node.status = status;
+  node.state = State::Ended;
+  node.status = status;
   if (isIncomplete(node)) {
     sayOf(node, "was not done when the show was over: what it has written may not be whole");
     node.status = node.died != 0 ? node.died : kRefused;
@@ -116,7 +124,8 @@ void ClusterNodes::ended(Node& node, int status) {
   const auto now = Clock::now();
   if (node.died == 0) node.died = status;
   if (status == kOtherFiles) {
-    node.state = State::Pauses, node.notBefore = now + kTryAgain;
+    node.state = State::Pauses;
+    node.notBefore = now + kTryAgain;
     const bool played = now - node.begun >= kPlayedLong;
     if (std::exchange(node.waitsForFiles, true) && !played) return;
     return sayOf(node, fmt::format("has other files than {}, and comes again until they are alike",
@@ -166,7 +175,10 @@ void ClusterNodes::endWithLead() {
 void ClusterNodes::ask(int signal) {
   if (!askedSince_) askedSince_ = Clock::now();
   for (Node& node : nodes_)
-    if (node.child.running()) kill(node.child.pid(), signal), node.asked = true;
+    if (node.child.running()) {
+      kill(node.child.pid(), signal);
+      node.asked = true;
+    }
 }
 
 /// A process that hangs in the system may outlive even that. It is not waited for.
@@ -178,7 +190,8 @@ void ClusterNodes::killHangingNodes() {
                             std::chrono::duration<double>(patience_).count()));
     node.child.kill();
     node.child.wait(std::chrono::seconds(1));
-    node.state = State::Ended, node.status = kStopped + SIGKILL;
+    node.state = State::Ended;
+    node.status = kStopped + SIGKILL;
   }
 }
 
@@ -203,8 +216,12 @@ void ClusterNodes::endLeadOfEndedShow() {
   if (std::ranges::none_of(nodes_, isDone)) return;
   if (std::ranges::any_of(nodes_, [&](const Node& n) { return isOther(n) && n.state != State::Ended; }))
     return;
-  if (lead.child.running()) lead.child.kill(), lead.child.wait(std::chrono::seconds(1));
-  lead.state = State::Ended, lead.status = lead.died;
+  if (lead.child.running()) {
+    lead.child.kill();
+    lead.child.wait(std::chrono::seconds(1));
+  }
+  lead.state = State::Ended;
+  lead.status = lead.died;
   sayOf(lead, "does not play again: the show is over");
 }
 

@@ -43,7 +43,8 @@ cluster::CompatibilityKey compatibilityKeyOf(const ShowOptions& show, StereoLayo
   cluster::CompatibilityKey key;
   key.script = hashOfFile(show.script);
   key.input = log.empty() ? 0 : hashOfFile(log);
-  key.cluster = cluster::hashOf(file), key.walls = hashOfFile(wallFileOf(file.walls));
+  key.cluster = cluster::hashOf(file);
+  key.walls = hashOfFile(wallFileOf(file.walls));
   key.pictures = fmt::format("--look {} --stereo {}{}{}", nameOf(show.look), stereoLayoutName(layout),
                              show.size.empty() ? "" : " --size ", show.size);
   constexpr std::size_t kMostPlugins = 250;  // bytes; with many plugins, a hash stands for them
@@ -96,7 +97,10 @@ void ClusterSession::report(const std::string& what) {
 bool ClusterSession::openLead(Diagnostics& findings) {
   cluster::LeaderOptions options{file_, compatibilityKeyOf(show_, layout_, file_), kPatience,
                                  [this](const std::string& what) { report(what); }, isGivenUp};
-  if (lead_) options.above = lead_->session(), options.expected = lead_->played();
+  if (lead_) {
+    options.above = lead_->session();
+    options.expected = lead_->played();
+  }
   lead_.reset();
   auto opened = cluster::ClusterLeader::open(std::move(options));
   if (!opened) {
@@ -112,7 +116,9 @@ bool ClusterSession::join(ShowOptions& show, Diagnostics& findings) {
   if (!openLead(findings)) return false;
   const auto underWay = lead_->takeOver();
   if (!underWay) return true;
-  show.state = underWay->state, after_ = underWay->last, goesOn_ = true;
+  show.state = underWay->state;
+  after_ = underWay->last;
+  goesOn_ = true;
   files_ = underWay->files;
   operator_.emplace();
   operator_->paused = underWay->still == Standstill::Paused;
@@ -135,12 +141,16 @@ bool ClusterSession::follow(ShowOptions& show, Diagnostics& findings) {
   }
   follower_ = std::move(opened.value());
   const auto joining = follower_->join();
-  over_ = !joining && follower_->isOver(), otherFiles_ = follower_->isRefused();
+  over_ = !joining && follower_->isOver();
+  otherFiles_ = follower_->isRefused();
   if (!joining) return false;  // it has told why, if there is a reason
-  show.rate = joining->rate, show.rateGiven = true;
-  show.state = joining->state, last_ = joining->after;
+  show.rate = joining->rate;
+  show.rateGiven = true;
+  show.state = joining->state;
+  last_ = joining->after;
   if (!joining->playsLog) show.input = "none";  // the leader sends what the input says
-  goesOn_ = show.state != nullptr, files_ = joining->files;
+  goesOn_ = show.state != nullptr;
+  files_ = joining->files;
   after_ = goesOn_ ? std::optional(joining->after) : std::nullopt;
   return true;
 }
@@ -159,7 +169,9 @@ bool ClusterSession::restartShow(const Diagnostics& found, Diagnostics& findings
   const auto why = std::ranges::find(found.all(), Severity::Error, &Diagnostic::severity);
   report("the scripts or models of the others' show differ from ours: the show restarts" +
          (why == found.all().end() ? "" : " (" + why->message + ")"));
-  after_.reset(), operator_.reset(), goesOn_ = false;
+  after_.reset();
+  operator_.reset();
+  goesOn_ = false;
   return openLead(findings);
 }
 
@@ -172,7 +184,8 @@ bool ClusterSession::begin(Player& player, const OperatorQueue& asked, const std
   }
   if (lead_->hasBegun()) {  // the next group's show
     if (!openLead(findings)) return false;
-    after_.reset(), goesOn_ = false;
+    after_.reset();
+    goesOn_ = false;
   }
   lead_->saveWith([this] { return saved(); });
   // Start counts once the operator knows which hosts the show waits for: before, it is meant for all.
@@ -222,7 +235,8 @@ void ClusterSession::plantDifference() {
   class OneBit final : public StateFields {
     void number(std::uint64_t& bits, Form form) override {
       if (done_ || form != Form::Real || name_ != "c" || bits == 0) return;
-      bits ^= 1, done_ = true;
+      bits ^= 1;
+      done_ = true;
     }
     void text(std::string&) override {}
     bool done_ = false;
@@ -245,13 +259,18 @@ void ClusterSession::finish(bool over) {
 ClusterSummary ClusterSession::summary() const {
   const cluster::ClusterStats t = lead_ ? lead_->stats() : follower_->stats();
   ClusterSummary s;
-  s.node = file_.nodes[node_].name, s.nodes = file_.nodes.size(), s.leads = leads();
+  s.node = file_.nodes[node_].name;
+  s.nodes = file_.nodes.size();
+  s.leads = leads();
   s.orders = t.orders;
   s.orderBytes = t.orders > 0 ? static_cast<double>(t.orderBytes) / static_cast<double>(t.orders) : 0;
   s.mostOrderBytes = t.mostOrderBytes;
   s.barrier = sampleStatisticsOf(t.barrier.values());
   s.stopped = t.stopped > 0;
-  s.joined = t.joined, s.leftOut = t.leftOut, s.compared = t.compared, s.differed = t.differed;
+  s.joined = t.joined;
+  s.leftOut = t.leftOut;
+  s.compared = t.compared;
+  s.differed = t.differed;
   return s;
 }
 

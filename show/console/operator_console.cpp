@@ -57,9 +57,10 @@ bool OperatorConsole::begin(const Player& player, Diagnostics& findings) {
   }
   keys_ = OperatorKeys::open(STDIN_FILENO, controls_->queue(), reporter_.hintFunction());
   const bool hasWindows = play.windows || play.display;
-  if (console.wait && !keys_ && !osc_ && !hasWindows)
-    return findings.error({}, "--wait: start could not be given: there is no terminal and no --osc PORT"),
-           false;
+  if (console.wait && !keys_ && !osc_ && !hasWindows) {
+    findings.error({}, "--wait: start could not be given: there is no terminal and no --osc PORT");
+    return false;
+  }
   if (keys_) reporter_.hint("operator: keys in this terminal, h shows them");
   return true;
 }

@@ -35,7 +35,8 @@ void DisplayRun::fitPictures(std::vector<WallViews>& walls) const {
   for (std::size_t i = 0; i < walls.size(); ++i) {
     if (!show_.size.empty() || walls_.walls[i].pixels.width > 0) continue;
     const auto [width, height] = displays_->pictureSize(i);
-    walls[i].width = width, walls[i].height = height;
+    walls[i].width = width;
+    walls[i].height = height;
   }
 }
 
@@ -67,9 +68,12 @@ FrameLoopOutcome DisplayRun::play(FrameLoop& loop, OperatorConsole& console) {
 HudFigures DisplayRun::figures(const TimeSignature& now, OperatorConsole& console) const {
   HudFigures f;
   f.show = std::filesystem::path(show_.script).filename().string();
-  f.seconds = toSeconds(now.time), f.rate = show_.rate;
-  f.speed = console.playback().speed(), f.paused = console.playback().paused();
-  f.budget = budget_.now(), f.dropped = unshown_;
+  f.seconds = toSeconds(now.time);
+  f.rate = show_.rate;
+  f.speed = console.playback().speed();
+  f.paused = console.playback().paused();
+  f.budget = budget_.now();
+  f.dropped = unshown_;
   return f;
 }
 

@@ -97,12 +97,16 @@ void ShowWindow::drawHalves(const std::vector<WindowPane>& panes, bool beside) {
   canvas_->begin();
   for (WindowPane pane : panes) {
     SheetPlace& p = pane.place;
-    if (beside)
-      p.x /= 2, p.width = std::max(1u, p.width / 2);
-    else
-      p.y /= 2, p.height = std::max(1u, p.height / 2);
+    if (beside) {
+      p.x /= 2;
+      p.width = std::max(1u, p.width / 2);
+    } else {
+      p.y /= 2;
+      p.height = std::max(1u, p.height / 2);
+    }
     drawPane(pane, EyeMix::Left);
-    p.x += right, p.y += down;
+    p.x += right;
+    p.y += down;
     drawPane(pane, EyeMix::Right);
   }
   const auto bottom = static_cast<std::int32_t>(height);

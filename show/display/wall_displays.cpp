@@ -13,12 +13,17 @@ WindowPlan planFor(const WallEntry& entry, std::uint32_t width, std::uint32_t he
   plan.height = entry.pixels.width > 0 ? entry.pixels.height : height;
   if (!entry.output) return plan;
   const OutputPlace& place = entry.output->place;
-  plan.monitor = place.monitor, plan.fullscreen = place.fullscreen, plan.refresh = place.refresh;
+  plan.monitor = place.monitor;
+  plan.fullscreen = place.fullscreen;
+  plan.refresh = place.refresh;
   plan.frame = !(place.rectangle || place.fullscreen);
   plan.pointer = plan.frame;
   if (place.rectangle) {
-    plan.placed = true, plan.x = place.rectangle->x, plan.y = place.rectangle->y;
-    plan.width = place.rectangle->width, plan.height = place.rectangle->height;
+    plan.placed = true;
+    plan.x = place.rectangle->x;
+    plan.y = place.rectangle->y;
+    plan.width = place.rectangle->width;
+    plan.height = place.rectangle->height;
   }
   return plan;
 }

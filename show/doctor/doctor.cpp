@@ -40,8 +40,18 @@ public:
   Examination(const DoctorProbes& probes, const DoctorNeeds& needs) : probes_(probes), needs_(needs) {}
 
   std::vector<DoctorFinding> findings() {
-    programs(), drawing(), gpu(), displays(), swapGroups(), sound(), video(), measuring(), realtime(),
-        network(), clock(), measurements();
+    programs();
+    drawing();
+    gpu();
+    displays();
+    swapGroups();
+    sound();
+    video();
+    measuring();
+    realtime();
+    network();
+    clock();
+    measurements();
     packages("tests", kTestPackages, "./stadion test skips tests, or installs the packages first");
     packages("peers", kPeerPackages, "bench dynamics and bench walls compare with no other engine",
              ", then in a checkout ./stadion setup peers, which builds");

@@ -41,7 +41,8 @@ std::unique_ptr<MachineNeeds> MachineNeeds::read(const std::vector<std::string>&
 
 DoctorNeeds MachineNeeds::needs() const {
   DoctorNeeds needs;
-  needs.topics = topics_, needs.interfaces = interfaces_;
+  needs.topics = topics_;
+  needs.interfaces = interfaces_;
   for (const WallFile& walls : walls_) needs.walls.push_back(&walls);
   return needs;
 }

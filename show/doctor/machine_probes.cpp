@@ -149,7 +149,8 @@ std::vector<NetworkPort> portsHere() {
   for (const ifaddrs* at = first; at; at = at->ifa_next) {
     NetworkPort& port = ports[at->ifa_name];
     port.name = at->ifa_name;
-    port.up = (at->ifa_flags & IFF_UP) != 0, port.loopback = (at->ifa_flags & IFF_LOOPBACK) != 0;
+    port.up = (at->ifa_flags & IFF_UP) != 0;
+    port.loopback = (at->ifa_flags & IFF_LOOPBACK) != 0;
     port.multicast = (at->ifa_flags & IFF_MULTICAST) != 0;
     if (!at->ifa_addr || at->ifa_addr->sa_family != AF_INET || !port.address.empty()) continue;
     sockaddr_in address{};
@@ -174,16 +175,21 @@ std::string firstLineOf(const std::string& path) {
 
 DoctorProbes probesOfThisMachine() {
   DoctorProbes probes;
-  probes.hasProgram = isInPath, probes.helper = helperPath;
+  probes.hasProgram = isInPath;
+  probes.helper = helperPath;
   probes.cpuRenderer = cpuRendererHere;
   probes.softwareGl = [] { return rendererOf(GlProviderKind::OsMesa); };
   probes.hardwareGl = [] { return rendererOf(GlProviderKind::Egl); };
-  probes.sound = soundName, probes.swapGroups = hasSwapGroups, probes.packages = installedPackages;
+  probes.sound = soundName;
+  probes.swapGroups = hasSwapGroups;
+  probes.packages = installedPackages;
   probes.monitors = [held = std::make_shared<HeldDisplay>()](const std::string& screen) {
     return monitorsOf(screen);
   };
   probes.windowPixels = windowPixels;
-  probes.realtime = mayBeRealtime, probes.network = portsHere, probes.file = firstLineOf;
+  probes.realtime = mayBeRealtime;
+  probes.network = portsHere;
+  probes.file = firstLineOf;
   probes.exists = [](const std::string& path) { return access(path.c_str(), F_OK) == 0; };
   probes.writable = [](const std::string& path) { return access(path.c_str(), W_OK) == 0; };
   return probes;

@@ -24,7 +24,10 @@ public:
 
   void frameShown() {
     ++frames_;
-    if (frames_ == kWarmFrames) begin_ = Clock::now(), processorBegin_ = processorSeconds();
+    if (frames_ == kWarmFrames) {
+      begin_ = Clock::now();
+      processorBegin_ = processorSeconds();
+    }
     if (frames_ < kWarmFrames + kLeast || enough_) return;
     const double took = std::chrono::duration<double>(Clock::now() - begin_).count();
     if (took < seconds_) return;
@@ -48,9 +51,12 @@ private:
 
 ShowOptions showOf(const CalibrationRun& run) {
   ShowOptions show;
-  show.script = calibrationScript(run.folder), show.walls = run.walls, show.size = run.size,
+  show.script = calibrationScript(run.folder);
+  show.walls = run.walls;
+  show.size = run.size;
   show.look = run.look;
-  show.input = "none", show.frames = kMost;
+  show.input = "none";
+  show.frames = kMost;
   return show;
 }
 

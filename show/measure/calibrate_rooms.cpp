@@ -80,7 +80,8 @@ std::optional<DrawSetting> settingOf(const std::string& word) {
   const std::size_t first = word.find(':'), second = word.find(':', first + 1);
   if (first == std::string::npos || second == std::string::npos) return {};
   DrawSetting s;
-  s.processes = word.starts_with("process:"), s.pinned = word.ends_with(":pinned");
+  s.processes = word.starts_with("process:");
+  s.pinned = word.ends_with(":pinned");
   std::from_chars(word.data() + first + 1, word.data() + second, s.rasteriserThreads);
   return word == wordOf(s) ? std::optional(s) : std::nullopt;
 }
@@ -98,8 +99,10 @@ std::vector<RoomToMeasure> roomsToMeasure(const RoomRequest& wanted, Diagnostics
     const auto walls = loadWalls(name, shareFolder() + "/walls", findings);
     if (!walls || !sides) continue;
     RoomToMeasure room{name, wanted.size};
-    room.room.walls = walls->walls.size(), room.room.look = nameOf(wanted.look);
-    room.room.width = sides->first, room.room.height = sides->second;
+    room.room.walls = walls->walls.size();
+    room.room.look = nameOf(wanted.look);
+    room.room.width = sides->first;
+    room.room.height = sides->second;
     if (!counts.insert(room.room.walls).second)
       findings.error({}, "--walls: another room has as many walls as " + name +
                              "; what is remembered goes by their number");

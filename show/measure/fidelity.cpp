@@ -25,7 +25,9 @@ std::vector<TriedModel> modelsFor(NodeRef ref, const PlayedBody& body, const std
   const auto add = [&](std::string name, std::string shape) -> TriedModel& {
     TriedModel& t = tried.emplace_back();
     t.name = std::move(name);
-    t.model.body = ref, t.model.shape = std::move(shape), t.model.dragArea = body.dragArea;
+    t.model.body = ref;
+    t.model.shape = std::move(shape);
+    t.model.dragArea = body.dragArea;
     return t;
   };
   std::vector<std::string> finest{"mesh", "convex"};
@@ -33,7 +35,9 @@ std::vector<TriedModel> modelsFor(NodeRef ref, const PlayedBody& body, const std
   if (!truth.empty()) finest = {truth};
   for (const std::string& shape : finest) {
     TriedModel& t = add(fmt::format("shape={}, steps / {}", shape, kFinestSteps), shape);
-    t.finest = true, t.model.fineness = kFinestSteps, t.model.impacts.emplace();
+    t.finest = true;
+    t.model.fineness = kFinestSteps;
+    t.model.impacts.emplace();
   }
   if (nameOf(body.shape) != finest.front())
     add(fmt::format("as it is, steps / {}", kFinestSteps), "").model.fineness = kFinestSteps;
@@ -49,7 +53,8 @@ std::vector<TriedModel> modelsFor(NodeRef ref, const PlayedBody& body, const std
   for (const HookedField& f : body.fields) {
     if (f.type != "medium") continue;
     TriedModel& t = add("without " + f.name, "");
-    t.simpler = true, t.model.without = {f.name};
+    t.simpler = true;
+    t.model.without = {f.name};
   }
   return tried;
 }
@@ -101,7 +106,8 @@ public:
 private:
   void playWithout(bool first) {
     BodyModel absent;
-    absent.body = body_, absent.absent = true;
+    absent.body = body_;
+    absent.absent = true;
     Diagnostics findings;
     if (auto played = playWith(options_.show, absent, findings))
       without_.took(played->milliseconds[dynamics_], first);
@@ -199,7 +205,10 @@ std::optional<Fidelity> measureFidelity(const FidelityOptions& options, Diagnost
     const bool wanted = options.bodies.empty()
                             ? looked < options.most
                             : std::ranges::find(options.bodies, body.body.name) != options.bodies.end();
-    if (wanted) ++looked, tryModels(options, ref, *show, body, progress);
+    if (wanted) {
+      ++looked;
+      tryModels(options, ref, *show, body, progress);
+    }
     fidelity.bodies.push_back(std::move(body));
   }
   return fidelity;

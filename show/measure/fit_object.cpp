@@ -70,7 +70,8 @@ Read imported(const FitRequest& w, const StatedMatter& stated, AssetRoots roots)
   if (!model) return model.error();
   const auto fail = [&](const std::string& why) {
     Diagnostic wrong;
-    wrong.where = w.where, wrong.message = w.file + " " + why;
+    wrong.where = w.where;
+    wrong.message = w.file + " " + why;
     return wrong;
   };
   ShapeStore shapes;
@@ -143,10 +144,12 @@ Read fromScript(const std::string& file, const std::string& name, const std::vec
   }
   const Declaration& d = *found;
   FitRequest w;
-  w.file = std::string(d.text("file")), w.where = d.where("file");
+  w.file = std::string(d.text("file"));
+  w.where = d.where("file");
   w.options.unit = d.optionalNumber("unit");
   w.options.up = d.optionalChoice<UpAxis>("up");
-  w.appearance.shape = std::string(d.text("shape")), w.appearance.tolerance = d.number("tolerance");
+  w.appearance.shape = std::string(d.text("shape"));
+  w.appearance.tolerance = d.number("tolerance");
   w.scale = d.vec3("scale");
   w.body = bodyAttributesOf(d);
   return imported(w, stated, std::move(roots));

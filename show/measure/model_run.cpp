@@ -52,8 +52,11 @@ private:
   void describe(const DynObjectNode& node, PlayedBody& body) {
     const LoadedScene& load = *scene_.tree().load(node.self().load);
     const FittedShape& fit = *node.fit();
-    body.name = node.name(), body.file = load.file, body.line = load.lines[node.self().position];
-    body.shape = fit.choice.kind, body.deviation = fit.choice.deviation;
+    body.name = node.name();
+    body.file = load.file;
+    body.line = load.lines[node.self().position];
+    body.shape = fit.choice.kind;
+    body.deviation = fit.choice.deviation;
     body.chosen = node.appearance().shape == "auto" || node.appearance().shape.empty();
     if (const Mesh* mesh = scene_.instances().mesh(node.appearance().mesh)) {
       body.triangles = mesh->indices.size() / 3;
@@ -88,7 +91,8 @@ private:
 
 DynamicsVariation variationOf(const BodyModel& model) {
   DynamicsVariation v;
-  v.fineness = model.fineness, v.impacts = model.impacts;
+  v.fineness = model.fineness;
+  v.impacts = model.impacts;
   v.body = [model](NodeRef ref, Appearance& appearance, BodyAttributes& body) {
     if (ref != model.body) return;
     body.simulated = !model.absent;

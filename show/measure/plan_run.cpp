@@ -31,7 +31,8 @@ bool play(const PlanRunOptions& options, Mode mode, ShowRenderer& renderer, Repo
   const auto player = Player::create(show, findings, reporter.reportFunction(), &stop);
   if (!player) return false;
   FrameLoopOptions loopOptions = player->loopOptions();
-  loopOptions.mode = mode, loopOptions.walls = options.walls;
+  loopOptions.mode = mode;
+  loopOptions.walls = options.walls;
   ShowParts parts = player->parts(options.layout);
   parts.walls.resize(options.walls);
   renderer.drawFor(parts);

@@ -37,17 +37,24 @@ std::string rasteriserText(const std::string& gl) {
 
 BodyFigures figuresOf(const BodyFidelity& b) {
   BodyFigures f;
-  f.name = b.body.name, f.file = b.body.file, f.line = b.body.line;
-  f.shape = std::string(nameOf(b.body.shape)), f.share = 1e-3 * b.cost, f.caution = cautionAbout(b);
+  f.name = b.body.name;
+  f.file = b.body.file;
+  f.line = b.body.line;
+  f.shape = std::string(nameOf(b.body.shape));
+  f.share = 1e-3 * b.cost;
+  f.caution = cautionAbout(b);
   for (const TriedModel& t : b.tried) {
     if (!t.asIs) continue;
-    f.error = t.error, f.endError = t.endError, f.beyond = t.beyondFrom;
+    f.error = t.error;
+    f.endError = t.endError;
+    f.beyond = t.beyondFrom;
     if (t.cost > t.noise) f.cost = 1e-3 * t.cost;
   }
   const auto advised = advisable(b);
   const auto cheapest = std::ranges::min_element(advised, {}, &TriedModel::cost);
   if (cheapest == advised.end()) return f;
-  f.advice = (*cheapest)->name, f.adviceError = (*cheapest)->error;
+  f.advice = (*cheapest)->name;
+  f.adviceError = (*cheapest)->error;
   if ((*cheapest)->cost > (*cheapest)->noise) f.adviceCost = 1e-3 * (*cheapest)->cost;
   return f;
 }
@@ -69,7 +76,8 @@ std::optional<Fidelity> measure(const FidelityOptions& options) {
 
 ReportHead reportHead(const ProfileRunOptions& o, const Player& player, const std::string& gl) {
   ReportHead head;
-  head.show = o.show.script, head.rate = player.rate();
+  head.show = o.show.script;
+  head.rate = player.rate();
   const auto add = [&](const char* what, std::string how) { head.facts.emplace_back(what, std::move(how)); };
   add("walls", wallsText(o, player));
   add("eyes", o.layout == StereoLayout::Off ? "one" : "two");
@@ -90,7 +98,8 @@ std::optional<DynamicsFigures> dynamicsFigures(const ProfileRunOptions& o, const
       figures.nodes, [](const NodeRow& r) { return r.name.type == "dynamics" && r.simulate > 0; });
   if (moved == 0 && !o.fidelityAsked) return {};
   FidelityOptions options = o.fidelity;
-  options.show = o.show, options.show.walls = "desktop";
+  options.show = o.show;
+  options.show.walls = "desktop";
   if (o.fidelityAsked) {
     const auto all = measure(options);
     if (all) files.write("fidelity.json", fidelityJson(*all) + "\n");
@@ -98,14 +107,16 @@ std::optional<DynamicsFigures> dynamicsFigures(const ProfileRunOptions& o, const
   }
   if (figures.app.measured * 1e-3 * static_cast<double>(figures.frames) > kSeconds) return {};
   const auto start = std::chrono::steady_clock::now();
-  options.most = 0, options.rounds = 1;
+  options.most = 0;
+  options.rounds = 1;
   const auto listed = measure(options);
   if (!listed || listed->bodies.empty()) return {};
   const double once = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   const auto bodies = std::min<std::uint64_t>(kBodies, listed->bodies.size());
   const double needed = once * kModels * kRounds * static_cast<double>(bodies);
   if (needed <= kSeconds) {
-    options.most = kBodies, options.rounds = kRounds;
+    options.most = kBodies;
+    options.rounds = kRounds;
     if (const auto some = measure(options)) {
       DynamicsFigures d = figuresOf(*some);
       d.note = "The dearest few were played twice with each model; --fidelity plays more.";

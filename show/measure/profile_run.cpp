@@ -27,7 +27,10 @@ std::unique_ptr<ShowRecording> record(const ProfileRunOptions& options, bool rep
   RecordingOptions recorded;
   const std::vector<std::string> walls = player.walls().names();
   recorded.trace = options.trace;
-  if (recorded.trace) recorded.trace->show = options.show.script, recorded.trace->walls = walls;
+  if (recorded.trace) {
+    recorded.trace->show = options.show.script;
+    recorded.trace->walls = walls;
+  }
   recorded.keep = unaskedLastFrames(walls);
   if (reports) recorded.report = RecordingOptions::Report{player.rate(), walls};
   return findings.hasErrors() ? nullptr : ShowRecording::create(std::move(recorded), findings);
@@ -54,9 +57,10 @@ std::optional<ShowFigures> profileShow(const ProfileRunOptions& options, OutputF
   FrameLoopOptions loopOptions = player->loopOptions();
   if (loopOptions.frames == 0 && loopOptions.end == 0) loopOptions.frames = kProfiledWithoutInput;
 
-  if (loopOptions.frames > 0 && loopOptions.frames <= kUnrecorded)
-    return findings.error({}, tooShort("too few frames: " + std::to_string(loopOptions.frames))),
-           std::nullopt;
+  if (loopOptions.frames > 0 && loopOptions.frames <= kUnrecorded) {
+    findings.error({}, tooShort("too few frames: " + std::to_string(loopOptions.frames)));
+    return std::nullopt;
+  }
 
   // Files are opened before anything is played.
   files.open(findings);

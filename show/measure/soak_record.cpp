@@ -33,8 +33,15 @@ Json jsonOf(const SoakCounts& c) {
 
 SoakCounts countsOf(const Json& j) {
   SoakCounts c;
-  c.frames = j.at(0), c.visits = j.at(1), c.changes = j.at(2), c.throws = j.at(3), c.refused = j.at(4);
-  c.killed = j.at(5), c.wrongSteps = j.at(6), c.wrongHashes = j.at(7), c.compared = j.at(8),
+  c.frames = j.at(0);
+  c.visits = j.at(1);
+  c.changes = j.at(2);
+  c.throws = j.at(3);
+  c.refused = j.at(4);
+  c.killed = j.at(5);
+  c.wrongSteps = j.at(6);
+  c.wrongHashes = j.at(7);
+  c.compared = j.at(8);
   c.seconds = j.at(9);
   return c;
 }
@@ -74,8 +81,10 @@ std::unique_ptr<SoakRecord> SoakRecord::open(const std::string& file, const std:
                                              Diagnostics& findings) {
   std::unique_ptr<SoakRecord> record(new SoakRecord(file, std::move(fault)));
   if (file.empty()) return record;
-  if (!isText(what))
-    return findings.error({}, "--record: it cannot hold a name that is not UTF-8 (" + what + ")"), nullptr;
+  if (!isText(what)) {
+    findings.error({}, "--record: it cannot hold a name that is not UTF-8 (" + what + ")");
+    return nullptr;
+  }
   if (!record->lock(findings) || !record->read(what, findings)) return nullptr;
   return record;
 }
@@ -121,8 +130,10 @@ bool SoakRecord::read(const std::string& what, Diagnostics& findings) {
   for (std::uint32_t number = 2; std::getline(in, line); ++number) {
     const Json j = Json::parse(line, nullptr, false);
     if (j.is_discarded() && !line.ends_with('}')) continue;  // half a line: a run was killed there
-    if (const char* why = readLine(j))
-      return findings.error({name_, number, 0}, none + ": this line " + why + other), false;
+    if (const char* why = readLine(j)) {
+      findings.error({name_, number, 0}, none + ": this line " + why + other);
+      return false;
+    }
   }
   write("");  // what a run that was killed has left of a line stays a line of its own
   return true;

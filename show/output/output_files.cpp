@@ -39,8 +39,10 @@ void OutputFiles::write(const std::string& name, std::string_view content) {
 bool OutputFiles::commit(Diagnostics& findings) {
   bool well = true;
   for (auto& [name, one] : files_)
-    if (const auto wrong = one.isWritten ? one.file.commit() : std::nullopt)
-      findings.add(*wrong), well = false;
+    if (const auto wrong = one.isWritten ? one.file.commit() : std::nullopt) {
+      findings.add(*wrong);
+      well = false;
+    }
   return well;
 }
 

@@ -12,7 +12,8 @@ namespace {
 
 std::uint64_t hashOf(const Picture& picture) {
   StateHash hash;
-  hash.add(picture.width), hash.add(picture.height);
+  hash.add(picture.width);
+  hash.add(picture.height);
   hash.add(std::string_view(reinterpret_cast<const char*>(picture.rgba.data()), picture.rgba.size()));
   return hash.value();
 }
@@ -68,7 +69,8 @@ std::optional<Diagnostic> PictureHashes::add(std::uint64_t frame, const std::vec
   times_ << fmt::format("{} {}\n", frame, at) << std::flush;
   if (hashes_ && times_) return {};
   Diagnostic wrong;
-  wrong.where.file = folder_.pathOf(hashes_ ? kTimes : kHashes), wrong.message = "cannot be written";
+  wrong.where.file = folder_.pathOf(hashes_ ? kTimes : kHashes);
+  wrong.message = "cannot be written";
   return wrong;
 }
 

@@ -144,7 +144,8 @@ void RunOutput::addToVideo(const Job& job) {
   Picture frame = sheetOf(job, 480);
   if (!video_) {
     VideoOptions video;
-    video.width = frame.width, video.height = frame.height;
+    video.width = frame.width;
+    video.height = frame.height;
     video.rate = options_.rate;
     if (const auto wrong = options_.folder.note("video.mp4"))
       return fail(Reason(*wrong, FailureKind::Refusal));

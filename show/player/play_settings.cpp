@@ -18,7 +18,10 @@ FrameLoopOptions PlaySettings::loopOptions(const Player& player) const {
   const bool newest = l.delivery == Delivery::Latest;
   l.everyTick = newest && repeats(player);
   // A live show that drops frames ends with its log's last moment, not with its last frame's number.
-  if (newest && !l.everyTick && player.end() > 0) l.frames = 0, l.end = player.end();
+  if (newest && !l.everyTick && player.end() > 0) {
+    l.frames = 0;
+    l.end = player.end();
+  }
   l.pace = pace;
   return l;
 }

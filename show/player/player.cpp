@@ -215,7 +215,8 @@ ShowParts Player::parts(StereoLayout stereo, InputDevice* instead) {
     wall.depth = walls_.depth;
     wall.eyeSeparation = walls_.eyeSeparation;
     const PixelSize pixels = pixelsOf(entry);
-    wall.width = pixels.width, wall.height = pixels.height;
+    wall.width = pixels.width;
+    wall.height = pixels.height;
     parts.walls.push_back(std::move(wall));
   }
   for (const WallEntry& entry : others_) {

@@ -100,7 +100,8 @@ private:
     auto source = texts_->part(std::string(scene.text("file")));
     if (source || !source.error().where.file.empty()) return source;
     Diagnostic d = source.error();
-    d.where = scene.where("file"), d.excerpt = scene.excerpt("file");
+    d.where = scene.where("file");
+    d.excerpt = scene.excerpt("file");
     return d;
   }
 
@@ -182,7 +183,8 @@ private:
     const auto info = read();
     if (!info) {
       Diagnostic wrong = info.error();
-      wrong.where = d.where("file"), wrong.excerpt = d.excerpt("file");
+      wrong.where = d.where("file");
+      wrong.excerpt = d.excerpt("file");
       findings.add(wrong);
       return kSilentStandIn;
     }

@@ -61,8 +61,10 @@ bool ShowRenderer::openCard() {
     why_ = "no graphics card: there is no usable render node in /dev";
     return false;
   }
-  if (const auto failed = openGl(GlProviderKind::Egl))
-    return why_ = *file + " cannot draw: " + failed->message, false;
+  if (const auto failed = openGl(GlProviderKind::Egl)) {
+    why_ = *file + " cannot draw: " + failed->message;
+    return false;
+  }
   if (drawsOnCard()) {
     why_ = "graphics card " + *file;
     return true;

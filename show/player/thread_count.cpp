@@ -13,7 +13,9 @@ ThreadCount threadsOf(const DrawSetting& setting, std::size_t walls) {
 
 ThreadCount threadsOfCpuRenderer(std::uint32_t threads, std::size_t walls) {
   ThreadCount count;
-  count.cull = walls, count.rasteriser = threads, count.byCpu = true;
+  count.cull = walls;
+  count.rasteriser = threads;
+  count.byCpu = true;
   return count;
 }
 

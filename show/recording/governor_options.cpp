@@ -15,7 +15,8 @@ GovernorOptions governorOf(const PlaySettings& play, const Player& player, std::
   const bool live = !play.everyFrameCounts(player);
   const FrameLoopOptions loop = play.loopOptions(player);
   GovernorOptions g;
-  g.rate = loop.rate, g.paced = loop.pace != Pace::Free;
+  g.rate = loop.rate;
+  g.paced = loop.pace != Pace::Free;
   g.pipelined = loop.mode == Mode::Pipelined;
   g.walls = std::move(walls);
   g.stress = play.stress;

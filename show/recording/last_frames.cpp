@@ -8,7 +8,9 @@ namespace stadion {
 
 BlackBoxOptions unaskedLastFrames(std::vector<std::string> walls) {
   BlackBoxOptions box;
-  box.file = BlackBoxFolder::ofThisUser().newFile(), box.rate = 0, box.wanted = false;
+  box.file = BlackBoxFolder::ofThisUser().newFile();
+  box.rate = 0;
+  box.wanted = false;
   box.walls = std::move(walls);
   return box;
 }
@@ -19,8 +21,10 @@ BlackBoxOptions lastFramesOf(const PlaySettings& play, const std::string& file, 
   BlackBoxOptions box;
   if (file.empty())
     box = unaskedLastFrames(std::move(walls));
-  else
-    box.file = file, box.walls = std::move(walls);
+  else {
+    box.file = file;
+    box.walls = std::move(walls);
+  }
   box.rate = loop.pace == Pace::Free ? 0 : loop.rate;
   box.sequential = loop.mode == Mode::Sequential;
   return box;

@@ -39,13 +39,15 @@ std::vector<NamedValue> valuesOf(const std::string& text) {
     const std::size_t tab = std::min(line.find('\t'), line.size());
     const std::string first = line.substr(0, tab), second = tab < line.size() ? line.substr(tab + 1) : "";
     if (!line.starts_with('@')) {
-      at.name = first, at.value = second;
+      at.name = first;
+      at.value = second;
       all.push_back(at);
       continue;
     }
     const std::string path = first.substr(1), same = withoutLine(path);
     const int number = ++seen[same];
-    at.key = fmt::format("{} #{}", same, number), at.where = second;
+    at.key = fmt::format("{} #{}", same, number);
+    at.where = second;
     at.node = number > 1 && same == path ? at.key : path;
   }
   return all;

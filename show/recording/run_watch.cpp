@@ -85,11 +85,16 @@ void RunWatch::see(const TimeSignature& now, const InputSample& input, const Sce
   history.add(stateHash_);
   historyHash_ = history.value();
   const FrameCounters& c = scene.counters();
-  visited_ += c.nodesVisited, published_ += c.changesPublished;
-  delivered_ += c.messagesDelivered, lost_ += c.messagesLost;
+  visited_ += c.nodesVisited;
+  published_ += c.changesPublished;
+  delivered_ += c.messagesDelivered;
+  lost_ += c.messagesLost;
   for (const EventRecord& e : scene.events()) note(e, scene);
   for (const DegradationDecision& d : now.decisions) note(d, scene);
-  if (recorder_) recorder_->frame(now), recorder_->record(input);
+  if (recorder_) {
+    recorder_->frame(now);
+    recorder_->record(input);
+  }
   for (NodeTrace& t : traces_) t.record(now, scene);
 }
 
@@ -119,7 +124,8 @@ void RunWatch::note(const DegradationDecision& d, const Scene& scene) {
   ReplayedDegradation& o = givenUp_[node];
   if (o.node.empty() && givesUp(scene, node)) o.node = nameIn(scene, node);
   ++o.changes;
-  o.highest = std::max(o.highest, d.level), o.now = d.level;
+  o.highest = std::max(o.highest, d.level);
+  o.now = d.level;
 }
 
 /// What a live run decides, its governor tells, with what it cost.

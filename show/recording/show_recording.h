@@ -59,7 +59,8 @@ public:
       }
       if (!box) findings.warning(box.error().where, box.error().message + kBlackBoxElsewhere);
       if (box) {
-        made->box_ = std::move(box.value()), readers.push_back(made->box_.get());
+        made->box_ = std::move(box.value());
+        readers.push_back(made->box_.get());
         made->crashFile_.emplace(made->box_->file());
       }
     }
@@ -113,7 +114,8 @@ public:
   /// Expects that a report was asked for; `figures` must outlive what is returned.
   ReportData report(ReportHead head, const ShowFigures& figures) {
     finish();
-    head.frames = profile_.frames(), head.recording = recordingMs();
+    head.frames = profile_.frames();
+    head.recording = recordingMs();
     ReportData data{std::move(head), figures, names_, report_->series(), report_->kept(), {}, {}};
     data.threads = report_->threads().threads();
     for (const auto& [key, eye] : profile_.eyes())

@@ -78,7 +78,8 @@ void nameNode(const Scene& scene, NodeRef node, regression::SpanRow& row) {
     row.path = "(unloaded)";
     return;
   }
-  row.file = load->file, row.line = load->lines[node.position];
+  row.file = load->file;
+  row.line = load->lines[node.position];
   if (const Node* n = load->nodes[node.position].get()) row.path = n->name();
 }
 

@@ -53,9 +53,11 @@ public:
     result_.name = playedName(case_, mode);
     progress_(result_.name);
     last_ = run(o_.program, mode);
-    result_.fault = last_.fault, result_.refused = last_.refused;
+    result_.fault = last_.fault;
+    result_.refused = last_.refused;
     if (last_.facts) {
-      result_.facts = allOf(*last_.facts), result_.warnings = last_.warnings;
+      result_.facts = allOf(*last_.facts);
+      result_.warnings = last_.warnings;
       compareExactly(mode);
       if (first && first->facts) compareModes(*first->facts, firstMode, mode);
       if (update_) takeUpFacts(mode);
@@ -127,7 +129,8 @@ private:
   void compareBuilds(const std::string& mode) {
     const CaseRun other = run(with_.program, mode);
     if (!other.facts) {
-      result_.fault = other.fault, result_.refused = other.refused;
+      result_.fault = other.fault;
+      result_.refused = other.refused;
       return;
     }
     // Figures that an older build lacks cannot be compared.
@@ -135,7 +138,8 @@ private:
     const auto keep = [](NamedFacts& mine, const NamedFacts& theirs) {
       std::erase_if(mine, [&](const auto& fact) { return !theirs.contains(fact.first); });
     };
-    keep(known.state, other.facts->state), keep(known.counts, other.facts->counts);
+    keep(known.state, other.facts->state);
+    keep(known.counts, other.facts->counts);
     add(located(compareFacts(known, {&*other.facts, "the other build"}, case_.metrics), [&] {
       return stateLocation(case_, {o_.program, mode}, {with_.program, mode}, o_.limit, stop_);
     }));
@@ -166,7 +170,8 @@ private:
       return stateLocation(case_, {o_.program, mode}, {o_.program, firstMode}, o_.limit, stop_);
     };
     for (Check& c : located(compareFacts(*last_.facts, {&first, firstMode}, metrics), where)) {
-      c.metric += " as " + firstMode, c.amongModes = true;
+      c.metric += " as " + firstMode;
+      c.amongModes = true;
       result_.checks.push_back(std::move(c));
     }
   }
@@ -181,7 +186,8 @@ private:
   }
 
   bool failed(const std::string& fault, bool refused = false) {
-    result_.fault = fault, result_.refused = refused;
+    result_.fault = fault;
+    result_.refused = refused;
     return !fault.empty();
   }
 
@@ -347,7 +353,8 @@ private:
     const std::string how = fmt::format(", by {}", nameOf(*by));
     if (update_) {
       BaselineCase& kept = (*update_)[result_.name];
-      kept.instructions = result_.instructions, kept.countedBy = nameOf(*by);
+      kept.instructions = result_.instructions;
+      kept.countedBy = nameOf(*by);
       kept.nodeInstructions = dearOf(nodeInstructions(now.rows), result_.instructions);
     } else if (with_.program.empty()) {
       compareCounts({known()->instructions, known()->nodeInstructions}, now, "the baseline", how);

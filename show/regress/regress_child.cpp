@@ -67,7 +67,9 @@ struct RunningChild {
     if (result.status >= 0 || !result.fault.empty()) return true;
     const auto status = child.wait(wait);
     if (!status) return false;
-    result.status = *status, result.out = everythingIn(out), result.err = everythingIn(err);
+    result.status = *status;
+    result.out = everythingIn(out);
+    result.err = everythingIn(err);
     if (*status == 0) return true;
     const std::string said = reasonIn(result.err);
     result.fault = *status > 128
@@ -113,13 +115,15 @@ std::pair<ChildResult, ChildResult> runInTurns(const std::vector<std::string>& f
   RunningChild a, b;
   a.start(first, ofFirst.get(), environment);
   b.start(second, ofSecond.get(), environment);
-  ofFirst.close(), ofSecond.close();  // so that each child learns when the other one has ended
+  ofFirst.close();
+  ofSecond.close();  // so that each child learns when the other one has ended
   const auto deadline = Clock::now() + limit;
   for (;;) {
     const bool aEnded = a.ended(std::chrono::milliseconds(10)),
                bEnded = b.ended(std::chrono::milliseconds(10));
     if (aEnded && bEnded) break;
-    a.giveUpIf(stop, deadline, limit), b.giveUpIf(stop, deadline, limit);
+    a.giveUpIf(stop, deadline, limit);
+    b.giveUpIf(stop, deadline, limit);
   }
   return {std::move(a.result), std::move(b.result)};
 }

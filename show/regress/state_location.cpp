@@ -27,7 +27,9 @@ std::vector<std::string> hashWords(const regression::SuiteCase& c, const StatePl
     const auto at = std::ranges::find(words, option);
     if (at != words.end()) words.erase(at, at + count);
   };
-  leaveOut("--stereo", 2), leaveOut("--pace", 2), leaveOut("--json", 1);
+  leaveOut("--stereo", 2);
+  leaveOut("--pace", 2);
+  leaveOut("--json", 1);
   return words;
 }
 
@@ -129,7 +131,8 @@ std::string stateLocation(const regression::SuiteCase& c, const StatePlay& now, 
   const TemporaryFolder folder;
   const std::string file = folder.path("state");
   std::vector<std::string> save = hashWords(c, before, frame + 1), compare = hashWords(c, now, frame + 1);
-  save.insert(save.end(), {"--save-state", file}), compare.insert(compare.end(), {"--compare-state", file});
+  save.insert(save.end(), {"--save-state", file});
+  compare.insert(compare.end(), {"--compare-state", file});
   if (runChild(save, limit, stop).status != 0) return where + " (the other build cannot save states)";
   const std::string found = differenceIn(runChild(compare, limit, stop).out, file);
   return found.empty() ? where : where + ": " + found;

@@ -56,7 +56,10 @@ bool OpenSession::open(Diagnostics& findings) {
   SessionSettings& s = state_.settings;
   journal_ = RunJournal::open(s.supervision, terminal_, findings);
   if (findings.hasErrors()) return false;
-  if (journal_) reporter_.keepIn(*journal_), state_.journal = journal_.get();
+  if (journal_) {
+    reporter_.keepIn(*journal_);
+    state_.journal = journal_.get();
+  }
   parts_ = makeSessionParts(state_, findings);
   if (findings.hasErrors() || !openDrawing(findings)) return false;
   console_ = OperatorConsole::open({s.show, s.play, s.console}, reporter_, findings);
@@ -139,15 +142,18 @@ std::unique_ptr<Player> OpenSession::openShow(Diagnostics& findings) {
   Diagnostics found;
   auto player = Player::prepare(show, findings, report.function(), &state_.stop, models());
   if (!player) return nullptr;
-  if (player->openScene(found) && (!cluster || cluster->hasFiles(player->scene())))
-    return report.release(), std::move(player);
+  if (player->openScene(found) && (!cluster || cluster->hasFiles(player->scene()))) {
+    report.release();
+    return player;
+  }
   if (cluster && !cluster->leads()) {
     report.release();
     findings.append(found);
     cluster->refuseFiles(findings);
     return nullptr;
   }
-  show.state.reset(), player.reset();
+  show.state.reset();
+  player.reset();
   player = createPlayer(show, findings);
   if (!player) return nullptr;
   if (!cluster)

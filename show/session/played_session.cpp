@@ -63,7 +63,8 @@ OpenSession::Then OpenSession::playOnce(std::optional<SessionReport>& report) {
   for (auto part = parts_.rbegin(); part != parts_.rend(); ++part) (*part)->ended(show);
   const bool isLast = outcome.failure || (show.ends && !show.rejoin);
   if (isLast) fillReport(report.emplace(), outcome, elapsed);
-  state_.stages = nullptr, state_.loop = nullptr;
+  state_.stages = nullptr;
+  state_.loop = nullptr;
   return isLast ? Then::Ends : show.rejoin ? Then::Rejoin : Then::NextGroup;
 }
 
@@ -71,10 +72,15 @@ void OpenSession::fillReport(SessionReport& report, const FrameLoopOutcome& outc
   const SessionSettings& s = state_.settings;
   RunSummary& summary = report.summary;
   addFailure(report, outcome.failure, reporter_);
-  summary.show = s.show.script, summary.walls = s.show.walls, summary.mode = nameOf(s.show.mode);
+  summary.show = s.show.script;
+  summary.walls = s.show.walls;
+  summary.mode = nameOf(s.show.mode);
   summary.stereo = stereoLayoutName(s.draw.layout);
-  summary.width = s.show.width, summary.height = s.show.height, summary.rate = player_->rate();
-  summary.frames = outcome.framesShown, summary.framesDrawn = outcome.framesDrawn;
+  summary.width = s.show.width;
+  summary.height = s.show.height;
+  summary.rate = player_->rate();
+  summary.frames = outcome.framesShown;
+  summary.framesDrawn = outcome.framesDrawn;
   // If the newest frame counts, the frames that App had no time for are among those not shown.
   const bool byTicks = s.play.loopOptions(*player_).pace != Pace::Free;
   summary.lateFrames = byTicks ? std::max(outcome.missedTicks, outcome.ticksWithoutFrame) : 0;
@@ -99,9 +105,12 @@ void OpenSession::addDrawing(RunSummary& summary) const {
   if (!drawing_) return;
   const DrawSetting& how = drawing_->setting();
   DrawingSummary& to = summary.drawing;
-  to.renderer = renderer_->drawsWithGl() ? "gl" : "cpu", to.chosen = renderer_->why();
-  to.drawnBy = how.processes ? "process" : "thread", to.threads = how.rasteriserThreads;
-  to.pinned = how.pinned, to.why = drawing_->why();
+  to.renderer = renderer_->drawsWithGl() ? "gl" : "cpu";
+  to.chosen = renderer_->why();
+  to.drawnBy = how.processes ? "process" : "thread";
+  to.threads = how.rasteriserThreads;
+  to.pinned = how.pinned;
+  to.why = drawing_->why();
   to.text = drawing_->text(player_->walls().walls.size());
 }
 

@@ -4,7 +4,8 @@ namespace stadion {
 
 DrawingNeeds SessionSettings::drawingNeeds(std::size_t walls) const {
   DrawingNeeds needs;
-  needs.walls = walls, needs.look = show.look;
+  needs.walls = walls;
+  needs.look = show.look;
   needs.wishes.rasteriserThreads = draw.rasteriserThreads;
   needs.wishes.processes = draw.processes;
   const bool inTurn = play.display || (show.mode == Mode::Sequential && !draw.processes.value_or(false));

@@ -63,7 +63,8 @@ void RunJournal::began(const ShowOptions& show, const Player& player) {
 }
 
 void RunJournal::beginGroup() {
-  loads_.clear(), loadsSeen_ = 0;
+  loads_.clear();
+  loadsSeen_ = 0;
   const std::lock_guard lock(mutex_);
   place_.reset();
 }
@@ -120,7 +121,8 @@ void RunJournal::noteMinute(Clock::time_point now) {
     const std::uint64_t frames = shown_ - shownBefore_, late = late_ - lateBefore_;
     text = fmt::format("in {:.0f} s: {} frames shown, {} late{}{}; ", seconds, frames, late,
                        late > 0 ? ", at last " : "", late > 0 ? lastLate_ : "");
-    shownBefore_ = shown_, lateBefore_ = late_;
+    shownBefore_ = shown_;
+    lateBefore_ = late_;
   }
   note(text + figures());
 }

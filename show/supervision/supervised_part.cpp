@@ -46,7 +46,8 @@ std::unique_ptr<SupervisedPart> SupervisedPart::create(const SupervisionSettings
 }
 
 void SupervisedPart::restartShow(const Diagnostics& found) {
-  state_.reset(), from_.reset();
+  state_.reset();
+  from_.reset();
   const auto why = std::ranges::find(found.all(), Severity::Error, &Diagnostic::severity);
   say_((why == found.all().end() ? "the saved scene cannot be restored" : why->message) +
        " (have its files changed?): the show restarts");
@@ -61,11 +62,13 @@ void SupervisedPart::goOn(FrameLoopOptions& loop, OperatorConsole& console, RunW
   state_.reset();
   console.resume(operator_);
   const Nanoseconds at = from_ ? from_->time : 0;
-  begun_ = machineClock(), due_ = std::max(at, progress_->timeNow());
+  begun_ = machineClock();
+  due_ = std::max(at, progress_->timeNow());
   loop.late = due_ - at;
   console.playback().standFrom(due_);
   progress_->catchesUpUntil(begun_ + loop.late);
-  catchesUp_ = true, nextKept_ = begun_ + kKeepSoon;
+  catchesUp_ = true;
+  nextKept_ = begun_ + kKeepSoon;
   if (from_) {
     loop.after = TimeSignature{from_->frame, from_->time, 0, {}};
     watch.goOnFrom(from_->history);
@@ -81,7 +84,10 @@ void SupervisedPart::simulated(const TimeSignature& now, Scene& scene, const Run
   if (!keeps_) return;
   const bool still = progress_->operatorState().still();
   const bool arrived = catchesUp_ && (!late || (still && now.time >= due_));
-  if (arrived) catchesUp_ = false, progress_->catchesUpUntil(machineClock());
+  if (arrived) {
+    catchesUp_ = false;
+    progress_->catchesUpUntil(machineClock());
+  }
   const Nanoseconds due = due_ + (still ? 0 : machineClock() - begun_);
   progress_->simulated(now, catchesUp_ ? due : now.time);
   if (arrived || machineClock() >= nextKept_) keep(now, scene, watch);
@@ -93,7 +99,8 @@ void SupervisedPart::keep(const TimeSignature& now, Scene& scene, const RunWatch
   bytes_ = state.size();
   const int wrong = progress_->keep({now.frame, now.time, watch.history()}, state);
   const Nanoseconds took = machineClock() - begin;
-  ++times_, longest_ = std::max(longest_, took);
+  ++times_;
+  longest_ = std::max(longest_, took);
   const Nanoseconds pause = std::clamp(kShare * took, kKeepEvery, kKeepSeldom);
   nextKept_ = begin + (catchesUp_ ? std::clamp(kSoonShare * took, kKeepSoon, pause) : pause);
   if (told_ || (wrong == 0 && took < step_)) return;

@@ -48,9 +48,12 @@ public:
         (std::fabs(along.z()) < 0.9 ? Vec3::UnitZ() : Vec3::UnitY()).cross(along).normalized();
     const Vec3 centre = 0.5 * (a + b), u = 0.5 * (b - a), v = 0.5 * wide * across,
                w = 0.5 * thick * along.cross(across);
-    side(centre + u, u, v, w), side(centre - u, u, w, v);
-    side(centre + v, v, w, u), side(centre - v, v, u, w);
-    side(centre + w, w, u, v), side(centre - w, w, v, u);
+    side(centre + u, u, v, w);
+    side(centre - u, u, w, v);
+    side(centre + v, v, w, u);
+    side(centre - v, v, u, w);
+    side(centre + w, w, u, v);
+    side(centre - w, w, v, u);
   }
 
   std::unique_ptr<const Mesh> take(const char* name) {

@@ -56,8 +56,10 @@ void PlayingShow::beginRecording() {
   std::vector<std::string> walls = player_->walls().names();
   walls.push_back("overview");
   RecordingOptions options;
-  options.profile = false, options.also = &budget_;
-  options.log.whole = false, options.log.samples = hasDrawnBudgets(player_->scene());
+  options.profile = false;
+  options.also = &budget_;
+  options.log.whole = false;
+  options.log.samples = hasDrawnBudgets(player_->scene());
   options.log.shares = true;
   options.govern = governorOf(around_.settings.play, *player_, walls, around_.reporter.hintFunction());
   options.keep = lastFramesOf(around_.settings.play, around_.settings.record.blackBox, *player_, walls);
@@ -82,7 +84,8 @@ ShowParts PlayingShow::parts() {
   WallViews outside{.name = {}, .views = {View{}}};
   outside.camera = overview_.get();
   outside.depth = player_->walls().depth;
-  outside.width = around_.overviewSize.width, outside.height = around_.overviewSize.height;
+  outside.width = around_.overviewSize.width;
+  outside.height = around_.overviewSize.height;
   parts.walls.push_back(outside);
   around_.renderer.drawFor(parts);
   parts.sink = &around_.sink;

@@ -38,7 +38,8 @@ void ViewControls::take(const WindowEvent& event) {
   case WindowEvent::Kind::Wheel: visitor_.moveHand({0, kHandPerNotch * event.y, 0}); break;
   case WindowEvent::Kind::PointerEntered: pointer_.reset(); break;
   case WindowEvent::Kind::FocusLost:
-    keys_.clear(), held_.clear();
+    keys_.clear();
+    held_.clear();
     visitor_.letGo();
     break;
   case WindowEvent::Kind::Close: break;
@@ -80,7 +81,8 @@ void ViewControls::moved(double x, double y) {
 void ViewControls::take(const std::optional<GamepadState>& pad, double seconds) {
   if (!pad) return;
   std::array<double, kTrackerAxes> axes{};
-  axes[0] = beyondSlack(pad->axes[0]), axes[1] = -beyondSlack(pad->axes[1]);
+  axes[0] = beyondSlack(pad->axes[0]);
+  axes[1] = -beyondSlack(pad->axes[1]);
   visitor_.setGamepad(axes, pad->buttons & 15u);
   visitor_.turn(kPadLook * seconds * beyondSlack(pad->axes[2]),
                 -kPadLook * seconds * beyondSlack(pad->axes[3]));

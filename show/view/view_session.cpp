@@ -210,7 +210,8 @@ void ViewSession::pollPad() {
 
 // Until there is a first picture the show stands at its first frame.
 void ViewSession::begin(const std::optional<ShowPlace>& place) {
-  ended_ = over_ = false, begins_ = true;
+  ended_ = over_ = false;
+  begins_ = true;
   unseen_ = 0;
   steppedFrom_.reset();
   visitor_.restart();
@@ -318,7 +319,8 @@ void ViewSession::endShow() {
   finishRecord();
   show_->watch().addTo(report_.summary, show_->framesPlayed());
   report_.rig = show_->place().X_WR.p;
-  report_.frames = show_->framesPlayed(), report_.dropped = show_->droppedTicks();
+  report_.frames = show_->framesPlayed();
+  report_.dropped = show_->droppedTicks();
   report_.lateFrames = show_->lateFrames();
 }
 
@@ -339,9 +341,12 @@ void ViewSession::tellOfStep() {
 HudFigures ViewSession::figures() const {
   HudFigures f;
   f.show = std::filesystem::path(settings_.session.show.script).filename().string();
-  f.seconds = toSeconds(shown_.time), f.rate = settings_.session.show.rate;
-  f.speed = console_->playback().speed(), f.paused = console_->playback().paused();
-  f.budget = show_->budget(), f.dropped = show_->droppedTicks() + unseen_;
+  f.seconds = toSeconds(shown_.time);
+  f.rate = settings_.session.show.rate;
+  f.speed = console_->playback().speed();
+  f.paused = console_->playback().paused();
+  f.budget = show_->budget();
+  f.dropped = show_->droppedTicks() + unseen_;
   if (const double stress = show_->stress(); stress > 1)
     f.given.push_back(fmt::format("everything counts as {:.3g} times farther away", stress));
   for (const BudgetReport& b : show_->budgets())

@@ -57,7 +57,10 @@ private:
   class HudReporter final : public Reporter {
   public:
     HudReporter(Reporter& to, ViewHud& hud) : to_(to), hud_(hud) {}
-    void say(const std::string& line) override { to_.say(line), hud_.say(line); }
+    void say(const std::string& line) override {
+      to_.say(line);
+      hud_.say(line);
+    }
     void hint(const std::string& line) override { to_.hint(line); }
     void fault(const std::string& why) override { to_.fault(why); }
     void report(const Diagnostics& findings) override;

@@ -9,7 +9,8 @@ namespace {
 constexpr double kInset = 0.3;  ///< the walls beside the overview, of the window's sides
 
 SheetPlace moved(SheetPlace place, std::int32_t x, std::int32_t y) {
-  place.x += x, place.y += y;
+  place.x += x;
+  place.y += y;
   return place;
 }
 
@@ -40,14 +41,18 @@ std::unique_ptr<ViewWindows> ViewWindows::open(const ViewSettings& settings, con
   plan.surface = windowSurface(drawnWithOpenGl, settings.stereo);
   if (settings.oneWindow) {
     plan.title = "Stadion: " + name;
-    plan.width = settings.width, plan.height = settings.height;
+    plan.width = settings.width;
+    plan.height = settings.height;
     return add(plan) ? std::move(made) : nullptr;
   }
   for (std::size_t i = 0; i < walls.walls.size(); ++i) {
     const SheetPlace& place = made->sizes_[i];
     plan.title = "Stadion: " + name + ", " + walls.walls[i].wall.name;
-    plan.width = place.width, plan.height = place.height;
-    plan.placed = true, plan.x = place.x, plan.y = place.y;
+    plan.width = place.width;
+    plan.height = place.height;
+    plan.placed = true;
+    plan.x = place.x;
+    plan.y = place.y;
     if (!add(plan)) return nullptr;
   }
   return made;
@@ -124,7 +129,10 @@ std::string ViewWindows::screenshot(const std::string& folder, const std::vector
   std::optional<Diagnostic> wrong;
   std::size_t count = 0;
   const auto write = [&](const std::string& what, const Picture& picture) {
-    if (!wrong && !picture.empty()) wrong = writePng(path(what), picture), ++count;
+    if (!wrong && !picture.empty()) {
+      wrong = writePng(path(what), picture);
+      ++count;
+    }
   };
   for (std::size_t w = 0; w < windows_.size(); ++w)
     write(windowName(w), *windows_[w]->draw(panesOf(w, overview), true));

@@ -62,9 +62,11 @@ GLuint programFor(FloorWay way) {
 
 Corner cornerOf(const WallVertex& v) {
   Corner c{};
-  for (std::size_t i = 0; i < 3; ++i)
-    c.position[i] = static_cast<float>(v.position[i]), c.normal[i] = static_cast<float>(v.normal[i]),
+  for (std::size_t i = 0; i < 3; ++i) {
+    c.position[i] = static_cast<float>(v.position[i]);
+    c.normal[i] = static_cast<float>(v.normal[i]);
     c.colour[i] = v.colour[i];
+  }
   c.colour[3] = 255;
   return c;
 }
@@ -139,7 +141,9 @@ FloorDrawing::FloorDrawing(const WallScene& scene, FloorWay way)
   glClearColor(0.10f, 0.12f, 0.20f, 1);
   glUseProgram(program_);
   const auto place = [&](const char* name) { return glGetUniformLocation(program_, name); };
-  projection_ = place("projection"), light_ = place("light"), toEye_ = place("toEye");
+  projection_ = place("projection");
+  light_ = place("light");
+  toEye_ = place("toEye");
 }
 
 FloorView FloorDrawing::view(std::size_t wall, int eye, double t) {

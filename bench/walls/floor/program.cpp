@@ -68,7 +68,10 @@ void playFrame(const Setting& s, FloorDrawing& drawing, std::uint64_t frame, Mea
     if (!s.pictures.empty() && frame == s.warm + s.frames) writePicture(s, i);
   }
   const std::chrono::duration<double, std::milli> took = std::chrono::steady_clock::now() - begin;
-  if (counts) m.frame.push_back(took.count()), m.processor += processorMs() - processor;
+  if (counts) {
+    m.frame.push_back(took.count());
+    m.processor += processorMs() - processor;
+  }
   for (std::size_t i = 0; i < views.size(); ++i) {
     if (counts) {
       m.draws[i] += static_cast<double>(views[i].visible.size());
@@ -89,7 +92,10 @@ nlohmann::json rowOf(const Setting& s, const Measured& m) {
   double sum = 0, draws = 0;
   for (const double ms : m.frame) sum += ms;
   nlohmann::json perView = nlohmann::json::array();
-  for (const double n : m.draws) perView.push_back(std::llround(n / frames)), draws += n / frames;
+  for (const double n : m.draws) {
+    perView.push_back(std::llround(n / frames));
+    draws += n / frames;
+  }
   const char* threads = std::getenv("LP_NUM_THREADS");
   const double median = percentile(m.frame, 0.5);
   return nlohmann::json{{"engine", "floor"},
@@ -129,7 +135,10 @@ nlohmann::json rowOf(const Setting& s, const Measured& m) {
 
 int run(const Setting& s) {
   const auto way = floorWay(s.way);
-  if (!way) return std::fprintf(stderr, "stadion-walls-floor: there is no way \"%s\"\n", s.way.c_str()), 2;
+  if (!way) {
+    std::fprintf(stderr, "stadion-walls-floor: there is no way \"%s\"\n", s.way.c_str());
+    return 2;
+  }
   openHeadlessContext(s.width, s.height);
   glViewport(0, 0, static_cast<GLsizei>(s.width), static_cast<GLsizei>(s.height));
   FloorDrawing drawing({s.scene.front(), s.nodes, s.moving, s.far}, *way);

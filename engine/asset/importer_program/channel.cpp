@@ -16,7 +16,8 @@ bool readAll(int socket, void* to, std::size_t size) {
     const ssize_t got = ::recv(socket, at, size, 0);
     if (got < 0 && errno == EINTR) continue;
     if (got <= 0) return false;
-    at += got, size -= static_cast<std::size_t>(got);
+    at += got;
+    size -= static_cast<std::size_t>(got);
   }
   return true;
 }
@@ -27,7 +28,8 @@ bool writeAll(int socket, const void* from, std::size_t size) {
     const ssize_t sent = ::send(socket, at, size, MSG_NOSIGNAL);
     if (sent < 0 && errno == EINTR) continue;
     if (sent <= 0) return false;
-    at += sent, size -= static_cast<std::size_t>(sent);
+    at += sent;
+    size -= static_cast<std::size_t>(sent);
   }
   return true;
 }
@@ -37,8 +39,10 @@ bool receiveHead(int socket, RequestHead& head, FileDescriptor& root) {
   iovec part{&head, sizeof head};
   alignas(cmsghdr) char control[CMSG_SPACE(sizeof(int))] = {};
   msghdr message{};
-  message.msg_iov = &part, message.msg_iovlen = 1;
-  message.msg_control = control, message.msg_controllen = sizeof control;
+  message.msg_iov = &part;
+  message.msg_iovlen = 1;
+  message.msg_control = control;
+  message.msg_controllen = sizeof control;
   ssize_t got = 0;
   do got = ::recvmsg(socket, &message, MSG_CMSG_CLOEXEC);
   while (got < 0 && errno == EINTR);

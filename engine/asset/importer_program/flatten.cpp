@@ -88,7 +88,8 @@ private:
     if (m.determinant() < 0) cofactors = -cofactors;
     const bool normals = options_.keepNormals && mesh.mNormals;
     const bool uvs = mesh.mTextureCoords[0] != nullptr, colours = mesh.mColors[0] != nullptr;
-    flat.hasUvs |= uvs, flat.hasColours |= colours;
+    flat.hasUvs |= uvs;
+    flat.hasColours |= colours;
     for (unsigned i = 0; i < mesh.mNumVertices; ++i) {
       FlatVertex v;
       const Vec3 p = X * Vec3(mesh.mVertices[i].x, mesh.mVertices[i].y, mesh.mVertices[i].z);

@@ -86,7 +86,8 @@ std::optional<std::vector<std::uint8_t>> readBeneath(int root, std::string path,
 }
 
 void Jail::replace(std::string path, std::vector<std::uint8_t> bytes) {
-  replaced_ = std::move(path), replacement_ = std::move(bytes);
+  replaced_ = std::move(path);
+  replacement_ = std::move(bytes);
 }
 
 bool Jail::Exists(const char* path) const {

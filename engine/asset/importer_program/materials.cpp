@@ -81,23 +81,32 @@ private:
   bool read(const std::string& name, Texture& texture, std::string& why) {
     if (const aiTexture* embedded = scene_.GetEmbeddedTexture(name.c_str()))
       return unpack(*embedded, texture, why);
-    if (name.starts_with('*')) return why = "is not in the file", false;
+    if (name.starts_with('*')) {
+      why = "is not in the file";
+      return false;
+    }
     auto bytes = readBeneath(source_.root, source_.folder + name, source_.fileBytes, &why);
     if (!bytes) return false;
     return decodePicture(*bytes, source_.limits, budget_, texture, why);
   }
 
   bool unpack(const aiTexture& from, Texture& texture, std::string& why) {
-    if (!from.pcData) return why = "is empty", false;
+    if (!from.pcData) {
+      why = "is empty";
+      return false;
+    }
     if (from.mHeight == 0)
       return decodePicture({reinterpret_cast<const std::uint8_t*>(from.pcData), from.mWidth}, source_.limits,
                            budget_, texture, why);
     const std::uint64_t pixels = std::uint64_t{from.mWidth} * from.mHeight;
     if (from.mWidth > source_.limits.textureSide || from.mHeight > source_.limits.textureSide ||
-        pixels * 4 > budget_)
-      return why = "is too large", false;
+        pixels * 4 > budget_) {
+      why = "is too large";
+      return false;
+    }
     budget_ -= pixels * 4;
-    texture.width = from.mWidth, texture.height = from.mHeight;
+    texture.width = from.mWidth;
+    texture.height = from.mHeight;
     for (std::uint64_t i = 0; i < pixels; ++i) {
       const aiTexel& t = from.pcData[i];
       texture.rgba.insert(texture.rgba.end(), {t.r, t.g, t.b, t.a});
@@ -165,8 +174,10 @@ void readMask(float cutoff, std::uint8_t leastOfTexture, bool alphaOfVertices, M
   const float least = to.baseColour[3] * static_cast<float>(leastOfTexture) / 255;
   if (alphaOfVertices ? cutoff > 0 : least < cutoff)
     to.alphaCutoff = cutoff;
-  else
-    to.baseColour[3] = 1, to.textureHasAlpha = false;
+  else {
+    to.baseColour[3] = 1;
+    to.textureHasAlpha = false;
+  }
 }
 
 /// A surface with a missing emissive texture does not emit. Formats other than glTF omit the factor if there

@@ -146,7 +146,8 @@ void joinInto(const Flat& flat, Mesh& mesh) {
     mesh.submeshes.back().indexCount += 3;
   }
   for (const FlatVertex& v : set.vertices) {
-    mesh.positions.push_back(v.position), mesh.normals.push_back(v.normal);
+    mesh.positions.push_back(v.position);
+    mesh.normals.push_back(v.normal);
     if (flat.hasUvs) mesh.uvs.push_back(v.uv);
     if (flat.hasColours) mesh.colours.push_back(v.colour);
   }

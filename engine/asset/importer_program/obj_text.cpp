@@ -47,12 +47,16 @@ public:
     if (at_ >= text_.size()) return false;
     while (at_ < text_.size()) {
       const char c = text_[at_];
-      if (c == '\n') return newLine(), true;
+      if (c == '\n') {
+        newLine();
+        return true;
+      }
       if (c == '#')
         skipComment();
-      else if (const std::size_t joined = joining(at_); joined > 0)
-        at_ += joined - 1, newLine();
-      else if (isBlank(c))
+      else if (const std::size_t joined = joining(at_); joined > 0) {
+        at_ += joined - 1;
+        newLine();
+      } else if (isBlank(c))
         ++at_;
       else
         words.push_back(word());
@@ -64,7 +68,11 @@ public:
   std::string_view comment() const { return comment_; }
 
 private:
-  void newLine() { ++at_, ++line_, lineStart_ = at_; }
+  void newLine() {
+    ++at_;
+    ++line_;
+    lineStart_ = at_;
+  }
   void skipComment() {
     const std::size_t from = at_;
     at_ = std::min(text_.find('\n', at_), text_.size());
@@ -132,9 +140,10 @@ private:
       readVertex(words);
     else if (keyword == "vt")
       readTextureCoordinate(words);
-    else if (keyword == "vn")
-      readNumbers(words, 3, 3, "a normal has three numbers"), ++kinds_[2].count;
-    else if (keyword == "f")
+    else if (keyword == "vn") {
+      readNumbers(words, 3, 3, "a normal has three numbers");
+      ++kinds_[2].count;
+    } else if (keyword == "f")
       readFace(words);
   }
 
@@ -228,7 +237,10 @@ private:
     if (error == std::errc::invalid_argument || end != digits.data() + digits.size() || index == 0)
       refuseCorner(word);
     if (error != std::errc{} || index < -kind.count) refuseIndex(kind, word);
-    if (index > kind.highest) kind.highest = index, kind.namedBy = word;
+    if (index > kind.highest) {
+      kind.highest = index;
+      kind.namedBy = word;
+    }
   }
 
   void change(std::string_view old, std::string now) { changes_.push_back({old, std::move(now)}); }

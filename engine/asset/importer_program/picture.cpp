@@ -34,9 +34,13 @@ bool decodePng(std::span<const std::uint8_t> bytes, const MeshLimits& limits, st
     why = std::string("is not a sound PNG: ") + image.message;
     return false;
   }
-  if (!roomFor(image.width, image.height, limits, budget, why)) return png_image_free(&image), false;
+  if (!roomFor(image.width, image.height, limits, budget, why)) {
+    png_image_free(&image);
+    return false;
+  }
   image.format = PNG_FORMAT_RGBA;
-  out.width = image.width, out.height = image.height;
+  out.width = image.width;
+  out.height = image.height;
   out.rgba.resize(PNG_IMAGE_SIZE(image));
   if (!png_image_finish_read(&image, nullptr, out.rgba.data(), 0, nullptr)) {
     why = std::string("is not a sound PNG: ") + image.message;
@@ -76,7 +80,8 @@ bool runJpeg(jpeg_decompress_struct& jpeg, JpegErrors& errors, const MeshLimits&
     why = "is a JPEG of an unusual colour space";
     return false;
   }
-  out.width = jpeg.output_width, out.height = jpeg.output_height;
+  out.width = jpeg.output_width;
+  out.height = jpeg.output_height;
   out.rgba.assign(std::size_t{out.width} * out.height * 4, 255);
   row.resize(std::size_t{out.width} * 3);
   while (jpeg.output_scanline < jpeg.output_height) {

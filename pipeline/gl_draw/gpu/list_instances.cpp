@@ -9,7 +9,10 @@
 namespace stadion {
 
 void ListInstances::begin(const DrawList& list, FrameProbe* probe) {
-  list_ = &list, probe_ = probe, complete_ = false, uploaded_ = 0;
+  list_ = &list;
+  probe_ = probe;
+  complete_ = false;
+  uploaded_ = 0;
   batches_.begin(probe != nullptr);
 }
 

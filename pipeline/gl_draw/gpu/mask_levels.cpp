@@ -60,8 +60,12 @@ std::array<float, 4> meanOf(const MaskTexels& of, std::array<std::uint32_t, 2> c
   for (std::uint32_t y = rows[0]; y < rows[1]; ++y)
     for (std::uint32_t x = columns[0]; x < columns[1]; ++x) {
       const auto& t = of.texels[std::size_t{y} * of.width + x];
-      for (std::size_t k = 0; k < 3; ++k) plain[k] += t[k], weighed[k] += t[3] * t[k];
-      alpha += t[3], count += 1;
+      for (std::size_t k = 0; k < 3; ++k) {
+        plain[k] += t[k];
+        weighed[k] += t[3] * t[k];
+      }
+      alpha += t[3];
+      count += 1;
     }
   const auto& colour = alpha > 0 ? weighed : plain;
   const float of1 = 1 / (alpha > 0 ? alpha : count);

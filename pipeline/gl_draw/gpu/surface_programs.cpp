@@ -17,7 +17,8 @@ std::optional<Diagnostic> SurfacePrograms::buildUsual(const SurfaceTraits& commo
   set.common = common;
   for (std::size_t i = SurfaceTraits::kUsual; i-- > 0;) {  // the first one last: it says that all are there
     SurfaceTraits traits = common;
-    traits.textured = (i & 1) != 0, traits.localLights = (i & 2) != 0;
+    traits.textured = (i & 1) != 0;
+    traits.localLights = (i & 2) != 0;
     traits.writes = (i & 4) != 0 ? SurfaceWrites::Blended : SurfaceWrites::Picture;
     assert(traits.index() == i);
     auto built =
@@ -31,7 +32,9 @@ std::optional<Diagnostic> SurfacePrograms::buildUsual(const SurfaceTraits& commo
 void SurfacePrograms::choose(const Common& of) {
   const bool counted = look_ == Look::Plain && of.lights <= kMostCounted;
   SurfaceTraits common;
-  common.shadowed = of.shadowed, common.hazy = of.hazy, common.look = look_;
+  common.shadowed = of.shadowed;
+  common.hazy = of.hazy;
+  common.look = look_;
   common.lights = counted ? static_cast<int>(of.lights) : -1;
   const auto which = static_cast<std::size_t>(common.lights + 1);
   Set& set = sets_[std::size_t{of.shadowed} | std::size_t{of.hazy} << 1 | which << 2];
@@ -43,9 +46,11 @@ void SurfacePrograms::choose(const Common& of) {
 
 const GlProgram& SurfacePrograms::use(const GlSubmesh& part, SurfaceWrites writes) {
   SurfaceTraits traits;
-  traits.textured = part.texture != 0, traits.localLights = localLights_;
+  traits.textured = part.texture != 0;
+  traits.localLights = localLights_;
   traits.writes = writes;
-  traits.masked = part.masked, traits.glowing = part.glowTexture != 0;
+  traits.masked = part.masked;
+  traits.glowing = part.glowTexture != 0;
   const GlProgram& program = find(traits);
   calls_.use(program);
   return program;
@@ -56,7 +61,9 @@ const GlProgram& SurfacePrograms::find(SurfaceTraits traits) {
   std::optional<GlProgram>& program = chosen_->programs[i];
   if (!program && !chosen_->failed[i]) {
     const SurfaceTraits& common = chosen_->common;
-    traits.look = common.look, traits.shadowed = common.shadowed, traits.hazy = common.hazy;
+    traits.look = common.look;
+    traits.shadowed = common.shadowed;
+    traits.hazy = common.hazy;
     traits.lights = common.lights;
     auto built =
         GlProgram::build(gl_, surfaceVertexShader(traits), surfaceFragmentShader(traits), shaderBindings());

@@ -115,7 +115,8 @@ void EyeBuffers::resolve(std::uint32_t view) {
 
 GLuint EyeBuffers::depthsSoFar(std::uint32_t view) {
   if (!copied_) {
-    copied_.emplace(gl_), copiedDepth_.emplace(gl_);
+    copied_.emplace(gl_);
+    copiedDepth_.emplace(gl_);
     const GLenum target = sampled_ ? GL_TEXTURE_2D_MULTISAMPLE : GL_TEXTURE_2D;
     gl_.BindTexture(target, copiedDepth_->name());
     if (sampled_) {
@@ -128,7 +129,8 @@ GLuint EyeBuffers::depthsSoFar(std::uint32_t view) {
     gl_.BindTexture(target, 0);
     gl_.BindFramebuffer(GL_FRAMEBUFFER, copied_->name());
     gl_.FramebufferTexture2D(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, target, copiedDepth_->name(), 0);
-    gl_.DrawBuffer(GL_NONE), gl_.ReadBuffer(GL_NONE);
+    gl_.DrawBuffer(GL_NONE);
+    gl_.ReadBuffer(GL_NONE);
   }
   gl_.BindFramebuffer(GL_READ_FRAMEBUFFER, sampled_ ? drawn_.name() : resolved_[view].name());
   gl_.BindFramebuffer(GL_DRAW_FRAMEBUFFER, copied_->name());

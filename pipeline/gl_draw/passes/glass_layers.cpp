@@ -21,12 +21,14 @@ bool halve(const PixelArea& a, PixelArea& first, PixelArea& second) {
   first = second = a;
   if (a.height > 1) {
     first.height = a.height / 2;
-    second.y += first.height, second.height -= first.height;
+    second.y += first.height;
+    second.height -= first.height;
     return true;
   }
   if (a.width <= 1) return false;
   first.width = a.width / 2;
-  second.x += first.width, second.width -= first.width;
+  second.x += first.width;
+  second.width -= first.width;
   return true;
 }
 
@@ -70,10 +72,15 @@ void CoveredAreas::cover(std::span<const std::array<float, 4>, 8> corners) {
       anywhere = true;
       break;
     }
-    for (std::size_t k = 0; k < 2; ++k)
-      lo[k] = std::min(lo[k], c[k] / c[3]), hi[k] = std::max(hi[k], c[k] / c[3]);
+    for (std::size_t k = 0; k < 2; ++k) {
+      lo[k] = std::min(lo[k], c[k] / c[3]);
+      hi[k] = std::max(hi[k], c[k] / c[3]);
+    }
   }
-  if (anywhere) lo = {-1, -1}, hi = {1, 1};
+  if (anywhere) {
+    lo = {-1, -1};
+    hi = {1, 1};
+  }
   const auto pixel = [](float at, std::int32_t pixels, std::int32_t margin) {
     const float p = (0.5f + 0.5f * std::clamp(at, -1.0f, 1.0f)) * static_cast<float>(pixels);
     return std::clamp(static_cast<std::int32_t>(p) + margin, 0, pixels);
@@ -115,7 +122,8 @@ const std::vector<PixelArea>& CoveredAreas::areas() {
 
 bool GlassLayers::isSupported(const GlTable& gl) {
   GLint major = 0, minor = 0;
-  gl.GetIntegerv(GL_MAJOR_VERSION, &major), gl.GetIntegerv(GL_MINOR_VERSION, &minor);
+  gl.GetIntegerv(GL_MAJOR_VERSION, &major);
+  gl.GetIntegerv(GL_MINOR_VERSION, &minor);
   return major * 10 + minor >= 43 && gl.MemoryBarrier && gl.ClearBufferSubData;
 }
 
@@ -135,11 +143,16 @@ GlassLayers::GlassLayers(const GlTable& gl, std::uint32_t width, std::uint32_t h
       blend_(std::move(blend)), count_(gl), head_(gl), node_(gl), headTexture_(gl), nodeTexture_(gl),
       nothing_(gl) {
   const auto uniform = [&](const char* name) { return gl_.GetUniformLocation(blend_.name(), name); };
-  row_ = uniform("row"), heads_ = uniform("heads"), nodes_ = uniform("nodes"), depths_ = uniform("depths");
+  row_ = uniform("row");
+  heads_ = uniform("heads");
+  nodes_ = uniform("nodes");
+  depths_ = uniform("depths");
   corners_ = uniform("corners");
   gl_.UseProgram(blend_.name());
   gl_.Uniform1i(row_, static_cast<GLint>(width_));
-  gl_.Uniform1i(heads_, kHeadsUnit), gl_.Uniform1i(nodes_, kNodesUnit), gl_.Uniform1i(depths_, kDepthsUnit);
+  gl_.Uniform1i(heads_, kHeadsUnit);
+  gl_.Uniform1i(nodes_, kNodesUnit);
+  gl_.Uniform1i(depths_, kDepthsUnit);
   gl_.BindBuffer(GL_SHADER_STORAGE_BUFFER, count_.name());
   gl_.BufferData(GL_SHADER_STORAGE_BUFFER, sizeof(GLuint), nullptr, GL_DYNAMIC_COPY);
   gl_.BindBuffer(GL_SHADER_STORAGE_BUFFER, head_.name());
@@ -200,7 +213,8 @@ void GlassLayers::draw(EyeBuffers& buffers, std::uint32_t eye, CoveredAreas& cov
     }
     PixelArea first, second;
     if (halve(area, first, second)) {
-      left.push_front(second), left.push_front(first);
+      left.push_front(second);
+      left.push_front(first);
       continue;
     }
     blend(area, areas);  // a single pixel with millions of layers: without those that found no room

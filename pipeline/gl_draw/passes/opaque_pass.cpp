@@ -38,7 +38,10 @@ std::optional<float> OpaquePass::nearQuarter(std::uint32_t view, const SmallObje
     if (!mesh || !mesh->culler) continue;
     const std::uint32_t ofOne = partsOf(*mesh, b.level).triangles;
     for (std::uint32_t i = b.first; i < b.first + b.count; ++i)
-      if (!small.drew(i)) distances_.push_back(batches.distances()[i]), triangles += ofOne;
+      if (!small.drew(i)) {
+        distances_.push_back(batches.distances()[i]);
+        triangles += ofOne;
+      }
   }
   if (distances_.size() < kFewest || triangles * kPixels < with_.pixels()) return {};
   const auto quarter = distances_.begin() + static_cast<std::ptrdiff_t>(distances_.size() / 4);

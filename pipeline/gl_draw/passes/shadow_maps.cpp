@@ -154,7 +154,8 @@ void ShadowMaps::drawCasters(const DrawShadows& shadows, std::size_t index, std:
 const GlProgram& ShadowMaps::programFor(const GlSubmesh& part) {
   if (!part.masked) return program_;
   SurfaceTraits traits;
-  traits.masked = true, traits.textured = part.texture != 0;
+  traits.masked = true;
+  traits.textured = part.texture != 0;
   const auto which = std::size_t{traits.textured};
   if (!masked_[which] && !maskedFailed_[which]) {
     auto built =
@@ -188,7 +189,8 @@ void ShadowMaps::fillBlock(const DrawShadows& shadows) {
   ShadowBlock out{};
   const auto& a = shadows.axes;
   const auto depth = static_cast<float>(kShadowDepth);
-  out.right = {a[0], a[1], a[2], 0}, out.up = {a[3], a[4], a[5], 0};
+  out.right = {a[0], a[1], a[2], 0};
+  out.up = {a[3], a[4], a[5], 0};
   out.towards = {a[6], a[7], a[8], 0.5f / depth};
   for (std::size_t i = 0; i < kShadowRings; ++i) {
     const Area tile = tileOf(i);

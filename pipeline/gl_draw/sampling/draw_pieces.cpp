@@ -64,7 +64,10 @@ void DrawPieces::weigh() {
     for (std::size_t i = b.first; i < b.first + b.count; ++i) {
       const float work = workOf(i, mesh);
       work_ += work;
-      if (work > most) most = work, owner = scene_.batches().owners()[i];
+      if (work > most) {
+        most = work;
+        owner = scene_.batches().owners()[i];
+      }
     }
   });
   if (most < kMuch * work_) owner = {};
@@ -89,18 +92,23 @@ void DrawPieces::findPieces(std::uint32_t view) {
   const float most = work_ / DrawSampler::kMostJoined;
   float joined = most;
   bool wanted = false;
-  pieces_.clear(), wanted_.clear();
+  pieces_.clear();
+  wanted_.clear();
   forEachBatch([&](const InstanceBatch& batch, const MeshParts& mesh) {
     const InstanceBatch b = batch.seenBy(view);
     for (std::uint32_t done = 0, count = 0; done < b.count; done += count) {
       count = togetherFrom(b, done, mesh);
       float work = 0;
       for (std::uint32_t i = 0; i < count; ++i) work += workOf(b.first + done + i, mesh);
-      if (pieces_.empty() || joined + work > most)
-        pieces_.push_back(b.first + done), joined = 0, wanted = false;
+      if (pieces_.empty() || joined + work > most) {
+        pieces_.push_back(b.first + done);
+        joined = 0;
+        wanted = false;
+      }
       joined += work;
       if (wanted || !probe_->wantsAlone(scene_.batches().owners().subspan(b.first + done, count))) continue;
-      wanted_.push_back(pieces_.size() - 1), wanted = true;
+      wanted_.push_back(pieces_.size() - 1);
+      wanted = true;
     }
   });
 }

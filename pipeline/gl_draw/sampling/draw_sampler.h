@@ -47,8 +47,11 @@ public:
   void beginEye(Eye of, std::span<const std::uint32_t> starts, std::span<const std::size_t> wanted) {
     const auto eye = static_cast<std::uint32_t>(of);
     now_.eye = eye;
-    timed_.clear(), parts_.clear();
-    starts_ = starts, turn_ = {}, open_ = kNone;
+    timed_.clear();
+    parts_.clear();
+    starts_ = starts;
+    turn_ = {};
+    open_ = kNone;
     if (wanted.empty()) return;
     const std::size_t at = probe_->nextBatch(now_.wall, eye, wanted.size());
     turn_ = wanted.subspan(at, std::min(kBatchesAFrame, wanted.size() - at));
@@ -75,7 +78,8 @@ public:
     if (now == open_) return;
     endPass();
     if (!timed) return;
-    open_ = now, less_ = by == By::OpenGl ? now_.emptyMs : 0;
+    open_ = now;
+    less_ = by == By::OpenGl ? now_.emptyMs : 0;
     clock_.begin();
   }
   void endPass() {
@@ -116,7 +120,8 @@ private:
   }
   void report(Span what, double ms, std::span<const NodeShare> nodes) {
     IsolatedDrawTime drawn = now_;
-    drawn.what = what, drawn.ms = ms;
+    drawn.what = what;
+    drawn.ms = ms;
     probe_->drewAlone(drawn, nodes);
   }
 

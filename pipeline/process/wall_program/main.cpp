@@ -31,11 +31,14 @@ constexpr int kSocket = STDIN_FILENO;
 
 void answer(Order to, const std::string& text, bool failed, const ViewTotals& totals = {}) {
   AnswerHead head;
-  head.to = to, head.failed = failed, head.totals = totals;
+  head.to = to;
+  head.failed = failed;
+  head.totals = totals;
   head.textBytes = static_cast<std::uint32_t>(std::min(text.size(), kLongestText));
   iovec parts[] = {{&head, sizeof head}, {const_cast<char*>(text.data()), head.textBytes}};
   msghdr message{};
-  message.msg_iov = parts, message.msg_iovlen = 2;
+  message.msg_iov = parts;
+  message.msg_iovlen = 2;
   while (::sendmsg(kSocket, &message, MSG_NOSIGNAL) < 0 && errno == EINTR) {
   }
 }
@@ -49,8 +52,10 @@ bool receive(OrderHead& head, std::array<int, 3>& descriptors) {
   iovec part{&head, sizeof head};
   alignas(cmsghdr) char control[CMSG_SPACE(3 * sizeof(int))];
   msghdr message{};
-  message.msg_iov = &part, message.msg_iovlen = 1;
-  message.msg_control = control, message.msg_controllen = sizeof control;
+  message.msg_iov = &part;
+  message.msg_iovlen = 1;
+  message.msg_control = control;
+  message.msg_controllen = sizeof control;
   ssize_t got = 0;
   do got = ::recvmsg(kSocket, &message, MSG_CMSG_CLOEXEC);
   while (got < 0 && errno == EINTR);
@@ -181,7 +186,8 @@ void DrawnWall::draw(const OrderHead& order) {
   if (!wall_process::read({bytes_->data(), order.listBytes}, list_, news_))
     return answer(Order::Draw, "the draw list is damaged", true);
   takeNews();
-  rename(list_.opaque), rename(list_.transparent);
+  rename(list_.opaque);
+  rename(list_.transparent);
   for (DrawShadowRing& ring : list_.shadows.rings) rename(ring.moving);
   renameStill();
   auto problem = order.warmUp ? renderer_->warmUp(list_, {}) : renderer_->draw(list_, {}, nullptr);

@@ -24,7 +24,8 @@ public:
       label_ = text.substr(kTrigger.size());
       ours_ = false;
     } else if (text.starts_with("part:")) {
-      label_.clear(), ours_ = false;
+      label_.clear();
+      ours_ = false;
     } else if (text.starts_with("ob=")) {
       ours_ = isOurs(text.substr(3));
     } else if (text.starts_with("cob=")) {

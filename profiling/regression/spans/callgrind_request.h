@@ -22,7 +22,8 @@ inline void askCallgrind(std::uint64_t request, const void* argument) {
                : "a"(&words[0]), "0"(answer)
                : "cc", "memory");
 #else
-  (void)request, (void)argument;
+  (void)request;
+  (void)argument;
 #endif
 }
 

@@ -25,16 +25,24 @@ std::string whyNotByHardware(int error) {
 
 std::optional<InstructionCounter> InstructionCounter::open(std::string& why) {
   perf_event_attr counted{};
-  counted.type = PERF_TYPE_HARDWARE, counted.size = sizeof counted;
+  counted.type = PERF_TYPE_HARDWARE;
+  counted.size = sizeof counted;
   counted.config = PERF_COUNT_HW_INSTRUCTIONS;
-  counted.exclude_kernel = 1, counted.exclude_hv = 1;
+  counted.exclude_kernel = 1;
+  counted.exclude_hv = 1;
   // A counter shared in turns would count a part and guess the rest.
   counted.pinned = 1;
   const long file = syscall(SYS_perf_event_open, &counted, 0, -1, -1, PERF_FLAG_FD_CLOEXEC);
-  if (file < 0) return why = whyNotByHardware(errno), std::nullopt;
+  if (file < 0) {
+    why = whyNotByHardware(errno);
+    return std::nullopt;
+  }
   InstructionCounter counter{FileDescriptor(static_cast<int>(file))};
   // Some virtual machines have a counter that never counts.
-  if (counter.now() == 0) return why = "the hardware counter does not count", std::nullopt;
+  if (counter.now() == 0) {
+    why = "the hardware counter does not count";
+    return std::nullopt;
+  }
   return counter;
 }
 

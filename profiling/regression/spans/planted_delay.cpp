@@ -29,9 +29,10 @@ bool takeWord(std::string_view& text, std::string_view word) {
 bool parseAmount(std::string_view text, PlantedDelay& planted) {
   planted.asleep = takeWord(text, "sleep");
   if (!takeNumber(text, planted.iterations)) return false;
-  if (takeWord(text, "ms"))
-    planted.milliseconds = static_cast<std::uint32_t>(planted.iterations), planted.iterations = 0;
-  else if (planted.asleep)
+  if (takeWord(text, "ms")) {
+    planted.milliseconds = static_cast<std::uint32_t>(planted.iterations);
+    planted.iterations = 0;
+  } else if (planted.asleep)
     return false;
   planted.atRandom = takeWord(text, "~");
   if (planted.atRandom || takeWord(text, "/")) {

@@ -25,13 +25,19 @@ std::map<std::uint64_t, double> microsecondsByFrame(const Json& row, const char*
 
 SpanRow rowOf(const Json& j) {
   SpanRow row;
-  row.path = text(j, "path"), row.file = text(j, "file"), row.stage = text(j, "stage");
-  row.wall = text(j, "wall"), row.eye = text(j, "eye");
+  row.path = text(j, "path");
+  row.file = text(j, "file");
+  row.stage = text(j, "stage");
+  row.wall = text(j, "wall");
+  row.eye = text(j, "eye");
   row.line = static_cast<std::uint32_t>(number(j, "line"));
-  row.msMean = number(j, "ms_mean"), row.count = static_cast<std::size_t>(number(j, "count"));
-  row.instructions = number(j, "instructions"), row.plantedUs = number(j, "planted_us");
+  row.msMean = number(j, "ms_mean");
+  row.count = static_cast<std::size_t>(number(j, "count"));
+  row.instructions = number(j, "instructions");
+  row.plantedUs = number(j, "planted_us");
   row.elapsedUs = number(j, "elapsed_us");
-  row.frames = microsecondsByFrame(j, "frame_us"), row.elapsed = microsecondsByFrame(j, "frame_elapsed_us");
+  row.frames = microsecondsByFrame(j, "frame_us");
+  row.elapsed = microsecondsByFrame(j, "frame_elapsed_us");
   return row;
 }
 
@@ -70,8 +76,10 @@ std::vector<SpanRow> stagesOfSummary(const std::string& summaryJson) try {
   std::vector<SpanRow> all;
   for (const Json& s : j.at("stages")) {
     SpanRow row;
-    row.stage = text(s, "stage"), row.wall = text(s, "wall");
-    row.msMean = number(s.at("ms"), "p50"), row.count = static_cast<std::size_t>(number(s.at("ms"), "count"));
+    row.stage = text(s, "stage");
+    row.wall = text(s, "wall");
+    row.msMean = number(s.at("ms"), "p50");
+    row.count = static_cast<std::size_t>(number(s.at("ms"), "count"));
     all.push_back(std::move(row));
   }
   return all;
@@ -83,7 +91,10 @@ std::vector<SpanRow> profileRows(const std::string& profileJson) {
   const Json j = Json::parse(profileJson, nullptr, false);
   std::vector<SpanRow> all;
   const auto add = [&](SpanRow row, const char* stage, const std::string& wall, const char* eye, double ms) {
-    row.stage = stage, row.wall = wall, row.eye = eye, row.msMean = ms;
+    row.stage = stage;
+    row.wall = wall;
+    row.eye = eye;
+    row.msMean = ms;
     all.push_back(std::move(row));
   };
   const auto list = [](const Json& of, const char* field) {
@@ -92,7 +103,8 @@ std::vector<SpanRow> profileRows(const std::string& profileJson) {
   const Json nodes = list(j, "nodes"), stages = list(j, "stages");
   for (const Json& node : nodes) {
     SpanRow row;
-    row.path = text(node, "path"), row.file = text(node, "file");
+    row.path = text(node, "path");
+    row.file = text(node, "file");
     row.line = static_cast<std::uint32_t>(number(node, "line"));
     add(row, "app", "", "", number(node, "app_ms"));
     const Json walls = list(node, "walls");

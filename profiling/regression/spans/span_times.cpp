@@ -81,7 +81,8 @@ void SpanTimes::ended(Span what) {
   std::uint64_t appFrame = 0;
   {
     const std::lock_guard lock(mutex_);
-    open = open_[std::this_thread::get_id()], appFrame = appFrame_;
+    open = open_[std::this_thread::get_id()];
+    appFrame = appFrame_;
   }
   if (isStage(what)) {
     if (isPlantedIn(options_.planted, what, open.stage.wall)) plantIn(open.frame);
@@ -125,7 +126,9 @@ void SpanTimes::stageEnded(const Open& open) {
   boundary(&cost);
   stage_ = nullptr;
   cost.frames.push_back({open.frame, cost.now, cost.elapsed});
-  cost.total += cost.now, cost.now = 0, cost.elapsed = {};
+  cost.total += cost.now;
+  cost.now = 0;
+  cost.elapsed = {};
   if (open.stage.stage == Span::App) closeFrame(open.frame);
 }
 
@@ -163,8 +166,10 @@ SpanTimes::Cost& SpanTimes::end(const Key& key) {
 void SpanTimes::closeFrame(std::uint64_t frame) {
   for (Cost* node : touched_) {
     node->frames.push_back({frame, node->now, node->elapsed});
-    node->total += node->now, node->elapsedTotal += node->elapsed;
-    node->now = 0, node->elapsed = {};
+    node->total += node->now;
+    node->elapsedTotal += node->elapsed;
+    node->now = 0;
+    node->elapsed = {};
   }
   touched_.clear();
 }
@@ -213,7 +218,8 @@ std::vector<SpanRow> SpanTimes::rows(const std::vector<std::string>& walls,
   if (!byLabel.empty()) giveInstructions(all, byLabel);
   if (!wholeFrames_.empty()) {
     SpanRow& whole = all.emplace_back();
-    whole.stage = "frame", whole.count = wholeFrames_.size();
+    whole.stage = "frame";
+    whole.count = wholeFrames_.size();
     for (const auto& [frame, took] : wholeFrames_) whole.elapsed[frame] = microseconds(took);
     whole.elapsedUs = typicalElapsed(whole);
   }

@@ -54,7 +54,7 @@ std::optional<PlantedDelay> plantedIn(const Trial& trial, const std::vector<Span
   if (trial.kind == "simulate") {
     const auto nodes = candidates(rows);
     if (nodes.empty()) return std::nullopt;
-    planted.where = PlantedDelay::Where::Simulate,
+    planted.where = PlantedDelay::Where::Simulate;
     planted.name = nodes[trial.number * 7 % nodes.size()]->path;
   } else {
     const auto walls = stages(rows, trial.kind);

@@ -87,15 +87,16 @@ void findSameFrames(const std::vector<PreparedSeries>& family, std::vector<Stage
       const bool certain = found[i]->hitches ? shareAtLeast(most, share) <= alarm : share >= best;
       if (!certain || (!same.frames.empty() && same.frames.back() == m.frame)) continue;
       same.frames.push_back(m.frame);
-      before.push_back(shareOf(m.runs & ~now, design.before)),
-          after.push_back(shareOf(m.runs & now, design.now));
+      before.push_back(shareOf(m.runs & ~now, design.before));
+      after.push_back(shareOf(m.runs & now, design.now));
       std::vector<double> longer;
       for (std::size_t run = 0; run < design.runs(); ++run)
         if (now[run] && m.runs[run]) longer.push_back(family[i].usual.excess(family[i].series, run, m.frame));
       excess.push_back(median(std::move(longer)));
     }
     same.excessUs = median(std::move(excess));
-    same.before = median(std::move(before)), same.now = median(std::move(after));
+    same.before = median(std::move(before));
+    same.now = median(std::move(after));
   }
 }
 
@@ -375,7 +376,10 @@ std::vector<StageFrames> compareFrames(const std::vector<StageSeries>& series, c
 std::vector<StageSeries> seriesOf(const std::vector<Round>& rounds, double frameBudgetUs) {
   std::vector<StageSeries> all;
   std::vector<const std::vector<SpanRow>*> runs;
-  for (const Round& r : rounds) runs.push_back(&r.before), runs.push_back(&r.now);
+  for (const Round& r : rounds) {
+    runs.push_back(&r.before);
+    runs.push_back(&r.now);
+  }
   if (!runs.empty()) addSeries(all, runs, frameBudgetUs);
   return all;
 }
@@ -443,9 +447,11 @@ std::vector<Check> checksOf(const std::vector<StageFrames>& found, const std::ve
       check = checks.insert(check,
                             {metric, Outcome::Passed, fmt::format("against {} in {} rounds", with, rounds)});
     // Failures come first, and alone.
-    if (f.worse() && check->outcome == Outcome::Passed)
-      check->outcome = Outcome::Failed, check->culprit = culprits[i], check->said = saidOf(f);
-    else if (f.worse() || check->outcome == Outcome::Passed)
+    if (f.worse() && check->outcome == Outcome::Passed) {
+      check->outcome = Outcome::Failed;
+      check->culprit = culprits[i];
+      check->said = saidOf(f);
+    } else if (f.worse() || check->outcome == Outcome::Passed)
       check->said += "; " + saidOf(f);
     if (f.worse()) check->figures.push_back(f.name + " [" + std::string(nameOf(f.kind)) + "]");
   }

@@ -25,7 +25,8 @@ std::vector<InstructionShift> compareInstructions(const InstructionCounts& befor
     if (at == before.stages.end()) continue;
     InstructionShift s{name, at->second, count};
     const bool judged = std::max(s.before, s.now) >= kFewest;
-    s.more = judged && s.shift() > tolerance, s.fewer = judged && s.shift() < -tolerance;
+    s.more = judged && s.shift() > tolerance;
+    s.fewer = judged && s.shift() < -tolerance;
     if (s.more) s.culprit = culpritSince(name, s.before, s.now - s.before, before.nodes, counted.nodes, now);
     shifts.push_back(std::move(s));
   }

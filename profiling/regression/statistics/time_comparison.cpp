@@ -119,7 +119,8 @@ std::vector<StageShift> compareRounds(const std::vector<Round>& rounds, double t
       s.unfit = fmt::format("{} rounds are too few to tell anything of {} stages; --rounds takes more",
                             rounds.size(), shifts.size());
     const bool certain = s.probability <= kAlarm;
-    s.slower = certain && s.shift > tolerance, s.faster = certain && s.shift < -tolerance;
+    s.slower = certain && s.shift > tolerance;
+    s.faster = certain && s.shift < -tolerance;
     if (s.slower) s.culprit = culpritOf(*stages[i], rounds);
   }
   return shifts;
@@ -206,7 +207,9 @@ void confirm(std::vector<Check>& checks, const std::vector<Check>& again, std::s
       c.said += fmt::format("; again in {} more rounds", rounds);
       continue;
     }
-    c.outcome = Outcome::Passed, c.culprit.clear(), c.figures.clear();
+    c.outcome = Outcome::Passed;
+    c.culprit.clear();
+    c.figures.clear();
     c.said += fmt::format("; not in {} more rounds: by chance", rounds);
   }
 }
@@ -218,7 +221,8 @@ std::vector<Check> checksOf(const std::vector<StageShift>& shifts, const std::st
     Check c{"times of " + s.name, s.slower ? Outcome::Failed : Outcome::Passed, {}, s.culprit};
     if (s.slower) c.figures = {s.name + " [ms]"};
     if (!s.unfit.empty()) {
-      c.outcome = Outcome::Failed, c.said = s.unfit;
+      c.outcome = Outcome::Failed;
+      c.said = s.unfit;
     } else if (s.beforeUs < kShortest) {
       c.outcome = Outcome::Skipped;
       c.said =

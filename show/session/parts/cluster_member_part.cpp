@@ -59,8 +59,10 @@ std::unique_ptr<SessionPart> makeClusterMemberPart(SessionState& session, Diagno
       ClusterSession::create(s.cluster, s.show, s.draw.layout, session.reporter.sayFunction(), findings);
   if (!cluster) return nullptr;
   s.console.elsewhere = !cluster->leads();
-  if (!cluster->hasWalls())
-    s.draw.renderer.choice = RendererChoice::None, s.record.sheets = s.record.video = false;
+  if (!cluster->hasWalls()) {
+    s.draw.renderer.choice = RendererChoice::None;
+    s.record.sheets = s.record.video = false;
+  }
   return std::make_unique<ClusterMemberPart>(session, std::move(cluster));
 }
 

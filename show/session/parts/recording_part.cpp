@@ -68,8 +68,13 @@ private:
     RecordingOptions o;
     o.also = session_.budget;
     o.trace = s.record.trace;
-    if (o.trace) o.trace->show = s.show.script, o.trace->walls = walls;
-    o.profile = s.record.profile, o.log.whole = s.record.profile, o.log.shares = true;
+    if (o.trace) {
+      o.trace->show = s.show.script;
+      o.trace->walls = walls;
+    }
+    o.profile = s.record.profile;
+    o.log.whole = s.record.profile;
+    o.log.shares = true;
     const bool governed = !s.play.everyFrameCounts(player) || s.record.profile || o.trace;
     o.log.samples = s.record.profile || (governed && hasDrawnBudgets(session_.player->scene()));
     if (governed) {
