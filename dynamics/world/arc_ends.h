@@ -1,6 +1,8 @@
 #pragma once
 /// What happens when an arc ends: the flight goes on, a ball comes to the end of its slide or of its face,
 /// guided motion turns.
+///
+/// Threads  one at a time, as the world that it belongs to (world.h).
 
 #include "dynamics/world/waking.h"
 

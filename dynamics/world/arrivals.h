@@ -1,5 +1,7 @@
 #pragma once
 /// Bodies and colliders that have appeared or jumped: pairs that touch then are in contact and fire nothing.
+///
+/// Threads  one at a time, as the world that it belongs to (world.h).
 
 #include "dynamics/world/penetration_recoveries.h"
 #include "dynamics/world/waking.h"

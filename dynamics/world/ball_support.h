@@ -1,5 +1,7 @@
 #pragma once
 /// Flat faces that carry a ball in closed form.
+///
+/// Threads  one at a time, as the world that it belongs to (world.h).
 
 #include "dynamics/body/rigid_body.h"
 #include "dynamics/collision/touch.h"

@@ -3,6 +3,8 @@
 ///
 /// A new arc gets a new version, so that older predictions are void. It is noted in the traces, and marked
 /// for prediction unless events run. The caller predicts what the arc meets (foresight.h).
+///
+/// Threads  one at a time, as the world that it belongs to (world.h).
 
 #include "dynamics/body/ball_motion.h"
 #include "dynamics/motion/coupled_step.h"

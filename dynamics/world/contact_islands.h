@@ -1,6 +1,8 @@
 #pragma once
 /// Advances bodies in lasting contact, tick by tick: groups them into islands, and gives each island to the
 /// solver of small islands or to the piles.
+///
+/// Threads  one at a time, as the world that it belongs to (world.h).
 
 #include "dynamics/world/island_step.h"
 #include "dynamics/world/piles.h"

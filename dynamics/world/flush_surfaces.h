@@ -1,6 +1,8 @@
 #pragma once
 /// Surfaces of several flush pieces: their seams are no obstacle to bodies that touch, strike or roll over
 /// them.
+///
+/// Threads  one at a time, as the world that it belongs to (world.h).
 
 #include "dynamics/collision/touch_seams.h"
 #include "dynamics/contact/patch_impact.h"

@@ -110,7 +110,7 @@ void Foresight::predictNearby(RigidBody& b, double tau, bool onlyHigherIds) {
   awaitHorizon(b);
 }
 
-/// The body has been looked at. Its next arc begins in time, or on request.
+/// Called when the contacts of the body are predicted. Its next arc begins in time, or on request.
 void Foresight::awaitHorizon(RigidBody& b) {
   // What its next arcs sweep is known if they go through the same medium.
   b.lazy = b.atMostOneNear && b.nearCollider == 0 && b.mode == BodyMode::Flight &&
@@ -118,7 +118,7 @@ void Foresight::awaitHorizon(RigidBody& b) {
   if (!b.lazy) pushHorizon(b);
 }
 
-/// The next arc of a lazy body.
+/// Begins the next arc of a lazy body.
 void Foresight::flyOnLazily(RigidBody& b) {
   arcs_.flyOn(b, b.until);
   b.lazy = b.mode == BodyMode::Flight;
@@ -133,7 +133,8 @@ void Foresight::comeNear(RigidBody& b, double tau) {
   pushHorizon(b);
 }
 
-/// The same for a body that is alone and goes where it was seen to go.
+/// Predicts as predictNearby() does, for a body that is near one collider at most and goes where it was seen
+/// to go.
 void Foresight::predictNearCollider(RigidBody& b, double tau) {
   pushHorizon(b);
   ++predictions_.arcs;

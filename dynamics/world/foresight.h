@@ -2,6 +2,7 @@
 /// Predicts, for each new arc, what the body meets before the window ends, and posts the events.
 ///
 /// Lazy     a body with nothing near its path computes its next arcs only on request (catchUp).
+/// Threads  one at a time, as the world that it belongs to (world.h).
 
 #include "dynamics/state/event_queue.h"
 #include "dynamics/state/swept_boxes.h"

@@ -3,6 +3,8 @@
 ///
 /// Lasting contact is no part of any scheme. A ball that slides or rolls on a mesh meets its next face
 /// exactly.
+///
+/// Threads  one at a time, as the world that it belongs to (world.h).
 
 #include "dynamics/collision/impact_scheme.h"
 #include "dynamics/collision/stepped_search.h"

@@ -1,5 +1,7 @@
 #pragma once
 /// Resolves touches: impacts, landings on a face, embedded tips, the begin of lasting contact.
+///
+/// Threads  one at a time, as the world that it belongs to (world.h).
 
 #include "dynamics/contact/contact_solver.h"
 #include "dynamics/world/release_watch.h"

@@ -1,5 +1,7 @@
 #pragma once
 /// One step of a small island: a closed-form glide, or the exact contact solver (contact/contact_solver.h).
+///
+/// Threads  one at a time, as the world that it belongs to (world.h).
 
 #include "dynamics/contact/contact_area.h"
 #include "dynamics/contact/contact_solver.h"

@@ -1,5 +1,7 @@
 #pragma once
 /// Leads bodies out of colliders into which a hand has put them, by the way on which they went in.
+///
+/// Threads  one at a time, as the world that it belongs to (world.h).
 
 #include "dynamics/contact/penetration_recovery.h"
 #include "dynamics/state/field_set.h"

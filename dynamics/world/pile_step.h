@@ -1,5 +1,7 @@
 #pragma once
 /// One step of all members of piles, while it is put together. Internal to piles.cpp and pile_contacts.cpp.
+///
+/// Threads  one at a time, as the world that it belongs to (world.h).
 
 #include "dynamics/body/rigid_body.h"
 #include "dynamics/collision/manifold.h"

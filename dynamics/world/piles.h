@@ -1,5 +1,7 @@
 #pragma once
 /// Many bodies in contact, advanced together in steps of 1/120 s (contact/pile_solver.h).
+///
+/// Threads  one at a time, as the world that it belongs to (world.h).
 
 #include "dynamics/world/contact_finder.h"
 #include "dynamics/world/waking.h"

@@ -1,5 +1,7 @@
 #pragma once
 /// Watches pairs whose impact has been reported until they part, and reports the release at its exact time.
+///
+/// Threads  one at a time, as the world that it belongs to (world.h).
 
 #include "dynamics/state/body_traces.h"
 #include "dynamics/state/contact_events.h"

@@ -1,5 +1,7 @@
 #pragma once
 /// Lasting contact begins, and bodies wake when what they lean on changes.
+///
+/// Threads  one at a time, as the world that it belongs to (world.h).
 
 #include "dynamics/world/body_arcs.h"
 #include "dynamics/world/foresight.h"

@@ -7,6 +7,7 @@
 /// Motion   body_arcs begins arcs, and foresight predicts what they meet. waking, impacts, arc_ends and
 ///          arrivals say what happens at an event. contact_islands, island_step and piles advance lasting
 ///          contact.
+/// Threads  one at a time, as the world that it belongs to (world.h).
 
 #include "dynamics/state/event_queue.h"
 #include "dynamics/state/field_commands.h"

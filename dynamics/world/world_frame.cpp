@@ -9,7 +9,7 @@ namespace {
 constexpr std::uint64_t kMostEvents =
     3000;  ///< in one frame for each body: a last resort against endless chatter
 
-/// False of what is not a number.
+/// Returns false also if the pose is not a number.
 bool inBounds(const Pose& X) {
   return X.p.squaredNorm() <= 1e24 && X.q.squaredNorm() < 2;
 }
@@ -163,7 +163,7 @@ void World::Core::runEvents(double until) {
   }
 }
 
-/// The body of the event after this one.
+/// Fetches the body of the event after this one into the cache.
 void World::Core::fetchNext() const {
   if (!active_.many() || queue_.empty()) return;
   const ContactSide next = queue_.first().a;
@@ -184,7 +184,7 @@ void World::Core::expel(RigidBody& b) {
   if (left) b.pose = b.poseAt(in);
 }
 
-/// Where it is at the end of the frame.
+/// Computes the pose of the body at the end of the frame.
 void World::Core::sample(RigidBody& b) {
   foresight_.catchUp(b, time_.now());
   const Pose X = b.poseAt(time_.now());

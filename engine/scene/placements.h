@@ -13,7 +13,8 @@
 ///
 /// Frames     X_PN maps Node to Parent coordinates, X_WN Node to World.
 /// Ownership  borrows the rules of fleets.
-/// Threads    App only; other stages see published instance records.
+/// Threads    App only; other stages see published instance records. Const functions write caches (World
+///            matrices, poses of fleets), so not even two readers may call them at once.
 /// Errors     a setter refuses a non-finite matrix: it returns false and keeps the old one.
 
 #include "engine/maths/maths.h"

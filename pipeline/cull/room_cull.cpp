@@ -118,7 +118,7 @@ void RoomCull::search(const SlotView& state, const EyeChoice& choice, SearchedFr
   });
 }
 
-/// On the walls that surely show it, and on those of which the records themselves must say.
+/// Keeps the record for the walls that surely show it, and for those for which a test of the record decides.
 /// Bit v of the sphere's masks: volumes_[first + v].
 void RoomCull::keep(const TreeSphere& sphere, std::size_t first, const InstanceRecord& r) const {
   const std::vector<const InstanceRecord*>* kept = nullptr;  // the volumes of a wall follow each other

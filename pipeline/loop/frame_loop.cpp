@@ -107,8 +107,8 @@ private:
 FrameLoop::FrameLoop(Stages& stages, const FrameLoopOptions& options, const std::atomic<bool>& stopRequested,
                      FrameProbe* probe)
     : stages_(stages), options_(options), stopRequested_(stopRequested), probe_(probe),
-      pacer_(options.pace, options.rate, options.everyTick), times_(options.walls),
-      clock_(options.rate, options.frameTimes), warmUps_(options.walls) {
+      pacer_(options.pace, options.rate, options.everyTick), clock_(options.rate, options.frameTimes),
+      warmUps_(options.walls), times_(options.walls) {
   pacer_.startLate(std::chrono::nanoseconds(options.late));
   if (!options.after) return;
   clock_ = FrameClock(options.rate, *options.after, options.frameTimes);

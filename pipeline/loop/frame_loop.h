@@ -6,6 +6,9 @@
 /// frame n + 2 while Cull works on n + 1 and Draw on n. Both give the same pixels and the same state, frame
 /// by frame.
 ///
+/// Threads  run() returns when all threads have ended, and times() is read after that. App may call
+///          endAfterThisFrame() and catchesUp(), from within its stage. The fields are grouped by their thread.
+/// Errors   run() lets no exception out. The first failure of any thread is in the outcome.
 /// Size     FrameLoop has more than 20 fields: the state of a frame that App, Cull, Draw and the swap share.
 
 #include "engine/base/time_signature.h"
@@ -135,29 +138,39 @@ private:
   bool fail(const char* what, std::size_t wall, std::uint64_t frame, const char* why) noexcept;
   bool fail(Reason why);
 
+  // Set before the threads start, then read by all of them.
   Stages& stages_;
   FrameLoopOptions options_;
   const std::atomic<bool>& stopRequested_;
   FrameProbe* probe_;
+
+  // App's own.
   Pacer pacer_;
-  FrameTimes times_;
-  FrameLoopOutcome outcome_;
-  std::uint64_t nextIndex_ = 0;
-  std::uint64_t undrawnInARow_ = 0;  ///< late frames in a row that were not drawn
   FrameClock clock_;
   TimeSignature lastSignature_;
+  std::uint64_t nextIndex_ = 0;
+  std::uint64_t undrawnInARow_ = 0;  ///< late frames in a row that were not drawn
   bool begun_ = false;   ///< a frame has been simulated, on any host: the show can stand still at it
   bool ending_ = false;  ///< App must end after this frame
   bool ended_ = false;   ///< App has begun its last frame
+
+  // Each wall's entry belongs to its Draw thread. App reads all of them when the walls are warm.
+  std::vector<double> warmUps_;  ///< by wall: duration of its warm-up [ms]
+
+  // Of the thread that swaps: the Draw thread that arrives last. The barrier orders these threads.
+  std::chrono::steady_clock::time_point ready_{};  ///< time at which the first frame was shown
+  std::chrono::steady_clock::time_point lastSwap_{};
+  bool lastDrawn_ = false;                ///< the frame shown last had new pictures
+  std::optional<Nanoseconds> lastShown_;  ///< show time of the frame shown last
+
+  // Each field has one writer: App, a wall's Cull or Draw, or the thread that swaps. Read after the run.
+  FrameTimes times_;
+  FrameLoopOutcome outcome_;  ///< except `failure`, which any thread may set
+
+  // Any thread's.
   std::atomic<bool> stopped_ = false;
   std::atomic<bool> broken_ = false;  ///< failed, or Draw stopped: all threads must end at once
-  std::mutex failureMutex_;
-  std::chrono::steady_clock::time_point ready_{};  ///< time at which the first frame was shown
-  std::vector<double> warmUps_;  ///< by wall: duration of its warm-up [ms]; each used by its Draw thread only
-  // Of the frame shown last; used by the thread that swaps.
-  std::chrono::steady_clock::time_point lastSwap_{};
-  bool lastDrawn_ = false;
-  std::optional<Nanoseconds> lastShown_;  ///< show time of the frame shown last
+  std::mutex failureMutex_;           ///< guards outcome_.failure
 };
 
 }  // namespace stadion

@@ -1,5 +1,7 @@
 #pragma once
 /// Decides when the next frame may begin.
+///
+/// Threads  App only; missed() after the run as well.
 
 #include "engine/base/time_signature.h"
 

@@ -1,5 +1,7 @@
 #pragma once
 /// Lets all walls show the same frame together: each waits until all have drawn.
+///
+/// Threads  any. The last one to arrive runs the action while the others wait.
 
 #include "engine/base/time_signature.h"
 
