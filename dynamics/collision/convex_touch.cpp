@@ -310,6 +310,103 @@ Pose shifted(const Pose& X, const Vec3& origin) {
   return {X.p - origin, X.q};
 }
 
+/// Searches for the first touch of a convex body with a face of a mesh.
+class FaceSearch {
+public:
+  FaceSearch(const Side& body, const Side& mesh, double from, double to, std::uint64_t& count)
+      : body_(body), meshSide_(mesh), mesh_(std::get<MeshShape>(*mesh.shape)), from_(from), to_(to),
+        count_(count), origin_(placeOf(body, from)), a_(body, from, to), b_(mesh, from, to),
+        bend_(relativeAcceleration(body, mesh, from, to, (origin_ - mesh.at(from).p).norm())),
+        tolerance_(touchTolerance(origin_)) {}
+
+  std::optional<Touch> first() {
+    const int pieces = pieceCount();
+    for (int piece = 0; piece < pieces && !best_; ++piece)
+      searchPiece(from_ + (to_ - from_) * piece / pieces,
+                  piece + 1 == pieces ? to_ : from_ + (to_ - from_) * (piece + 1) / pieces);
+    toWorld(best_, origin_);
+    return best_;
+  }
+
+private:
+  /// Returns where the body is at tau, in the coordinates of the mesh.
+  Vec3 placeInMesh(double tau) const { return meshSide_.at(tau).pose.inverse() * placeOf(body_, tau); }
+
+  /// The path is searched in pieces about as long as the body, so that few triangles are near at a time.
+  int pieceCount() const {
+    const double way =
+        (placeInMesh(to_) - placeInMesh(from_)).norm() + bend_ * (to_ - from_) * (to_ - from_) / 8;
+    return static_cast<int>(std::clamp(way / (2 * a_.reach), 1.0, 64.0));
+  }
+
+  /// Returns a box around what the body sweeps, in the coordinates of the mesh.
+  Aabb sweptBox(double begin, double end) const {
+    Aabb box;
+    box.include(placeInMesh(begin));
+    box.include(placeInMesh(end));
+    const double margin = a_.reach + bend_ * (end - begin) * (end - begin) / 8 + 1e-9;
+    box.lo.array() -= margin;
+    box.hi.array() += margin;
+    return box;
+  }
+
+  void searchPiece(double begin, double end) {
+    double until = end;
+    mesh_.tree.eachOverlapping(sweptBox(begin, end), [&](std::uint32_t i) {
+      auto t = touchOf(mesh_.tree.triangles()[i], begin, until);
+      if (!t || (best_ && t->tau >= best_->tau)) return;
+      t->gap.triangle = static_cast<std::int32_t>(i);
+      best_ = t;
+      until = t->tau;
+    });
+  }
+
+  std::optional<Touch> touchOf(const Triangle& face, double begin, double until) {
+    placed_ = false;
+    return advance(
+        a_, &b_, a_.acceleration + b_.acceleration, begin, until, tolerance_, count_,
+        [&](double tau) { place(face, tau); },
+        [&](std::optional<double>& level) { return gapTo(face, level); },
+        [&](const ConvexGap& g, std::vector<ManifoldPoint>& points) {
+          convexManifold(a_.core, b_.core, g, g.distance + 1e-9, 0, points);
+        });
+  }
+
+  /// Moves body and face to tau.
+  void place(const Triangle& face, double tau) {
+    coreOf(*body_.shape, a_.moveTo(tau, origin_), a_.core);
+    if (placed_ && meshSide_.still()) return;
+    b_.core = coreOf(face, b_.moveTo(tau, origin_));
+    if (!placed_) guess_ = a_.core.middle() - b_.core.middle();
+    placed_ = true;
+  }
+
+  ConvexGap gapTo(const Triangle& face, std::optional<double>& level) {
+    ConvexGap g;
+    if (gapOverFace(a_.core, b_.core, kFar * a_.reach, g) && g.distance > 1e-6) {
+      if (meshSide_.still()) level = g.normal.dot(g.onB);
+      return g;
+    }
+    g = convexGap(a_.core, b_.core, guess_, kRough);
+    guess_ = g.normal;
+    if (g.distance < 1e-6) meshNormal(a_.core, b_.core, face, g);
+    return g;
+  }
+
+  const Side& body_;
+  const Side& meshSide_;
+  const MeshShape& mesh_;
+  const double from_, to_;
+  std::uint64_t& count_;
+  const Vec3 origin_;
+  Mover a_, b_;        ///< the body, and a face of the mesh
+  const double bend_;  ///< bound on the acceleration of the body in the mesh [m/s2]
+  const double tolerance_;
+  Vec3 guess_ = Vec3::UnitZ();  ///< direction in which the present face is likely to be nearest
+  bool placed_ = false;         ///< the present face has been placed
+  std::optional<Touch> best_;
+};
+
 }  // namespace
 
 std::optional<Touch> convexTouch(const Side& sa, const Side& sb, double from, double to,
@@ -382,61 +479,7 @@ std::optional<Touch> planeTouch(const Side& sa, const Side& plane, double from, 
 }
 
 std::optional<Touch> meshTouch(const Side& sa, const Side& sm, double from, double to, std::uint64_t& count) {
-  const auto& mesh = std::get<MeshShape>(*sm.shape);
-  const Vec3 origin = placeOf(sa, from);
-  Mover a(sa, from, to), b(sm, from, to);
-  const double bend = relativeAcceleration(sa, sm, from, to, (origin - sm.at(from).p).norm());
-  const auto local = [&](double tau) { return Vec3(sm.at(tau).pose.inverse() * placeOf(sa, tau)); };
-  // Piece by piece of the way, about as long as the body: few triangles are near at a time.
-  const double way = (local(to) - local(from)).norm() + bend * (to - from) * (to - from) / 8;
-  const int pieces = static_cast<int>(std::clamp(way / (2 * a.reach), 1.0, 64.0));
-  const double tolerance = touchTolerance(origin);
-  std::optional<Touch> best;
-  for (int piece = 0; piece < pieces && !best; ++piece) {
-    const double begin = from + (to - from) * piece / pieces,
-                 end = piece + 1 == pieces ? to : from + (to - from) * (piece + 1) / pieces;
-    Aabb box;
-    box.include(local(begin));
-    box.include(local(end));
-    const double margin = a.reach + bend * (end - begin) * (end - begin) / 8 + 1e-9;
-    box.lo.array() -= margin;
-    box.hi.array() += margin;
-    double until = end;
-    mesh.tree.eachOverlapping(box, [&](std::uint32_t i) {
-      const Triangle& face = mesh.tree.triangles()[i];
-      Vec3 guess = Vec3::UnitZ();
-      bool first = true;
-      auto t = advance(
-          a, &b, a.acceleration + b.acceleration, begin, until, tolerance, count,
-          [&](double tau) {
-            coreOf(*sa.shape, a.moveTo(tau, origin), a.core);
-            if (!first && sm.still()) return;
-            b.core = coreOf(face, b.moveTo(tau, origin));
-            if (first) guess = a.core.middle() - b.core.middle();
-            first = false;
-          },
-          [&](std::optional<double>& level) {
-            ConvexGap g;
-            if (gapOverFace(a.core, b.core, kFar * a.reach, g) && g.distance > 1e-6) {
-              if (sm.still()) level = g.normal.dot(g.onB);
-              return g;
-            }
-            g = convexGap(a.core, b.core, guess, kRough);
-            guess = g.normal;
-            if (g.distance < 1e-6) meshNormal(a.core, b.core, face, g);
-            return g;
-          },
-          [&](const ConvexGap& g, std::vector<ManifoldPoint>& points) {
-            convexManifold(a.core, b.core, g, g.distance + 1e-9, 0, points);
-          });
-      if (!t || (best && t->tau >= best->tau)) return;
-      t->gap.triangle = static_cast<std::int32_t>(i);
-      best = t;
-      until = t->tau;
-    });
-  }
-  toWorld(best, origin);
-  return best;
+  return FaceSearch(sa, sm, from, to, count).first();
 }
 
 Gap convexGapBetween(const Shape& a, const Pose& X_WA, const Shape& b, const Pose& X_WB) {

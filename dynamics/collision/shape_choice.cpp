@@ -179,62 +179,104 @@ ShapeChoice fitCapsule(const Mesh& mesh, const TriangleTree& tree, const std::ve
   });
 }
 
+/// Tries the shapes for a mesh, the simplest first.
+class ShapeChooser {
+public:
+  ShapeChooser(const Mesh& mesh, TriangleTree tree, ShapeKind requested, double tolerance)
+      : mesh_(mesh), tree_(std::move(tree)), points_(usedVertices(tree_)),
+        size_(0.5 * (tree_.bounds().hi - tree_.bounds().lo).norm()), rounding_(1e-7 * size_),
+        tolerance_(tolerance), requested_(requested), any_(requested == ShapeKind::Auto),
+        round_(points_.size() >= 60) {}
+
+  /// Returns the first shape that fits. The mesh itself always does. Moves the tree out.
+  ShapeChoice choose() {
+    using Attempt = std::optional<ShapeChoice> (ShapeChooser::*)() const;
+    for (const Attempt attempt : {&ShapeChooser::plane, &ShapeChooser::ball, &ShapeChooser::box,
+                                  &ShapeChooser::capsule, &ShapeChooser::cylinder, &ShapeChooser::convex})
+      if (auto c = (this->*attempt)()) return std::move(*c);
+    ShapeChoice c{MeshShape(std::move(tree_)), ShapeKind::Mesh, 0, {}};
+    const std::size_t used = std::get<MeshShape>(c.shape).tree.triangles().size();
+    c.remark = fmt::format("collides as a mesh of {} triangles", used);
+    return c;
+  }
+
+private:
+  /// Returns true if the kind was requested, or if any may be taken and this one is likely.
+  bool tries(ShapeKind kind, bool likely) const { return requested_ == kind || (any_ && likely); }
+  /// Returns true if the vertices are within `limit` of the shape, or if the shape was requested.
+  bool near(const ShapeChoice& c, double limit) const { return !any_ || c.deviation <= limit; }
+
+  /// Returns the shape if it was requested, or if it and the mesh are within `limit` of each other.
+  std::optional<ShapeChoice> within(double limit, ShapeChoice c) const {
+    if (any_ && !(c.deviation <= limit)) return {};
+    c.deviation = std::max(c.deviation, distanceBetween(c.shape, tree_, any_ ? limit : kNoLimit));
+    if (any_ && !(c.deviation <= limit)) return {};
+    c.remark = fmt::format("collides as a {}, within {:.3g} m ({:.2g} % of its size)", nameOf(c.kind),
+                           c.deviation, 100 * c.deviation / size_);
+    return c;
+  }
+
+  std::optional<ShapeChoice> plane() const {
+    if (!tries(ShapeKind::Plane, !tree_.closed())) return {};
+    return within(1e-6 * size_, fitPlane(tree_, points_));
+  }
+
+  /// The vertices must be on the ball; the facets between them may cut inside it by the tolerance of coarse
+  /// models.
+  std::optional<ShapeChoice> ball() const {
+    if (!tries(ShapeKind::Ball, round_)) return {};
+    ShapeChoice c = fitBall(points_, tree_.bounds());
+    if (!near(c, 0.5 * tolerance_ * size_)) return {};
+    return within(kFacets * tolerance_ * size_, std::move(c));
+  }
+
+  std::optional<ShapeChoice> box() const {
+    if (!tries(ShapeKind::Box, tree_.closed())) return {};
+    ShapeChoice c = fitBox(tree_, points_);
+    const double thin = std::get<BoxShape>(c.shape).half.minCoeff();
+    return within(tolerance_ * thin + rounding_, std::move(c));
+  }
+
+  std::optional<ShapeChoice> capsule() const {
+    if (!tries(ShapeKind::Capsule, tree_.closed() && round_)) return {};
+    ShapeChoice c = fitCapsule(mesh_, tree_, points_);
+    const double r = std::get<CapsuleShape>(c.shape).radius;
+    if (!near(c, 0.5 * tolerance_ * r)) return {};
+    return within(kRodFacets * tolerance_ * r, std::move(c));
+  }
+
+  std::optional<ShapeChoice> cylinder() const {
+    if (!tries(ShapeKind::Cylinder, tree_.closed() && round_)) return {};
+    ShapeChoice c = fitCylinder(mesh_, tree_, points_);
+    const auto& s = std::get<CylinderShape>(c.shape);
+    const double radius = s.radius, thin = std::min(s.radius, s.half);
+    if (!near(c, 0.5 * tolerance_ * thin)) return {};
+    return within(kRodFacets * tolerance_ * radius, std::move(c));
+  }
+
+  std::optional<ShapeChoice> convex() const {
+    if (!tries(ShapeKind::Convex, tree_.closed() && tree_.corners().size() <= 4 * kMostCorners)) return {};
+    auto hull = convexHull(tree_.corners());
+    if (!hull || (any_ && hull->points.size() > kMostCorners)) return {};
+    const double limit = tolerance_ * hull->inside + rounding_;
+    return within(limit, ShapeChoice{std::move(*hull), ShapeKind::Convex, 0, {}});
+  }
+
+  const Mesh& mesh_;
+  TriangleTree tree_;
+  const std::vector<Vec3> points_;  ///< vertices of its triangles
+  const double size_, rounding_, tolerance_;
+  const ShapeKind requested_;
+  const bool any_;    ///< any kind may be taken
+  const bool round_;  ///< enough vertices for a curved shape
+};
+
 }  // namespace
 
 Result<ShapeChoice> chooseShape(const Mesh& mesh, ShapeKind requested, double tolerance) {
   TriangleTree tree(mesh);
   if (tree.empty()) return Result<ShapeChoice>::failure("has no usable triangle to collide with");
-  const std::vector<Vec3> points = usedVertices(tree);
-  const double size = 0.5 * (tree.bounds().hi - tree.bounds().lo).norm(), rounding = 1e-7 * size;
-  const bool any = requested == ShapeKind::Auto;
-  /// Taken if it was asked for, or if it and the mesh are within `limit` of each other.
-  const auto take = [&](ShapeChoice& c, double limit) {
-    if (any && !(c.deviation <= limit)) return false;
-    c.deviation = std::max(c.deviation, distanceBetween(c.shape, tree, any ? limit : kNoLimit));
-    if (any && !(c.deviation <= limit)) return false;
-    c.remark = fmt::format("collides as a {}, within {:.3g} m ({:.2g} % of its size)", nameOf(c.kind),
-                           c.deviation, 100 * c.deviation / size);
-    return true;
-  };
-  const bool round = points.size() >= 60;
-  if (requested == ShapeKind::Plane || (any && !tree.closed())) {
-    ShapeChoice c = fitPlane(tree, points);
-    if (take(c, 1e-6 * size)) return c;
-  }
-  if (requested == ShapeKind::Ball || (any && round)) {
-    ShapeChoice c = fitBall(points, tree.bounds());
-    // The vertices must be on the ball; the facets between them may cut inside it by the tolerance of coarse
-    // models.
-    if ((!any || c.deviation <= 0.5 * tolerance * size) && take(c, kFacets * tolerance * size)) return c;
-  }
-  if (requested == ShapeKind::Box || (any && tree.closed())) {
-    ShapeChoice c = fitBox(tree, points);
-    if (take(c, tolerance * std::get<BoxShape>(c.shape).half.minCoeff() + rounding)) return c;
-  }
-  if (requested == ShapeKind::Capsule || (any && tree.closed() && round)) {
-    ShapeChoice c = fitCapsule(mesh, tree, points);
-    const double r = std::get<CapsuleShape>(c.shape).radius;
-    if ((!any || c.deviation <= 0.5 * tolerance * r) && take(c, kRodFacets * tolerance * r)) return c;
-  }
-  if (requested == ShapeKind::Cylinder || (any && tree.closed() && round)) {
-    ShapeChoice c = fitCylinder(mesh, tree, points);
-    const auto& s = std::get<CylinderShape>(c.shape);
-    const double thin = std::min(s.radius, s.half);
-    if ((!any || c.deviation <= 0.5 * tolerance * thin) && take(c, kRodFacets * tolerance * s.radius))
-      return c;
-  }
-  if (requested == ShapeKind::Convex || (any && tree.closed() && tree.corners().size() <= 4 * kMostCorners)) {
-    auto hull = convexHull(tree.corners());
-    if (hull && (!any || hull->points.size() <= kMostCorners)) {
-      const double limit = tolerance * hull->inside + rounding;
-      ShapeChoice c{std::move(*hull), ShapeKind::Convex, 0, {}};
-      if (take(c, limit)) return c;
-    }
-  }
-  ShapeChoice c{MeshShape(std::move(tree)), ShapeKind::Mesh, 0, {}};
-  const std::size_t used = std::get<MeshShape>(c.shape).tree.triangles().size();
-  c.remark = fmt::format("collides as a mesh of {} triangles", used);
-  return Result<ShapeChoice>(std::move(c));
+  return ShapeChooser(mesh, std::move(tree), requested, tolerance).choose();
 }
 
 }  // namespace stadion

@@ -131,32 +131,50 @@ bool DynamicsNode::followFields(FrameContext& frame, std::vector<Nanoseconds>& c
   for (Field& f : fields_) {
     f.track.clear();
     const FieldNode* node = fieldAt(f.ref, frame.scene);
-    f.leaveAt = node ? frame.scene.tree().endOf(f.ref.load) : 0;
-    if (f.leaveAt <= frame.now.time) {
-      cuts.push_back(f.leaveAt);
-      any = true;
-    }
+    any = leaves(f, node != nullptr, frame, cuts) || any;
     if (!node) continue;
     world_.setFieldLaw(f.id, node->law(frame.scene));
-    f.track = frame.scene.poseTracks().within(f.placement, f.pose, frame.start(), frame.now.time,
-                                              frame.scene.placements());
-    if (!f.track.empty()) any = true;
-    addCuts(f.track, cuts);
-    if (f.carrier = carrierOf(f.placement, frame.scene.placements()); f.carrier) {
-      // Where the body goes is only known from part to part.
-      f.X_BF = world_.pose(f.carrier).inverse() * node->pose(frame.scene);
-      for (Nanoseconds t = frame.start() / kCarried * kCarried; t < frame.now.time; t += kCarried)
-        cuts.push_back(t);
-    }
+    any = followTrack(f, frame, cuts) || any;
+    followCarrier(f, *node, frame, cuts);
     f.strength = node->strength();
     for (const AxisKnot& k : f.strength) cuts.push_back(k.time);
     f.pose = node->pose(frame.scene);
-    for (const FieldNode::Change& c : node->changes(frame.now.frame)) {
-      world_.switchField(f.id, c.on, c.when);
-      any = true;
-    }
+    any = takeSwitches(f, *node, frame) || any;
   }
   return any;
+}
+
+/// Finds the time at which the field leaves the scene. True if that is in this frame.
+bool DynamicsNode::leaves(Field& f, bool isThere, const FrameContext& frame, std::vector<Nanoseconds>& cuts) {
+  f.leaveAt = isThere ? frame.scene.tree().endOf(f.ref.load) : 0;
+  if (f.leaveAt > frame.now.time) return false;
+  cuts.push_back(f.leaveAt);
+  return true;
+}
+
+/// Reads the path of the field in this frame. True if it moves.
+bool DynamicsNode::followTrack(Field& f, FrameContext& frame, std::vector<Nanoseconds>& cuts) {
+  f.track = frame.scene.poseTracks().within(f.placement, f.pose, frame.start(), frame.now.time,
+                                            frame.scene.placements());
+  addCuts(f.track, cuts);
+  return !f.track.empty();
+}
+
+/// Finds the body that carries the field. Where the body goes is only known from part to part of the frame.
+void DynamicsNode::followCarrier(Field& f, const FieldNode& node, const FrameContext& frame,
+                                 std::vector<Nanoseconds>& cuts) {
+  f.carrier = carrierOf(f.placement, frame.scene.placements());
+  if (!f.carrier) return;
+  f.X_BF = world_.pose(f.carrier).inverse() * node.pose(frame.scene);
+  for (Nanoseconds t = frame.start() / kCarried * kCarried; t < frame.now.time; t += kCarried)
+    cuts.push_back(t);
+}
+
+/// Switches the field as its node was switched in this frame. True if it was.
+bool DynamicsNode::takeSwitches(const Field& f, const FieldNode& node, const FrameContext& frame) {
+  const std::vector<FieldNode::Change>& changes = node.changes(frame.now.frame);
+  for (const FieldNode::Change& c : changes) world_.switchField(f.id, c.on, c.when);
+  return !changes.empty();
 }
 
 bool DynamicsNode::takeOrders(FrameContext& frame, std::vector<Nanoseconds>& cuts) {

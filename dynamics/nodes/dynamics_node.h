@@ -75,6 +75,11 @@ private:
 
   FieldId fieldFor(NodeRef ref, Scene& scene);
   bool followFields(FrameContext& frame, std::vector<Nanoseconds>& cuts);
+  static bool leaves(Field& f, bool isThere, const FrameContext& frame, std::vector<Nanoseconds>& cuts);
+  static bool followTrack(Field& f, FrameContext& frame, std::vector<Nanoseconds>& cuts);
+  void followCarrier(Field& f, const FieldNode& node, const FrameContext& frame,
+                     std::vector<Nanoseconds>& cuts);
+  bool takeSwitches(const Field& f, const FieldNode& node, const FrameContext& frame);
   bool takeOrders(FrameContext& frame, std::vector<Nanoseconds>& cuts);
   void apply(const Order& order, FrameContext& frame);
   void grab(const Part& part, const std::string& tracker, Nanoseconds when, FrameContext& frame);

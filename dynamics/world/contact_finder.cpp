@@ -45,6 +45,26 @@ std::vector<char> hullCorners(const std::vector<Vec2>& p) {
   return corner;
 }
 
+/// Returns true if both lie on one plane, at one height, and feel alike.
+bool feelAlike(const FoundContact& f, const FoundContact& o) {
+  return f.gap.normal.dot(o.gap.normal) > kOneDirection &&
+         std::fabs(f.gap.normal.dot(f.gap.point - o.gap.point)) < kOneHeight &&
+         std::fabs(f.gap.distance - o.gap.distance) < kOneHeight &&
+         f.surface.friction == o.surface.friction && f.surface.restitution == o.surface.restitution &&
+         f.surface.rolling == o.surface.rolling && f.carrier == o.carrier &&
+         f.rounding.radius == o.rounding.radius;
+}
+
+/// Fills `places` with where the contacts of the group are in their plane, relative to the first.
+void placesOf(const std::vector<std::size_t>& group, const std::vector<FoundContact>& found,
+              std::vector<Vec2>& places) {
+  const Gap& first = found[group.front()].gap;
+  const Mat3 basis = basisAround(first.normal);
+  places.clear();
+  for (const std::size_t k : group)
+    places.push_back((basis.transpose() * (found[k].gap.point - first.point)).tail<2>());
+}
+
 template <class T>
 void eraseMarked(std::vector<T>& list, std::size_t first, const std::vector<char>& marked) {
   std::size_t kept = first;
@@ -152,11 +172,11 @@ void ContactFinder::find(RigidBody& b, double tau, std::vector<FoundContact>& fo
     const double reach = b.bound.radius + o.bound.radius + margin;
     if ((o.at(tau).pose * o.bound.centre - k.pose * b.bound.centre).squaredNorm() > reach * reach) return;
     if (o.mode == BodyMode::Contact && !o.contact.inPile) {
-      if (o.contact.slot == kNowhere) {
+      if (o.contact.slot == kNowhere) {  // it is not due, but it comes along
         o.contact.slot = 0;
         set.push_back(&o);
-      }                                         // it is not due, but it comes along
-      if (o.id < b.id) return;                  // the pair is found from there
+      }
+      if (o.id < b.id) return;  // the pair is found from there
     } else if (!o.contact.inPile && !standsStill(o.mode) && o.mode != BodyMode::Held) {
       return;  // a flier: its touch is an event
     }
@@ -199,54 +219,54 @@ void ContactFinder::dropHidden(const RigidBody& b, double tau, std::size_t first
 /// Points on one plane of flush colliders that feel alike count as those of one of them, and what lies
 /// between others of them is left out: they carry the body as one face would.
 void ContactFinder::joinFlush(const RigidBody& b, std::size_t first, std::vector<FoundContact>& found) {
-  const auto still = [&](const FoundContact& f) {
-    return !f.b.isBody && !objects_.collider(f.b.id)->motion.moving;
-  };
-  const auto alike = [&](const FoundContact& f, const FoundContact& o) {
-    return f.gap.normal.dot(o.gap.normal) > kOneDirection &&
-           std::fabs(f.gap.normal.dot(f.gap.point - o.gap.point)) < kOneHeight &&
-           std::fabs(f.gap.distance - o.gap.distance) < kOneHeight &&
-           f.surface.friction == o.surface.friction && f.surface.restitution == o.surface.restitution &&
-           f.surface.rolling == o.surface.rolling && f.carrier == o.carrier &&
-           f.rounding.radius == o.rounding.radius;
-  };
-  std::vector<char> gone(found.size(), 0), seen(found.size(), 0);
+  std::vector<char> gone(found.size(), 0), grouped(found.size(), 0);
   std::vector<std::size_t> group;
   std::vector<Vec2> places;
   bool any = false;
   for (std::size_t i = first; i < found.size(); ++i) {
-    if (seen[i] || !still(found[i])) continue;
-    group.assign(1, i);
-    bool several = false;
-    for (std::size_t k = i + 1; k < found.size(); ++k)
-      if (!seen[k] && still(found[k]) && alike(found[i], found[k])) {
-        group.push_back(k);
-        several = several || found[k].b != found[i].b;
-      }
-    if (!several) continue;
-    const Mat3 basis = basisAround(found[i].gap.normal);
-    places.clear();
-    for (const std::size_t k : group) {
-      seen[k] = 1;
-      places.push_back((basis.transpose() * (found[k].gap.point - found[i].gap.point)).tail<2>());
-    }
-    const std::vector<char> corner = hullCorners(places);
-    ContactSide name;
-    std::size_t kept = 0;
-    for (std::size_t g = 0; g < group.size(); ++g)
-      if (corner[g]) name = kept++ == 0 ? found[group[g]].b : std::min(name, found[group[g]].b);
-    for (std::size_t g = 0; g < group.size(); ++g) {
-      FoundContact& f = found[group[g]];
-      if (f.b != name) beside_.push_back({b.id, f.b, f.gap.distance < kTouching});
-      if (corner[g])
-        f.b = name;
-      else {
-        gone[group[g]] = 1;
-        any = true;
-      }
-    }
+    if (grouped[i] || !isOnStillCollider(found[i])) continue;
+    if (!groupOf(i, found, grouped, group)) continue;
+    placesOf(group, found, places);
+    for (const std::size_t k : group) grouped[k] = 1;
+    any = keepCorners(b, group, hullCorners(places), found, gone) || any;
   }
   if (any) eraseMarked(found, first, gone);
+}
+
+bool ContactFinder::isOnStillCollider(const FoundContact& f) const {
+  return !f.b.isBody && !objects_.collider(f.b.id)->motion.moving;
+}
+
+/// Fills `group` with contact i and the later ones that are like it. False if all are of one collider.
+bool ContactFinder::groupOf(std::size_t i, const std::vector<FoundContact>& found,
+                            const std::vector<char>& grouped, std::vector<std::size_t>& group) const {
+  group.assign(1, i);
+  bool several = false;
+  for (std::size_t k = i + 1; k < found.size(); ++k)
+    if (!grouped[k] && isOnStillCollider(found[k]) && feelAlike(found[i], found[k])) {
+      group.push_back(k);
+      several = several || found[k].b != found[i].b;
+    }
+  return several;
+}
+
+/// Renames the contacts at corners to one collider, and marks the others as gone. False if there is none.
+bool ContactFinder::keepCorners(const RigidBody& b, const std::vector<std::size_t>& group,
+                                const std::vector<char>& corner, std::vector<FoundContact>& found,
+                                std::vector<char>& gone) {
+  ContactSide name;
+  std::size_t kept = 0;
+  for (std::size_t g = 0; g < group.size(); ++g)
+    if (corner[g]) name = kept++ == 0 ? found[group[g]].b : std::min(name, found[group[g]].b);
+  for (std::size_t g = 0; g < group.size(); ++g) {
+    FoundContact& f = found[group[g]];
+    if (f.b != name) beside_.push_back({b.id, f.b, f.gap.distance < kTouching});
+    if (corner[g])
+      f.b = name;
+    else
+      gone[group[g]] = 1;
+  }
+  return kept < group.size();
 }
 
 }  // namespace stadion

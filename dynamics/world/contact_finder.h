@@ -1,5 +1,7 @@
 #pragma once
 /// Finds the contact points of bodies in lasting contact, and joins those of flush pieces.
+///
+/// Threads  one at a time, as the world that it belongs to (world.h).
 
 #include "dynamics/collision/manifold.h"
 #include "dynamics/contact/contact_area.h"
@@ -52,6 +54,11 @@ private:
   void chooseRecovery(const RigidBody& b, std::size_t first, std::vector<FoundContact>& found) const;
   void dropHidden(const RigidBody& b, double tau, std::size_t first, std::vector<FoundContact>& found);
   void joinFlush(const RigidBody& b, std::size_t first, std::vector<FoundContact>& found);
+  bool isOnStillCollider(const FoundContact& f) const;
+  bool groupOf(std::size_t i, const std::vector<FoundContact>& found, const std::vector<char>& grouped,
+               std::vector<std::size_t>& group) const;
+  bool keepCorners(const RigidBody& b, const std::vector<std::size_t>& group, const std::vector<char>& corner,
+                   std::vector<FoundContact>& found, std::vector<char>& gone);
 
   const StepGrid& grid_;
   const WorldObjects& objects_;

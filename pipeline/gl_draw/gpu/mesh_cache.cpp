@@ -23,7 +23,7 @@ struct Vertex {
 
 constexpr float kAnisotropy = 8;  // on the processor it makes textured scenes 2 to 3 times as slow
 
-/// Of all bytes, in sixteen bits.
+/// Returns the values of all bytes, in sixteen bits.
 std::array<std::uint16_t, 256> colourTable(Look look) {
   std::array<std::uint16_t, 256> table{};
   for (std::size_t i = 0; i < table.size(); ++i) {
@@ -48,6 +48,38 @@ std::vector<Vertex> interleave(const Mesh& mesh, Look look) {
   }
   return vertices;
 }
+
+/// Makes the parts of a mesh.
+struct PartMaker {
+  const Mesh& mesh;
+  const GlMesh& out;
+  std::size_t stride;  ///< between two materials [bytes]
+  bool open;           ///< the mesh shows its back faces
+
+  GLuint nameOf(std::int32_t texture) const {
+    return texture >= 0 ? out.textures[static_cast<std::size_t>(texture)].name() : 0;
+  }
+
+  /// `before`: number of indices of the levels before that of `indices`.
+  GlSubmesh partOf(const Submesh& part, std::span<const std::uint32_t> indices, std::size_t before) const {
+    const Material& material = mesh.materials[part.material];
+    const bool textured = material.texture >= 0 && !mesh.uvs.empty();
+    const auto own = indices.subspan(part.firstIndex, part.indexCount);
+    const auto [least, most] = std::ranges::minmax_element(own);
+    const std::uint32_t first = own.empty() ? 0 : *least, end = own.empty() ? 0 : *most + 1;
+    return {static_cast<GLsizei>(part.indexCount),
+            (before + part.firstIndex) * sizeof(std::uint32_t),
+            static_cast<GLintptr>(part.material * stride),
+            textured ? nameOf(material.texture) : 0,
+            nameOf(material.emissiveTexture),
+            material.transparent(),
+            material.masked(),
+            material.doubleSided || open,
+            static_cast<std::uint32_t>(part.material),
+            first,
+            end};
+  }
+};
 
 /// Below which alpha the texture itself leaves holes; 0 if it leaves none.
 float textureCutoff(const Mesh& mesh, std::size_t texture) {
@@ -123,6 +155,7 @@ std::optional<GlMesh> MeshCache::upload(const Mesh& mesh) {
   for (std::size_t i = 0; i < mesh.textures.size(); ++i)
     out.textures.push_back(uploadTexture(mesh.textures[i], textureCutoff(mesh, i)));
   uploadMaterials(mesh, out);
+  listParts(mesh, out);
   if (const GLenum error = gl_.GetError(); error != GL_NO_ERROR) {
     report("\"" + mesh.name + "\" cannot be drawn: OpenGL says " + glErrorName(error));
     return {};
@@ -152,7 +185,7 @@ void MeshCache::uploadVertices(const Mesh& mesh, GlMesh& out) {
   }
 }
 
-/// Of all levels, one after the other.
+/// Uploads the indices of all levels, one after the other.
 void MeshCache::uploadIndices(const Mesh& mesh, GlMesh& out) {
   std::vector<std::uint32_t> ofLevels;
   if (!mesh.levels.empty()) {
@@ -166,9 +199,14 @@ void MeshCache::uploadIndices(const Mesh& mesh, GlMesh& out) {
   if (culls_) out.culler.emplace(mesh, all);
 }
 
-void MeshCache::uploadMaterials(const Mesh& mesh, GlMesh& out) {
+/// Returns the distance between two materials in their buffer [bytes].
+std::size_t MeshCache::materialStride() const {
   const auto alignment = static_cast<std::size_t>(std::max(uniformAlignment_, 1));
-  const std::size_t stride = (sizeof(MaterialBlock) + alignment - 1) / alignment * alignment;
+  return (sizeof(MaterialBlock) + alignment - 1) / alignment * alignment;
+}
+
+void MeshCache::uploadMaterials(const Mesh& mesh, GlMesh& out) {
+  const std::size_t stride = materialStride();
   std::vector<std::byte> blocks(stride * mesh.materials.size());
   for (std::size_t i = 0; i < mesh.materials.size(); ++i) {
     const MaterialBlock block = fillMaterial(mesh.materials[i], look_);
@@ -176,37 +214,19 @@ void MeshCache::uploadMaterials(const Mesh& mesh, GlMesh& out) {
   }
   gl_.BindBuffer(GL_UNIFORM_BUFFER, out.materials.name());
   gl_.BufferData(GL_UNIFORM_BUFFER, static_cast<GLsizeiptr>(blocks.size()), blocks.data(), GL_STATIC_DRAW);
+}
 
-  const bool open = !encloses(mesh);
-  const auto partOf = [&](const Submesh& part, std::span<const std::uint32_t> indices, std::size_t before) {
-    const Material& material = mesh.materials[part.material];
-    const bool textured = material.texture >= 0 && !mesh.uvs.empty();
-    const auto nameOf = [&](std::int32_t texture) {
-      return texture >= 0 ? out.textures[static_cast<std::size_t>(texture)].name() : 0;
-    };
-    const auto own = indices.subspan(part.firstIndex, part.indexCount);
-    const auto [least, most] = std::ranges::minmax_element(own);
-    const std::uint32_t first = own.empty() ? 0 : *least, end = own.empty() ? 0 : *most + 1;
-    return GlSubmesh{static_cast<GLsizei>(part.indexCount),
-                     (before + part.firstIndex) * sizeof(std::uint32_t),
-                     static_cast<GLintptr>(part.material * stride),
-                     textured ? nameOf(material.texture) : 0,
-                     nameOf(material.emissiveTexture),
-                     material.transparent(),
-                     material.masked(),
-                     material.doubleSided || open,
-                     static_cast<std::uint32_t>(part.material),
-                     first,
-                     end};
-  };
+/// Lists the parts of all levels. Expects the textures.
+void MeshCache::listParts(const Mesh& mesh, GlMesh& out) const {
+  const PartMaker make{mesh, out, materialStride(), !encloses(mesh)};
   for (const Submesh& part : mesh.submeshes) {
-    out.parts.push_back(partOf(part, mesh.indices, 0));
+    out.parts.push_back(make.partOf(part, mesh.indices, 0));
     out.transparentParts += mesh.materials[part.material].transparent();
   }
   std::size_t first = mesh.indices.size();
   for (const MeshLevel& level : mesh.levels) {
     std::vector<GlSubmesh>& parts = out.levels.emplace_back();
-    for (const Submesh& part : level.submeshes) parts.push_back(partOf(part, level.indices, first));
+    for (const Submesh& part : level.submeshes) parts.push_back(make.partOf(part, level.indices, first));
     first += level.indices.size();
   }
   const auto isPlain = [](const GlSubmesh& part) {

@@ -101,6 +101,8 @@ private:
   void uploadVertices(const Mesh& mesh, GlMesh& out);
   void uploadIndices(const Mesh& mesh, GlMesh& out);
   void uploadMaterials(const Mesh& mesh, GlMesh& out);
+  void listParts(const Mesh& mesh, GlMesh& out) const;
+  std::size_t materialStride() const;
   GlTexture uploadTexture(const Texture& texture, float alphaCutoff);
   void report(std::string what);
 

@@ -61,18 +61,59 @@ struct PreparedSeries {
   std::vector<Mark> marks;
 };
 
-/// Answers the first question for all stages of a family.
-void findSameFrames(const std::vector<PreparedSeries>& family, std::vector<StageFrames*>& found,
-                    const RunDesign& design, const std::vector<RunSet>& labellings, double alarm) {
-  std::set<RunSet, LessRunSet> patterns;
+using RunPatterns = std::set<RunSet, LessRunSet>;
+
+/// Returns the different sets of runs in which a frame of the family was long.
+RunPatterns patternsOf(const std::vector<PreparedSeries>& family) {
+  RunPatterns patterns;
   for (const PreparedSeries& p : family)
     for (const Mark& m : p.marks) patterns.insert(m.runs);
+  return patterns;
+}
+
+/// Returns, for each labelling of the runs, the largest difference that it gives any of the patterns.
+std::vector<double> largestDifferences(const RunPatterns& patterns, const std::vector<RunSet>& labellings,
+                                       const RunDesign& design) {
   std::vector<double> most;
   for (const RunSet& now : labellings) {
     double largest = 0;
     for (const RunSet& runs : patterns) largest = std::max(largest, moreOften(runs, now, design));
     most.push_back(largest);
   }
+  return most;
+}
+
+/// Returns the median excess over the usual time in the runs called "now" in which the frame was long [us].
+double excessNow(const PreparedSeries& stage, const Mark& m, const RunDesign& design) {
+  const RunSet now = design.trueNow();
+  std::vector<double> longer;
+  for (std::size_t run = 0; run < design.runs(); ++run)
+    if (now[run] && m.runs[run]) longer.push_back(stage.usual.excess(stage.series, run, m.frame));
+  return median(std::move(longer));
+}
+
+/// Fills `same` with the frames for which `counts` is true, each once, and with their medians.
+template <class Counts>
+void describeFrames(const PreparedSeries& stage, const RunDesign& design, const Counts& counts,
+                    LongFrames& same) {
+  const RunSet now = design.trueNow();
+  std::vector<double> excess, before, after;
+  for (const Mark& m : stage.marks) {
+    if (!counts(m) || (!same.frames.empty() && same.frames.back() == m.frame)) continue;
+    same.frames.push_back(m.frame);
+    before.push_back(shareOf(m.runs & ~now, design.before));
+    after.push_back(shareOf(m.runs & now, design.now));
+    excess.push_back(excessNow(stage, m, design));
+  }
+  same.excessUs = median(std::move(excess));
+  same.before = median(std::move(before));
+  same.now = median(std::move(after));
+}
+
+/// Answers the first question for all stages of a family.
+void findSameFrames(const std::vector<PreparedSeries>& family, std::vector<StageFrames*>& found,
+                    const RunDesign& design, const std::vector<RunSet>& labellings, double alarm) {
+  const std::vector<double> most = largestDifferences(patternsOf(family), labellings, design);
   const RunSet now = design.trueNow();
   for (std::size_t i = 0; i < family.size(); ++i) {
     double best = 0;
@@ -81,22 +122,11 @@ void findSameFrames(const std::vector<PreparedSeries>& family, std::vector<Stage
     LongFrames& same = found[i]->same;
     same.probability = shareAtLeast(most, best);
     found[i]->hitches = same.probability <= alarm;
-    std::vector<double> excess, before, after;
-    for (const Mark& m : family[i].marks) {
+    const auto isCertain = [&](const Mark& m) {
       const double share = moreOften(m.runs, now, design);
-      const bool certain = found[i]->hitches ? shareAtLeast(most, share) <= alarm : share >= best;
-      if (!certain || (!same.frames.empty() && same.frames.back() == m.frame)) continue;
-      same.frames.push_back(m.frame);
-      before.push_back(shareOf(m.runs & ~now, design.before));
-      after.push_back(shareOf(m.runs & now, design.now));
-      std::vector<double> longer;
-      for (std::size_t run = 0; run < design.runs(); ++run)
-        if (now[run] && m.runs[run]) longer.push_back(family[i].usual.excess(family[i].series, run, m.frame));
-      excess.push_back(median(std::move(longer)));
-    }
-    same.excessUs = median(std::move(excess));
-    same.before = median(std::move(before));
-    same.now = median(std::move(after));
+      return found[i]->hitches ? shareAtLeast(most, share) <= alarm : share >= best;
+    };
+    describeFrames(family[i], design, isCertain, same);
   }
 }
 
