@@ -24,7 +24,7 @@ Vec3 placeOf(const Side& s, double tau) {
   return s.body && s.body->mode != BodyMode::Held ? s.body->position(tau) : s.at(tau).p;
 }
 
-/// Whether the body is round about the axis that it spins freely about.
+/// Returns true if the body is round about the axis that it spins freely about.
 bool precesses(const Side& s) {
   if (!s.body || s.body->spin.kind != Spin::Kind::Symmetric || s.body->mode == BodyMode::Held) return false;
   const auto* cylinder = std::get_if<CylinderShape>(s.shape);
@@ -170,7 +170,8 @@ double safeTime(const Lower& f, double gap, double most, double known) {
   return 0;
 }
 
-/// The same for planes that turn with what they touch: with a face of a or b, or with an edge of each.
+/// Returns a safe time, as safeTime() does, for planes that turn with a face of a or b, or with an edge of
+/// each.
 double turningTime(const Mover& a, const Mover& b, const ConvexGap& g, double gap, double acceleration,
                    double most, double known) {
   const Vec3& n = g.normal;
@@ -193,7 +194,7 @@ double turningTime(const Mover& a, const Mover& b, const ConvexGap& g, double ga
   return longest;
 }
 
-/// The same with everything held inside spheres, turning or not.
+/// Returns a safe time for bodies that are held to be spheres, turning or not.
 double sphereTime(const Lower& f, double most) {
   if (!f.a.turning && !f.b) return 0;
   const double far = f.b ? f.n.dot(f.b->p) + f.b->reach : f.level;
@@ -212,7 +213,8 @@ double closingRate(const Lower& f) {
   return slope + f.acceleration * s;
 }
 
-/// Of a patch that touches all at once: its middle if it comes flat on, else the point that comes fastest.
+/// Finds the contact point of a patch that touches all at once: its middle if it comes flat on, else the point
+/// that comes fastest.
 bool contactPoint(const Mover& a, const Mover* b, const std::vector<ManifoldPoint>& patch, double gap,
                   Vec3& x) {
   const auto rateAt = [&](const ManifoldPoint& p) {

@@ -373,7 +373,7 @@ bool DynamicsNode::resume(Scene& scene) {
   return world_.complete();
 }
 
-/// Of a body that has been taken out of the simulation in this frame.
+/// Reports a body that has been taken out of the simulation in this frame.
 void DynamicsNode::tellTrouble(const BodyState& before, DynObjectNode& node, FrameContext& frame) {
   const BodyState& now = node.state();
   const auto out = [](const BodyState& s) { return s.mode == BodyMode::Quarantined; };

@@ -10,7 +10,7 @@ bool ArcEnds::crossEdge(RigidBody& b, double tau, double& lift) {
   return crossFold(b, tau) || surfaces_.crossSeam(b, tau, lift);
 }
 
-/// The same within one mesh.
+/// Takes the ball over a fold of the mesh that carries it. False if it meets none.
 bool ArcEnds::crossFold(RigidBody& b, double tau) const {
   if (b.support.triangle < 0) return false;
   const Collider* c = objects_.collider(b.support.on.id);

@@ -4,7 +4,7 @@
 
 namespace stadion {
 
-/// Whether what a ball has met there can carry it in closed form: a flat face of a still collider.
+/// Returns true if what a ball has met there can carry it in closed form: a flat face of a still collider.
 bool carries(const RigidBody& ball, const Collider& c, const Gap& gap) {
   if (!gap.face || c.motion.moving || !ball.centred) return false;
   return std::holds_alternative<PlaneShape>(*c.shape) || std::holds_alternative<BoxShape>(*c.shape) ||

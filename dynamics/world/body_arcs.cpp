@@ -156,8 +156,8 @@ void BodyArcs::fly(RigidBody& b, double tau, const Vec3& p, const Vec3& v) {
   setPath(b, tau, Path::hermite(from, to, h), h, BodyMode::Flight);
 }
 
-/// The same where the spin began earlier, unless it ends here as well. `pullsAsBefore`: what acts on the body
-/// is what did so in the last arc.
+/// Starts a flight whose spin began earlier, unless the spin ends here as well. `pullsAsBefore`: the same
+/// fields act on the body as in the last arc.
 void BodyArcs::continueFlight(RigidBody& b, double tau, const Vec3& p, const Vec3& v, bool pullsAsBefore) {
   const double spinAge = b.spinAge(tau);
   if (b.flight) return startFlight(b, tau, p, v, b.orientation(tau), b.spin.angularMomentum(spinAge));

@@ -28,8 +28,8 @@ struct Groups {
   }
 };
 
-/// Whether bodies are solved for together with little work: towers, and what stands side by side on one
-/// thing.
+/// Returns true if bodies are solved for together with little work: towers, and what stands side by side on
+/// one thing.
 bool isSlender(const std::vector<RigidBody*>& island, const std::vector<FoundContact>& found) {
   constexpr double kSlender = 4e5;  // multiplications
   if (island.size() > kMostInLine || std::ranges::any_of(island, &RigidBody::isBall)) return false;

@@ -125,7 +125,7 @@ std::vector<Bearing> FlushSurfaces::bearingsOf(const RigidBody& b, double tau, c
   return bearings;
 }
 
-/// Whether the body meets there only what a surface that it already touches hides.
+/// Returns true if the body meets there only what a surface that it already touches hides.
 bool FlushSurfaces::isHiddenTouch(const Side& a, const Side& b, const Touch& touch) const {
   const Side &body = a.body ? a : b, &piece = a.body ? b : a;
   if (!body.body || !piece.collider || !body.body->movable()) return false;

@@ -12,7 +12,7 @@ namespace {
 /// Bounces that would rise less than this are over [m]: all that follow are lower still, and last for less
 /// than two milliseconds on earth with a restitution of 0.8.
 constexpr double kLastBounce = 1e-7;
-/// The same between bodies that have no closed form to rest in [m].
+/// Likewise, between bodies that have no closed form to rest in [m].
 constexpr double kLastRattle = 1e-6;
 constexpr double kExact =
     1e-9;  ///< a touch is taken to its surface from no farther, so that no body is lifted [m]
@@ -26,7 +26,7 @@ constexpr double kLeastEmbeddingSpeed = 1;    ///< what comes slower does not st
 constexpr std::uint32_t kMostElastic =
     600;  ///< where nothing is lost: no bounces that die away, but squeezes
 
-/// Whether a body that may stick meets x with its tip, straight enough against the normal n.
+/// Returns true if a body that may stick meets x with its tip, straight enough against the normal n.
 bool embedsTip(const RigidBody& b, const Vec3& x, const Vec3& n, double closing, double tau) {
   if (!(closing > kLeastEmbeddingSpeed)) return false;
   const Pose X_WN = b.poseAt(tau);

@@ -12,7 +12,7 @@ constexpr double kProbe = 1e-4;          ///< step in which accelerations are me
 constexpr double kFarthest = 1;          ///< how long a glide is foreseen at most [s]
 constexpr double kShortestGlide = 1e-7;  ///< and at least [s]
 
-/// Whether no body turns or is damped, and none is pushed out of another.
+/// Returns true if no body turns or is damped, and none is pushed out of another.
 bool mayGlide(const ContactIsland& s) {
   for (std::size_t i = 0; i < s.set.size(); ++i) {
     const RigidBody& b = *s.set[i];
@@ -55,7 +55,7 @@ double IslandStep::glideAt(const ContactIsland& s, const FoundContact& f, double
                   surfaces_.timeCarried(*s.set[c.a], f.b.id, f.gap, f.contact.friction, ut, at, most, way));
 }
 
-/// The same for the whole island; infinite if all are at rest for good.
+/// Returns the time for which the whole island glides; infinite if all are at rest for good.
 double IslandStep::glideOf(const ContactIsland& s, double probe, std::vector<ContactSide>& way) {
   double fastest = 0, strongest = 0;
   for (std::size_t i = 0; i < s.set.size(); ++i) {

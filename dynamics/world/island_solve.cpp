@@ -50,7 +50,7 @@ void place(const SolverBody& a0, const SolverBody& b0, const Gap& gap, Carrier c
   }
 }
 
-/// The same for a flat contact, at the end and in the middle of the step, and its slip before it.
+/// Places a flat contact at the end and in the middle of the step, and computes its slip before it.
 void placeFlat(const FlatPatch& f, const std::vector<SolverBody>& start, const std::vector<SolverBody>& guess,
                double h, bool first, SolverContact& c) {
   const SolverBody &a = start[c.a], &b = start[c.b];
@@ -110,14 +110,14 @@ void placePoint(const ContactIsland& s, std::size_t i, const std::vector<SolverB
   }
 }
 
-/// Whether a body turns in the step.
+/// Returns true if a body turns in the step.
 bool anyTurns(const ContactIsland& s) {
   for (std::size_t i = 0; i < s.set.size(); ++i)
     if (std::max(s.start[i].omega.norm(), s.end[i].omega.norm()) * s.set[i]->reach > kTurns) return true;
   return false;
 }
 
-/// Whether the direction of a slip changes in the step.
+/// Returns true if the direction of a slip changes in the step.
 bool anySlipTurns(const ContactIsland& s, const std::vector<SolverContact>& step) {
   return std::ranges::any_of(step, [&](const SolverContact& c) {
     const Vec2 u0 = c.slip, u1 = c.velocity(s.end).tail<2>();

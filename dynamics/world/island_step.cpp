@@ -76,7 +76,7 @@ void resistRolling(ContactIsland& s) {
   }
 }
 
-/// Whether another face of the mesh is in the way of a ball that would go on along this one.
+/// Returns true if another face of the mesh is in the way of a ball that would go on along this one.
 bool inFold(const RigidBody& b, const Collider& c, const Support& face, double tau) {
   constexpr double kTouches = 1e-8;     // [m]
   constexpr double kClosingIn = 1e-10;  // [m/s]
@@ -131,7 +131,7 @@ void IslandStep::begin(ContactIsland& s, double tau) const {
   findFlats(s, tau);
 }
 
-/// Whether it moves from outside, or may.
+/// Returns true if it moves from outside, or may.
 bool IslandStep::isDriven(ContactSide p) const {
   if (p.isBody) return !objects_.body(p.id)->movable();
   return objects_.collider(p.id)->motion.moving;

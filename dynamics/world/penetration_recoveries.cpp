@@ -10,7 +10,7 @@ bool comesOutOf(const RigidBody& b, ColliderId id) {
   return std::ranges::any_of(b.grip.recoveries, [&](const PenetrationRecovery& w) { return w.of == id; });
 }
 
-/// Of the things that a body was let go in, those that it is out of.
+/// Forgets the recoveries from colliders that the body has left.
 void forgetRecoveries(RigidBody& b, const WorldObjects& objects, double tau) {
   std::erase_if(b.grip.recoveries, [&](const PenetrationRecovery& w) {
     const Collider* c = objects.collider(w.of);

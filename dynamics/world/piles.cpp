@@ -258,8 +258,8 @@ void Piles::advance(double tau) {
   conclude(step);
 }
 
-/// Whether an island is better off as a pile: it is large, not solved exactly, or its balls are in the thick
-/// of it.
+/// Returns true if an island is better off as a pile: it is large, not solved exactly, or its balls are in
+/// the thick of it.
 bool Piles::isPile(const std::vector<RigidBody*>& island, double tau) {
   const bool balls = std::ranges::all_of(island, [](const RigidBody* b) { return b->isBall(); });
   // Thin meshes would sink through each other in a pile's longer steps.

@@ -48,7 +48,8 @@ static void fieldsOf(Drag& d, StateFields& f) {
 static void fieldsOf(EvenPull& e, StateFields& f) {
   f("pull", e.pull), f("drag", e.drag);
 }
-/// Of the coefficients those that mean something.
+
+/// Visits only the coefficients that the degree uses.
 static void fieldsOf(Path& p, StateFields& f) {
   f("kind", p.kind), f("degree", p.degree), f("damping", p.damping), f("spare", p.spare);
   if (p.degree < 0 || p.degree > Path::kMostDegree) {

@@ -349,7 +349,7 @@ void Placements::state(StateFields& f) {
   if (!std::ranges::all_of(freeFleets_, noFleet) || twice(freeFleets_)) f.fail();
 }
 
-/// Whether every live placement is below World, once.
+/// Returns true if every live placement is below World, once.
 bool Placements::standsTogether() const {
   if (entries_.empty()) return false;
   const Entry& world = entries_[kWorldPlacement];

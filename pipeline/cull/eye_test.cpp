@@ -9,7 +9,7 @@ namespace {
 /// Vertices are snapped to a grid, of 1/16 of a pixel at the coarsest.
 constexpr double kSnapping = 1.0 / 8;  // [pixels]
 
-/// Whether there is a whole number and a half between the two.
+/// Returns true if there is a whole number and a half between the two.
 bool holdsAMiddle(double from, double to) {
   return std::floor(to - 0.5) >= std::ceil(from - 0.5);
 }

@@ -45,7 +45,7 @@ const Mesh* LevelChoice::mesh(MeshId id) {
   return known_.insert(at, {id, meshes_.find(id)})->second;
 }
 
-/// Of a radian, where a ball is seen; 0 if no wall shows it.
+/// Returns how many pixels a radian has where the ball is seen; 0 if no wall shows it.
 double LevelChoice::pixelsOf(const Vec3& centre, double radius) const {
   const double distance = centre.norm();
   double most = 0;

@@ -65,7 +65,7 @@ void ShadowCull::placeRing(std::size_t index, const Vec3& centre) {
   ring.movingArea = {1, 1, -1, -1};
 }
 
-/// Whether all that may see the shadow of this ball is looked up in that ring or in a finer one.
+/// Returns true if all that may see the shadow of this ball is looked up in that ring or in a finer one.
 bool ShadowCull::coveredBy(std::size_t ring, const Vec3& p_L, double radius) const {
   const Vec3 p = p_L - places_[ring].centre_L;
   const double nextTexel = 2 * kShadowReach[ring + 1] / kShadowTexels;

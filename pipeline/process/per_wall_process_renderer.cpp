@@ -129,8 +129,8 @@ milliseconds PerWallProcessRenderer::mostOf(const Wall& wall) const {
   return std::max(live ? kSpinsLive : kSpins, kTooLong * *wall.longest);
 }
 
-/// Whether it has not used the processor for long, while it had something to do and did not wait for one, or
-/// has used it for far too long. One that opens its context may wait for a disk.
+/// Returns true if it has not used the processor for long, while it had something to do and did not wait for
+/// one, or has used it for far too long. One that opens its context may wait for a disk.
 bool PerWallProcessRenderer::hangs(Wall& wall) {
   const wall_process::ProcessStatus& status = wall.process.status();
   const auto now = Clock::now();

@@ -237,7 +237,8 @@ bool WallProcess::receive(std::chrono::milliseconds atMost) {
   return true;
 }
 
-/// Whether it lives: the thread that draws is dead long before the last one, where processors are busy.
+/// Returns true if it lives: the thread that draws is dead long before the last one, where processors are
+/// busy.
 void WallProcess::updateStatus() {
   status_ = statusOf(pid());
   if (status_.state != 'Z') return;
