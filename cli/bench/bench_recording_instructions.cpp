@@ -1,10 +1,10 @@
 #include "cli/bench/bench_recording_instructions.h"
 
+#include "engine/base/installed_files.h"
 #include "engine/base/plain_file.h"
 #include "show/regress/regress_child.h"
 
 #include <cstdlib>
-#include <filesystem>
 
 namespace stadion {
 namespace {
@@ -16,7 +16,7 @@ constexpr std::chrono::minutes kLimit{30};
 /// All instructions of a run; with `wrong`, if there are none.
 double instructionsOf(std::vector<std::string> words, int frames, const std::string& file,
                       const std::atomic<bool>& stop, std::string& wrong) {
-  const std::string program = std::filesystem::canonical("/proc/self/exe").string();
+  const std::string program = helperProgram("stadion").string();
   words.insert(words.begin(), {"valgrind", "--tool=callgrind", "--callgrind-out-file=" + file, program});
   words.insert(words.end(), {"--frames", std::to_string(frames)});
   const ChildResult child = runChild(words, kLimit, stop);

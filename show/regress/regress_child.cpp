@@ -2,6 +2,7 @@
 
 #include "engine/base/plain_file.h"
 #include "pipeline/platform/child_process.h"
+#include "show/base/error_output.h"
 
 #include <fmt/format.h>
 
@@ -22,24 +23,12 @@ std::string everythingIn(const FileDescriptor& file) {
   return fstat(file.get(), &info) == 0 ? contentOf(file, static_cast<std::size_t>(info.st_size)) : "";
 }
 
-bool isFinding(const std::string& line, const char* severity) {
-  const std::string word = std::string(severity) + ": ";
-  return line.starts_with(word) || line.find(": " + word) != line.npos;
-}
-
 std::vector<std::string> linesOf(const std::string& text) {
   std::vector<std::string> lines;
   std::istringstream in(text);
   for (std::string line; std::getline(in, line);)
     if (!line.empty()) lines.push_back(line);
   return lines;
-}
-
-/// Of what a program said before it failed: the first error, else the last line.
-std::string reasonIn(const std::string& said) {
-  const std::vector<std::string> lines = linesOf(said);
-  const auto error = std::ranges::find_if(lines, [](const auto& l) { return isFinding(l, "error"); });
-  return error != lines.end() ? *error : lines.empty() ? "" : lines.back();
 }
 
 /// The log that plays beside a show when nothing else is asked for.
