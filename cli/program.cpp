@@ -1,7 +1,7 @@
 #include "cli/program.h"
 
 #include "cli/exit_code.h"
-#include "cli/findings_json.h"
+#include "cli/json_errors.h"
 #include "cli/options/command_reference.h"
 #include "cli/options/option_table.h"
 #include "cli/options/retired_spellings.h"
@@ -21,6 +21,7 @@
 #include <fcntl.h>
 #include <new>
 #include <poll.h>
+#include <sstream>
 #include <stdexcept>
 #include <unistd.h>
 
@@ -36,15 +37,8 @@ void occupyStandardStreams() {
       ::open("/dev/null", stream == STDIN_FILENO ? O_WRONLY : O_RDONLY);
 }
 
-/// With --json, standard output is an object also if the command line is wrong.
-void printErrorAsJson(const std::string& error, const std::vector<std::string>& words) {
-  if (std::ranges::find(words, "--json") == words.end()) return;
-  printJson({{"error", error}});
-}
-
-int refuse(const std::string& error, const std::vector<std::string>& words) {
+int refuse(const std::string& error) {
   std::fprintf(stderr, "stadion: %s\n", error.c_str());
-  printErrorAsJson(error, words);
   return kBadInput;
 }
 
@@ -65,6 +59,15 @@ int finishOutput(int code) {
   return code == kOk ? kBadInput : code;
 }
 
+/// Returns the exit status of a command line that names no command to run: wrong, or with --help.
+int exitOfParser(const CLI::App& app, const CLI::Error& why) {
+  std::ostringstream out, err;
+  const bool isWrong = app.exit(why, out, err) != 0;
+  std::fputs(out.str().c_str(), stdout);
+  std::fputs(err.str().c_str(), stderr);
+  return isWrong ? kBadInput : kOk;
+}
+
 int runCommand(int argc, char** argv, const AddCommands& addCommands,
                std::optional<unsigned> rasteriserThreads) {
   CLI::App app("Stadion plays immersive shows written in the EVS world description language on stereo walls.",
@@ -82,11 +85,10 @@ int runCommand(int argc, char** argv, const AddCommands& addCommands,
       return kOk;
     }
   } catch (const std::runtime_error& e) {
-    std::fprintf(stderr, "stadion: %s\n", e.what());
-    return kBadInput;
+    return refuse(e.what());
   }
-  if (const auto retired = retiredSpellingIn(words)) return refuse(*retired, words);
-  if (const auto wrong = flagWithValueIn(words)) return refuse(*wrong, words);
+  if (const auto retired = retiredSpellingIn(words)) return refuse(*retired);
+  if (const auto wrong = flagWithValueIn(words)) return refuse(*wrong);
   try {
     app.parse(argc, argv);
   } catch (const CLI::RequiredError& e) {
@@ -96,15 +98,26 @@ int runCommand(int argc, char** argv, const AddCommands& addCommands,
       std::fprintf(stderr, "stadion: there is no subcommand \"%s\"%s\n", argv[1],
                    didYouMean(argv[1], known).c_str());
     }
-    app.exit(e);
-    printErrorAsJson(e.what(), words);
-    return kBadInput;
+    return exitOfParser(app, e);
   } catch (const CLI::ParseError& e) {
-    if (app.exit(e) == 0) return kOk;
-    printErrorAsJson(e.what(), words);
-    return kBadInput;
+    return exitOfParser(app, e);
   }
   return code;
+}
+
+/// As runCommand(), and an exception that escapes becomes an exit status.
+int runGuarded(int argc, char** argv, const AddCommands& addCommands) {
+  try {
+    const auto rasteriserThreads = rasteriserThreadsGiven();
+    if (const auto wrong = pinRasteriser()) return refuse(wrong->message);
+    quietOpenAl();
+    return runCommand(argc, argv, addCommands, rasteriserThreads);
+  } catch (const std::bad_alloc&) {
+    std::fprintf(stderr, "stadion: out of memory\n");
+  } catch (const std::exception& e) {
+    std::fprintf(stderr, "stadion: internal fault: %s\n", e.what());
+  }
+  return kInternalFault;
 }
 
 }  // namespace
@@ -114,21 +127,12 @@ int runProgram(int argc, char** argv, const AddCommands& addCommands) {
   reportCrashes();
   std::signal(SIGXFSZ,
               SIG_IGN);  // a file that may not grow is a full disk: an error with a name, not the end
-  try {
-    const auto rasteriserThreads = rasteriserThreadsGiven();
-    if (const auto wrong = pinRasteriser()) {
-      std::fprintf(stderr, "stadion: %s\n", wrong->message.c_str());
-      return kBadInput;
-    }
-    quietOpenAl();
-    return finishOutput(runCommand(argc, argv, addCommands, rasteriserThreads));
-  } catch (const std::bad_alloc&) {
-    std::fprintf(stderr, "stadion: out of memory\n");
-    return kInternalFault;
-  } catch (const std::exception& e) {
-    std::fprintf(stderr, "stadion: internal fault: %s\n", e.what());
-    return kInternalFault;
-  }
+  const bool json =
+      std::any_of(argv, argv + argc, [](const char* word) { return !std::strcmp(word, "--json"); });
+  JsonErrors errors(json);
+  const int code = runGuarded(argc, argv, addCommands);
+  errors.finish(code);
+  return finishOutput(code);
 }
 
 }  // namespace stadion

@@ -6,6 +6,8 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include <iterator>
+#include <map>
 #include <sstream>
 
 namespace stadion {
@@ -101,6 +103,80 @@ TEST(ProgramJson, EveryBenchTakesIt) {
   for (const char* bench : {"overlap", "dynamics", "flight", "detection", "plan", "budgets", "attribution",
                             "prediction", "recording", "walls", "scale"})
     EXPECT_TRUE(has(line, std::string("bench ") + bench)) << bench;
+}
+
+/// All that have --json, by the page of options.
+std::vector<std::string> commandsWithJson() {
+  const std::string page = fileContent(STADION_SOURCE_DIR "/docs/options.md");
+  const std::size_t row = page.find("| `--json` |"), end = page.find(" |\n", row);
+  std::istringstream names(page.substr(page.rfind("| ", end - 1) + 2, end - page.rfind("| ", end - 1) - 2));
+  std::vector<std::string> commands;
+  for (std::string name; std::getline(names, name, ',');)
+    commands.push_back(name.substr(name.starts_with(' ')));
+  return commands;
+}
+
+// Those without an input get an option that they do not have.
+TEST(ProgramJson, AMissingFileIsOneObjectInEachCommand) {
+  const TestFolder folder;
+  const std::string missing = folder.path() / "nosuch";
+  const std::map<std::string, std::vector<std::string>> inputs{{"run", {missing}},
+                                                               {"check", {missing}},
+                                                               {"hash", {missing}},
+                                                               {"walls", {missing}},
+                                                               {"tracker", {"--tracker", "nosuch"}},
+                                                               {"cluster", {missing, missing}},
+                                                               {"doctor", {"--for", missing}},
+                                                               {"profile", {missing}},
+                                                               {"plan", {missing}},
+                                                               {"regress", {missing}},
+                                                               {"soak", {missing}},
+                                                               {"calibrate", {"--walls", missing}},
+                                                               {"bench dynamics", {"nosuch"}},
+                                                               {"bench plan", {missing}},
+                                                               {"bench prediction", {missing}}};
+  const std::vector<std::string> commands = commandsWithJson();
+  ASSERT_GT(commands.size(), 20U);
+  for (const auto& [command, none] : inputs) EXPECT_NE(std::ranges::find(commands, command), commands.end());
+  for (const std::string& command : commands) {
+    std::istringstream parts(command);
+    std::vector<std::string> words{std::istream_iterator<std::string>(parts), {}};
+    const auto input = inputs.find(command);
+    for (const std::string& word :
+         input != inputs.end() ? input->second : std::vector<std::string>{"--nosuch"})
+      words.push_back(word);
+    words.emplace_back("--json");
+    words.insert(words.begin(), stadionPath());
+    const ProgramResult r = runProgram({words, {"STADION_CALIBRATION=" + missing + ".json"}});
+    EXPECT_EQ(r.status, 2) << command << ": " << r.err;
+    const std::vector<json> objects = objectsIn(r.out);
+    ASSERT_EQ(objects.size(), 1U) << command << ": " << r.out << r.err;
+    if (command == "check" || command == "walls")
+      EXPECT_EQ(objects[0].at("ok"), false);
+    else
+      EXPECT_TRUE(objects[0].size() == 1 && has(objects[0].value("error", ""), "nosuch"))
+          << command << ": " << r.out << r.err;
+  }
+}
+
+// Each names its cause.
+TEST(ProgramJson, AWrongRunIsOneObject) {
+  const std::string kick = STADION_SOURCE_DIR "/scripts/kick.evs";
+  const std::vector<std::pair<std::vector<std::string>, std::string>> cases{
+      {{"--walls", "nosuch"}, "nosuch"},
+      {{"--input", "nosuch"}, "nosuch"},
+      {{"--out", "/proc/x"}, "/proc/x"},
+      {{"--mode", "sequential", "--latency", "2"}, "--latency"},
+      {{"--guard", "--wall-workers", "process"}, "--guard"}};
+  for (const auto& [more, cause] : cases) {
+    std::vector<std::string> words{"run", kick, "--json", "--frames", "2"};
+    words.insert(words.end(), more.begin(), more.end());
+    const ProgramResult r = stadionProgram(words);
+    EXPECT_EQ(r.status, 2) << cause;
+    const std::vector<json> objects = objectsIn(r.out);
+    ASSERT_EQ(objects.size(), 1U) << cause << ": " << r.out << r.err;
+    EXPECT_TRUE(has(objects[0].value("error", ""), cause)) << r.out << r.err;
+  }
 }
 
 TEST(ProgramJson, AWrongCommandLineIsAnObjectToo) {
