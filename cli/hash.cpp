@@ -29,21 +29,14 @@ void printHash(std::uint64_t frame, std::uint64_t hash, bool json) {
               frame, hash);
 }
 
-/// Of the last frame, as the options ask.
-int keepState(Scene& scene, const HashOptions& o) {
+/// Of the last frame, as the options ask. `other`: the state to compare with.
+int keepState(Scene& scene, const HashOptions& o, const std::optional<StateFile>& other) {
   Diagnostics findings;
   if (!o.saveState.empty())
     if (const auto wrong = saveState(scene, o.saveState)) findings.add(*wrong);
-  std::optional<SavedStateDifference> difference;
-  if (!o.compareState.empty()) {
-    auto compared = compareState(scene, o.compareState);
-    if (compared)
-      difference = std::move(compared.value());
-    else
-      findings.add(compared.error());
-  }
   printFindings(findings);
   if (findings.hasErrors()) return kBadInput;
+  const auto difference = other ? other->differenceFrom(scene) : std::nullopt;
   if (!difference) return kOk;
   if (o.json)
     printJson({{"difference",
@@ -57,6 +50,15 @@ int keepState(Scene& scene, const HashOptions& o) {
   return kCheckFailed;
 }
 
+/// Nothing if none was asked for, or with the findings.
+std::optional<StateFile> stateToCompare(const HashOptions& o, Diagnostics& findings) {
+  if (o.compareState.empty()) return {};
+  auto read = StateFile::read(o.compareState);
+  if (read) return std::move(read.value());
+  findings.add(read.error());
+  return {};
+}
+
 int hashShow(const HashOptions& o) {
   ShowOptions options = o.show;
   Diagnostics findings;
@@ -64,6 +66,8 @@ int hashShow(const HashOptions& o) {
                                      {"--compare-state", o.compareState, false}};
   refuseOverwriting({&options, 1}, files, findings);
   if (!options.complete(findings) || findings.hasErrors()) return exitWith(findings, kBadInput);
+  const std::optional<StateFile> other = stateToCompare(o, findings);
+  if (findings.hasErrors()) return exitWith(findings, kBadInput);
   auto player = Player::create(options, findings, printFindings);
   printFindings(findings);
   if (!player) return kBadInput;
@@ -81,10 +85,23 @@ int hashShow(const HashOptions& o) {
   const std::atomic<bool> never = false;
   FrameLoop loop(stages, loopOptions, never);
   const FrameLoopOutcome outcome = loop.run();
-  if (!outcome.failure) return keepState(player->scene(), o);
+  if (!outcome.failure) return keepState(player->scene(), o, other);
   std::fprintf(stderr, "stadion: %s\n", outcome.failure->message.c_str());
   return exitCodeOf(*outcome.failure);
 }
+
+constexpr const char* kHashFooter =
+    R"(A line is a hash of what changes while the show plays: poses, velocities, clocks, messages, alarms. Fields that follow
+from these are left out. Equal lines mean that all of it is equal.
+
+Parameters that never change, such as friction, gravity or the duration of a kick, are part of the files. They are not in
+the hash. If one is edited, the lines differ from the frame on in which it has an effect. --compare-state compares
+parameters too.
+
+To find where two builds differ: compare their lines, then save the state of the first frame N that differs, and compare:
+
+  other/stadion hash SHOW --frames N+1 --save-state there
+  stadion hash SHOW --frames N+1 --compare-state there)";
 
 }  // namespace
 
@@ -97,11 +114,7 @@ void addHashCommand(CLI::App& app, int& code) {
   own.add("--save-state", options->saveState);
   own.add("--compare-state", options->compareState);
   own.add("--json", options->json);
-  command->footer(
-      "Equal lines mean equal states. To find where two builds differ: compare their lines, then save the "
-      "state of the\nfirst frame N that differs, and compare:\n\n"
-      "  other/stadion hash SHOW --frames N+1 --save-state there\n"
-      "  stadion hash SHOW --frames N+1 --compare-state there");
+  command->footer(kHashFooter);
   command->callback([options, &code] { code = hashShow(*options); });
 }
 

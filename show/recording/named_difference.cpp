@@ -53,6 +53,53 @@ std::vector<NamedValue> valuesOf(const std::string& text) {
   return all;
 }
 
+/// Nodes with the same name.
+struct ListedNodes {
+  std::string name, where;  ///< where the last one stands
+  int count = 0;
+};
+
+/// In the order of the list.
+std::vector<ListedNodes> listedNodes(const std::string& text) {
+  std::vector<ListedNodes> all;
+  std::map<std::string, std::size_t> places;
+  std::istringstream lines(text);
+  const std::string begin = std::string("@") + kListedNode;
+  for (std::string line; std::getline(lines, line) && line.starts_with(begin);) {
+    const std::size_t tab = std::min(line.find('\t'), line.size());
+    const std::string name = withoutLine(line.substr(begin.size(), tab - begin.size()));
+    const auto [at, isNew] = places.emplace(name, all.size());
+    if (isNew) all.push_back({name, "", 0});
+    ListedNodes& nodes = all[at->second];
+    nodes.where = tab < line.size() ? line.substr(tab + 1) : "";
+    ++nodes.count;
+  }
+  return all;
+}
+
+SavedStateDifference differenceIn(const ListedNodes& nodes, int here, int there) {
+  const std::string name =
+      nodes.name.ends_with(':') ? nodes.name.substr(0, nodes.name.size() - 1) : nodes.name;
+  return {
+      fmt::format("the number of nodes \"{}\"{}", name, nodes.where.empty() ? "" : " (" + nodes.where + ")"),
+      std::to_string(here), std::to_string(there)};
+}
+
+std::optional<SavedStateDifference> differenceOfNodes(const std::string& here, const std::string& there) {
+  const std::vector<ListedNodes> ours = listedNodes(here), theirs = listedNodes(there);
+  if (ours.empty() || theirs.empty()) return {};
+  const auto countIn = [](const std::vector<ListedNodes>& all, const std::string& name) {
+    const auto at = std::ranges::find(all, name, &ListedNodes::name);
+    return at == all.end() ? 0 : at->count;
+  };
+  for (const ListedNodes& nodes : ours)
+    if (const int other = countIn(theirs, nodes.name); other != nodes.count)
+      return differenceIn(nodes, nodes.count, other);
+  for (const ListedNodes& nodes : theirs)
+    if (countIn(ours, nodes.name) == 0) return differenceIn(nodes, 0, nodes.count);
+  return {};
+}
+
 /// "place.position" is a part of "place".
 std::string wholeOf(const std::string& name) {
   return name.substr(0, name.find('.'));
@@ -61,6 +108,7 @@ std::string wholeOf(const std::string& name) {
 }  // namespace
 
 std::optional<SavedStateDifference> namedDifference(const std::string& here, const std::string& there) {
+  if (auto nodes = differenceOfNodes(here, there)) return nodes;
   const std::vector<NamedValue> ours = valuesOf(here), theirs = valuesOf(there);
   std::map<std::pair<std::string, std::string>, std::string> left;
   std::set<std::pair<std::string, std::string>> wholes;  // an older build has one value where ours has parts

@@ -11,6 +11,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <vector>
 
 namespace stadion {
 
@@ -20,11 +21,25 @@ std::optional<SavedStateDifference> savedStateDifference(Scene& scene, std::uint
 
 /// Writes the scene's state: its bytes, and its fields by name, which other builds can compare too.
 std::optional<Diagnostic> saveState(Scene& scene, const std::string& file);
-/// Compares the scene with a state that saveState() wrote. If the frames differ, they are the difference. If
-/// scripts or models differ, fields are compared by name.
-Result<std::optional<SavedStateDifference>> compareState(Scene& scene, const std::string& file);
-/// The fields by name in a file of saveState(): "@NODE<tab>FILE:LINE", and below it "FIELD<tab>VALUE" a line;
-/// fields that are zero are left out. Empty if the file has none.
-std::string fieldsIn(const std::string& file);
+
+/// What saveState() wrote.
+///
+/// Errors  a file that is no state, and one that was truncated or damaged since.
+class StateFile {
+public:
+  static Result<StateFile> read(const std::string& file);
+
+  /// Compares the scene with the state. If the frames differ, they are the difference. If scripts or models
+  /// differ, fields are compared by name.
+  std::optional<SavedStateDifference> differenceFrom(Scene& scene) const;
+  /// The fields by name: "@NODE<tab>FILE:LINE", and below it "FIELD<tab>VALUE" a line; fields that are zero are
+  /// left out. Empty if the file has none.
+  const std::string& fields() const { return fields_; }
+
+private:
+  std::uint64_t files_ = 0;
+  std::vector<std::uint8_t> state_;
+  std::string fields_;
+};
 
 }  // namespace stadion

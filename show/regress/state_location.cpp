@@ -71,14 +71,16 @@ std::string withoutPlaces(const std::string& text) {
   return kept;
 }
 
-/// fieldsIn() of the state after so many frames; empty if the program cannot save it.
+/// StateFile::fields() of the state after so many frames; empty if the program cannot save it.
 std::string fieldsAfter(const regression::SuiteCase& c, const StatePlay& play, std::size_t frames,
                         std::chrono::seconds limit, const std::atomic<bool>& stop) {
   const TemporaryFolder folder;
   const std::string file = folder.path("state");
   std::vector<std::string> save = hashWords(c, play, frames);
   save.insert(save.end(), {"--save-state", file});
-  return runChild(save, limit, stop).status == 0 ? fieldsIn(file) : "";
+  if (runChild(save, limit, stop).status != 0) return "";
+  const auto state = StateFile::read(file);
+  return state ? state.value().fields() : "";
 }
 
 /// After how many frames the fields are kept: after the first one, after all, and between.

@@ -45,7 +45,7 @@ struct KeptStates {
 std::string stateLocation(const regression::SuiteCase& c, const StatePlay& now, const KeptStates& before,
                           std::chrono::seconds limit, const std::atomic<bool>& stop);
 
-/// The first field that differs between two texts of fieldsIn(), as in stateLocation(); empty if none does.
+/// The first field that differs between two texts of StateFile::fields(), as in stateLocation(); empty if none does.
 std::string firstDifference(const std::string& now, const std::string& before);
 
 }  // namespace stadion

@@ -285,6 +285,38 @@ TEST(ProgramRegress, ABallThatWasMovedInTheScriptIsNamedInTheFirstFrame) {
   EXPECT_TRUE(std::regex_search(builds.out, place)) << builds.out;
 }
 
+TEST(ProgramHash, ADamagedStateEndsWithTwo) {
+  const TestFolder folder;
+  const std::string state = folder.path() / "state", show = ballShow(folder, "ball.evs", 0);
+  const auto hash = [&](const std::string& option) {
+    return stadionProgram({"hash", show, "--asset-root", assetFolder(), "--input", "none", "--frames", "2",
+                           "--json", option, state});
+  };
+  ASSERT_EQ(hash("--save-state").status, 0);
+  ASSERT_EQ(hash("--compare-state").status, 0);
+  std::filesystem::resize_file(state, std::filesystem::file_size(state) * 2 / 3);
+  const ProgramResult r = hash("--compare-state");
+  EXPECT_EQ(r.status, 2);
+  EXPECT_TRUE(has(r.err, state + ": error: is damaged")) << r.err;
+  EXPECT_TRUE(has(r.out, "{\"error\":")) << r.out;
+}
+
+TEST(ProgramHash, NamesAnAddedNode) {
+  const TestFolder folder;
+  const std::string state = folder.path() / "state", show = ballShow(folder, "ball.evs", 0);
+  const auto hash = [&](const std::string& option) {
+    return stadionProgram(
+        {"hash", show, "--asset-root", assetFolder(), "--input", "none", "--frames", "1", option, state});
+  };
+  ASSERT_EQ(hash("--save-state").status, 0);
+  folder.write("ball.evs", "group( name=extra )\n" + fileContent(show));
+  const ProgramResult r = hash("--compare-state");
+  EXPECT_EQ(r.status, 1);
+  EXPECT_TRUE(std::regex_search(
+      r.out, std::regex("difference: the number of nodes \"extra\" \\(.*ball.evs:1\\) is 1 here and 0 in ")))
+      << r.out;
+}
+
 TEST(ProgramHash, ComparesTheStateOfAnEditedShowAndTellsOtherFramesApart) {
   const TestFolder folder;
   const std::string state = folder.path() / "state";
