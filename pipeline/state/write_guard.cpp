@@ -10,6 +10,7 @@
 #include <csignal>
 #include <string_view>
 #include <sys/mman.h>
+#include <sys/prctl.h>
 #include <unistd.h>
 
 namespace stadion {
@@ -36,8 +37,16 @@ static_assert(std::atomic<const void*>::is_always_lock_free, "the signal handler
 /// Of the stage that began on this thread.
 thread_local constinit StageRecord ownStage;
 
-constexpr std::string_view kOutside =
-    "stadion: --guard: a thread that runs no stage wrote to the published scene\n";
+/// Names the thread. Calls only what a signal handler may.
+void reportWriteOutsideStages() {
+  constexpr std::size_t kNameBytes = 16;  // of the system
+  char name[kNameBytes + 1] = {};
+  prctl(PR_GET_NAME, name);
+  for (const std::string_view part :
+       {std::string_view("stadion: --guard: the thread \""), std::string_view(name),
+        std::string_view("\", which runs no stage, wrote to the published scene\n")})
+    [[maybe_unused]] const auto n = write(STDERR_FILENO, part.data(), part.size());
+}
 
 const GuardedRange* rangeOf(const void* address) {
   const auto* at = static_cast<const std::byte*>(address);
@@ -62,7 +71,7 @@ extern "C" void noteGuardedWrite(int, siginfo_t* info, void*) {
   const bool ours = range && info->si_code == SEGV_ACCERR;
   StageRecord* const stage = RunningStage::current();
   if (ours && !stage) {
-    [[maybe_unused]] const auto n = write(STDERR_FILENO, kOutside.data(), kOutside.size());
+    reportWriteOutsideStages();
     _exit(WriteGuard::kOutsideStages);
   }
   const void* none = nullptr;

@@ -8,6 +8,9 @@
 #include "profiling/record/node_names.h"
 #include "profiling/report/show_profile.h"
 
+#include <map>
+#include <string>
+
 namespace stadion {
 
 struct NodeOnWall {
@@ -89,7 +92,8 @@ struct ShowFigures {
   StageBreakdown alone;
   double warmUpMs = 0;     ///< before the first frame is drawn; in no other figure. 0: nothing was drawn
   std::string drawMethod;  ///< empty: nothing was drawn
-  std::uint64_t wholeFrames = 0;   ///< number of `frames` with recorded nodes in App
+  std::map<std::string, double> counters;  ///< figures of the whole run by name, such as the cost of --guard
+  std::uint64_t wholeFrames = 0;           ///< number of `frames` with recorded nodes in App
   std::uint64_t framesNeeded = 0;  ///< frames that would measure every node, estimated; 0: these did, or no
                                    ///< number would
   std::array<const StageBreakdown*, 4> breakdowns() const { return {&app, &cull, &draw, &alone}; }

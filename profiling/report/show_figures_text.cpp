@@ -131,6 +131,12 @@ nlohmann::json toJson(const NodeRow& row, const std::vector<std::string>& walls)
   return j;
 }
 
+std::string countersText(const ShowFigures& f) {
+  std::string text;
+  for (const auto& [name, value] : f.counters) text += fmt::format("{}: {:g}\n", name, value);
+  return text;
+}
+
 }  // namespace
 
 std::string toText(const ShowFigures& f, std::size_t mostNodes) {
@@ -159,6 +165,7 @@ std::string toText(const ShowFigures& f, std::size_t mostNodes) {
         f.wholeFrames, f.frames);
   if (f.warmUpMs > 0)
     text += fmt::format("warm-up {:.3f} s before the first frame: shaders, uploads\n", f.warmUpMs / 1000);
+  text += countersText(f);
   text += "\n       ms      p95      max  allocs  stage\n";
   for (const StageRow& s : f.stages)
     text += fmt::format("{:9.4f} {:8.3f} {:8.3f} {:7.1f}  {}{}{}\n", s.ms, s.p95, s.most, s.allocations,
@@ -185,6 +192,7 @@ std::string toJson(const ShowFigures& f) {
   j["frames_needed"] = wouldDo ? nlohmann::json(f.framesNeeded) : nlohmann::json();
   j["whole_frames"] = f.wholeFrames;
   j["warm_up_ms"] = f.warmUpMs;
+  if (!f.counters.empty()) j["counters"] = f.counters;
   j["nodes"] = nlohmann::json::array();
   j["stages"] = nlohmann::json::array();
   for (const NodeRow& row : f.nodes) j["nodes"].push_back(toJson(row, f.walls));

@@ -94,6 +94,7 @@ std::optional<ShowFigures> profileShow(const ProfileRunOptions& options, OutputF
                                                              "could be collected");
   ShowFigures figures = recording->figures(player->walls().names(), stages.drawnBy());
   if (!options.renderer.drawsNothing()) figures.warmUpMs = loop.times().warmUp;
+  if (watch) figures.counters = costOfWatch(sampleStatisticsOf(loop.times().app.values()));
   if (figures.frames == 0) {
     findings.error({}, tooShort("the show ended too early"));
     return std::nullopt;
@@ -103,6 +104,8 @@ std::optional<ShowFigures> profileShow(const ProfileRunOptions& options, OutputF
     if (figures.warmUpMs > 0)
       head.facts.emplace_back("warm-up", fmt::format("{:.3f} s before the first frame: shaders, uploads",
                                                      figures.warmUpMs / 1000));
+    for (const auto& [name, value] : figures.counters)
+      head.facts.emplace_back(name, fmt::format("{:g}", value));
     ReportData data = recording->report(std::move(head), figures);
     if (!stop) data.dynamics = dynamicsFigures(options, figures, files);
     files.write("profile.html", reportPage(data));

@@ -25,9 +25,10 @@ std::unique_ptr<WriteWatch> watchWrites(bool asked, const ShowParts& parts, Fram
   return watch;
 }
 
-std::map<std::string, double> costOfWatch(std::uint64_t frames, double appMs) {
+std::map<std::string, double> costOfWatch(const SampleStatistics& app) {
   const GuardCost cost = costOfGuard();
-  const double each = frames > 0 ? cost.milliseconds / static_cast<double>(frames) : 0.0;
+  const double each = app.count > 0 ? cost.milliseconds / static_cast<double>(app.count) : 0.0;
+  const double appMs = app.mean * static_cast<double>(app.count);
   return {
       {"guard: protect calls", static_cast<double>(cost.calls)},
       {"guard: protect calls, ms a frame", rounded(each)},

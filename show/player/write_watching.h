@@ -5,6 +5,7 @@
 
 #include "pipeline/loop/show_stages.h"
 #include "pipeline/loop/write_watch.h"
+#include "pipeline/record/run_summary.h"
 
 #include <map>
 #include <memory>
@@ -16,8 +17,8 @@ struct FrameLoopOptions;
 
 /// Null if `asked` is false. The watch must go after the loop has ended, and before the scene state.
 std::unique_ptr<WriteWatch> watchWrites(bool asked, const ShowParts& parts, FrameLoopOptions& options);
-/// Returns figures for the summary by name. Expects a watch, and the duration of App in all frames [ms].
-std::map<std::string, double> costOfWatch(std::uint64_t frames, double appMs);
+/// Returns figures for a summary by name. Expects a watch, and the durations of App [ms].
+std::map<std::string, double> costOfWatch(const SampleStatistics& app);
 /// Adds to the message the name of the node that it is about, if there is one.
 void nameNode(Failure& failure, const Scene& scene);
 

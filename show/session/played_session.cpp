@@ -123,10 +123,7 @@ void OpenSession::addTimes(RunSummary& s) const {
                     finish = std::string("steady clock around draw + finish + read back") +
                              (state_.settings.play.drawBeginsEarly ? ", with its waits for Cull" : "");
   s.stages.push_back({"app", "", sampleStatisticsOf(t.app.values()), clock});
-  if (state_.settings.play.guard) {
-    const SampleStatistics& app = s.stages.back().ms;
-    s.counters.merge(costOfWatch(app.count, app.mean * static_cast<double>(app.count)));
-  }
+  if (state_.settings.play.guard) s.counters.merge(costOfWatch(s.stages.back().ms));
   for (std::size_t w = 0; w < t.draw.size(); ++w) {
     const std::string& name = player_->walls().walls[w].wall.name;
     s.stages.push_back({"cull", name, sampleStatisticsOf(t.cull[w].values()), clock});

@@ -4,6 +4,7 @@
 #include "tests/programs/preloaded_faults.h"
 
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
 #include <filesystem>
 #include <regex>
@@ -119,6 +120,16 @@ TEST_F(ProgramGuard, ReportsItsCost) {
   EXPECT_TRUE(std::regex_search(r.out + r.err, std::regex("guard: protect calls: 8[0-9]\n")))
       << r.out << r.err;
   EXPECT_NE((r.out + r.err).find("guard: protect calls, percent of App: "), r.out.npos) << r.out << r.err;
+}
+
+TEST_F(ProgramGuard, ReportsItsCostInAProfile) {
+  const std::string cost = "guard: protect calls, percent of App";
+  const ProgramResult text = play({"profile", kick(), "--guard", "--gl", "none"}, false);
+  EXPECT_EQ(text.status, 0) << text.err;
+  EXPECT_TRUE(std::regex_search(text.out, std::regex("guard: protect calls: 8[0-9]\n"))) << text.out;
+  EXPECT_TRUE(has(text.out, cost + ": ")) << text.out;
+  const ProgramResult asJson = play({"profile", kick(), "--guard", "--gl", "none", "--json"}, false);
+  EXPECT_GT(nlohmann::json::parse(asJson.out).at("counters").at(cost), 0) << asJson.out;
 }
 
 TEST_F(ProgramGuard, ShowsTheSamePicturesWithAndWithoutIt) {

@@ -235,7 +235,8 @@ TEST(ProgramWriteGuard, EndsTheProcessIfAThreadThatRunsNoStageWrites) {
     parts.state.publish(0, ChangeSet{});
     const_cast<ViewerRecord*>(parts.state.view(0).viewer)->stress = 2;
   };
-  EXPECT_EXIT(write(), testing::ExitedWithCode(WriteGuard::kOutsideStages), "runs no stage wrote");
+  EXPECT_EXIT(write(), testing::ExitedWithCode(WriteGuard::kOutsideStages),
+              "the thread \".*\", which runs no stage, wrote");
 }
 
 }  // namespace
