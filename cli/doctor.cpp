@@ -24,6 +24,7 @@ int examineMachine(const DoctorOptions& o) {
   const auto wanted = MachineNeeds::read(o.wanted, findings);
   printFindings(findings);
   if (!wanted) return kBadInput;
+  if (const auto lack = lackOfAddressSpace()) return printError(*lack, kBadInput);
   const std::vector<DoctorFinding> found = examine(probesOfThisMachine(), wanted->needs());
   std::fputs((o.json ? toJson(found) : toText(found)).c_str(), stdout);
   return canWork(found) ? kOk : kCheckFailed;

@@ -54,10 +54,12 @@ public:
     measurements();
     packages("tests", kTestPackages, "./stadion test skips tests, or installs the packages first");
     packages("peers", kPeerPackages, "bench dynamics and bench walls compare with no other engine",
-             ", then in a checkout ./stadion setup peers, which builds");
+             " && ./stadion setup peers  # in a checkout, which builds");
     packages("fuzzing", kFuzzPackages, "./stadion fuzz cannot build, or installs the packages first");
     for (DoctorFinding& f : found_)
       f.asked = std::ranges::find(needs_.topics, f.topic) != needs_.topics.end();
+    if (probes_.isRoot())
+      for (DoctorFinding& f : found_) f.mend = withoutSudo(std::move(f.mend));
     return std::move(found_);
   }
 
@@ -67,6 +69,14 @@ private:
     found_.push_back({topic, health, std::move(found), std::move(lacks), std::move(mend)});
   }
 
+  /// root needs none, and a machine with only root has none.
+  static std::string withoutSudo(std::string command) {
+    constexpr std::string_view kSudo = "sudo ";
+    for (std::size_t at = 0; (at = command.find(kSudo, at)) != std::string::npos;)
+      command.erase(at, kSudo.size());
+    return command;
+  }
+
   void programs() {
     std::vector<std::string> missing;
     for (const char* name : {"stadion-import", "stadion-wall"})
@@ -74,7 +84,7 @@ private:
     if (missing.empty()) return add("programs", Health::Works, "stadion-import, stadion-wall");
     add("programs", Health::Missing, fmt::format("no {}", fmt::join(missing, ", ")),
         "models cannot be imported, or walls not drawn by processes",
-        "sudo apt-get install --reinstall stadion, or in a checkout ./stadion --help, which builds");
+        "sudo apt-get install --reinstall stadion  # in a checkout: ./stadion --help, which builds");
   }
 
   /// The error of a library ends with "apt-get install PACKAGE" if it is missing.
@@ -107,7 +117,7 @@ private:
     const std::string node = "/dev/dri/renderD128";
     if (probes_.exists(node) && !probes_.writable(node))
       return add("gpu", Health::Limited, found + "; " + node + " may not be opened", kLacks,
-                 "sudo usermod -aG render,video $USER, then log in again");
+                 "sudo usermod -aG render,video $USER  # then log in again");
     const bool nvidia = probes_.exists("/proc/driver/nvidia") || probes_.exists("/dev/nvidiactl");
     if (nvidia)
       return add("gpu", Health::Limited, found + "; an NVIDIA driver is there, but not its EGL", kLacks,
@@ -159,7 +169,7 @@ private:
     add("displays", Health::Missing, fmt::format("{}: no monitor \"{}\"", where, out.place.monitor),
         monitors.value().empty() ? "the screen has none"
                                  : fmt::format("there are {}", fmt::join(monitors.value(), ", ")),
-        "xrandr --query lists the names; connect it, or name another one in the wall file");
+        "xrandr --query  # lists the names; connect it, or name another one in the wall file");
     return false;
   }
 
@@ -171,7 +181,7 @@ private:
       if (probes_.exists(fmt::format("/tmp/.X11-unix/X{}", number)) && probes_.monitors(display))
         return "export DISPLAY=" + display;
     }
-    return "sudo apt-get install xserver-xorg xinit, then startx; without a screen: xvfb-run stadion ...";
+    return "sudo apt-get install xserver-xorg xinit && startx  # without a screen: xvfb-run stadion ...";
   }
 
   void swapGroups() {
@@ -188,9 +198,9 @@ private:
     const std::string& why = device.error().message;
     std::string mend = installOf(why);
     if (mend.empty() && probes_.exists("/dev/snd") && !probes_.writable("/dev/snd/controlC0"))
-      mend = "sudo usermod -aG audio $USER, then log in again";
+      mend = "sudo usermod -aG audio $USER  # then log in again";
     else if (mend.empty())
-      mend = "sudo apt-get install pipewire-pulse, then log in again";
+      mend = "sudo apt-get install pipewire-pulse  # then log in again";
     add("sound", Health::Missing, withoutAdvice(why), "shows play without their sounds", std::move(mend));
   }
 
@@ -206,7 +216,7 @@ private:
     if (probes_.realtime()) return add("realtime", Health::Works, "threads may have real-time priority");
     add("realtime", Health::Limited, "no right to real-time priority",
         "on a busy machine, hosts of a cluster wait longer for each other",
-        "echo \"$USER - rtprio 10\" | sudo tee /etc/security/limits.d/stadion.conf, then log in again");
+        "echo \"$USER - rtprio 10\" | sudo tee /etc/security/limits.d/stadion.conf  # then log in again");
   }
 
   void network() {
@@ -225,7 +235,7 @@ private:
     if (usable.empty())
       add("network", needs_.interfaces.empty() ? Health::Limited : Health::Missing,
           "only the loopback interface", "a cluster has all its hosts on this machine",
-          "ip -brief address lists what could be set up");
+          "ip -brief address  # lists what could be set up");
   }
 
   /// False, with a finding, if the interface cannot be used.
@@ -238,7 +248,7 @@ private:
     };
     if (at == ports.end())
       return lacks(fmt::format("no interface \"{}\"", wanted),
-                   "ip -brief address lists the names; correct the line `interface` of the cluster file");
+                   "ip -brief address  # lists the names; correct the line `interface` of the cluster file");
     if (!at->up) return lacks(at->name + " is down", fmt::format("sudo ip link set {} up", at->name));
     if (at->address.empty())
       return lacks(at->name + " has no IPv4 address",
@@ -268,8 +278,8 @@ private:
     add("measurements", Health::Limited, fmt::format("no {}", fmt::join(missing, ", ")),
         missing.front() == "stadion-measure" ? "fit, profile, plan, regress, soak and calibrate cannot start"
                                              : "bench cannot start",
-        missing.back() == "stadion-bench" ? "in a checkout ./stadion bench --help, which builds"
-                                          : "in a checkout ./stadion profile --help, which builds");
+        missing.back() == "stadion-bench" ? "./stadion bench --help  # in a checkout, which builds"
+                                          : "./stadion profile --help  # in a checkout, which builds");
   }
 
   void packages(const char* topic, std::span<const char* const> wanted, const char* lacks,

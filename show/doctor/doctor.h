@@ -32,7 +32,7 @@ struct DoctorFinding {
   Health health = Health::Works;
   std::string found;  ///< the state that was found
   std::string lacks;  ///< what cannot work without it; empty: nothing is lacking
-  std::string mend;   ///< a command; empty: none is needed, or none helps
+  std::string mend;   ///< a command, with a comment; empty: none is needed, or none helps
   bool asked = false;
 };
 
@@ -59,6 +59,7 @@ struct DoctorProbes {
   std::function<std::optional<bool>()> swapGroups;    ///< nothing: not known without a display
   /// Names of the installed Debian packages; nothing: not known on this machine.
   std::function<std::optional<std::set<std::string>>()> packages;
+  std::function<bool()> isRoot;    ///< whether commands need no sudo
   std::function<bool()> realtime;  ///< whether a thread may become a real-time thread
   std::function<std::vector<NetworkPort>()> network;
   std::function<std::string(const std::string&)> file;  ///< first line of a file; empty: it cannot be read
@@ -66,6 +67,9 @@ struct DoctorProbes {
 };
 /// They hold a connection to the X server: a server without clients resets, and may refuse the next one.
 DoctorProbes probesOfThisMachine();
+
+/// Says that `ulimit -v` leaves a show too little address space. Probing drivers could then crash the process.
+std::optional<Diagnostic> lackOfAddressSpace();
 
 /// The requirements of a show.
 struct DoctorNeeds {

@@ -173,6 +173,21 @@ std::string firstLineOf(const std::string& path) {
 
 }  // namespace
 
+std::optional<Diagnostic> lackOfAddressSpace() {
+  // Mostly reserved for the slots (pipeline/state/scene_state.cpp).
+  constexpr rlim_t kOfShow = rlim_t{36} << 30;
+  rlimit limit{};
+  if (getrlimit(RLIMIT_AS, &limit) != 0 || limit.rlim_cur == RLIM_INFINITY || limit.rlim_cur >= kOfShow)
+    return {};
+  return Diagnostic{
+      Severity::Error,
+      {},
+      fmt::format("the address space is limited to {} MiB (ulimit -v), and a show reserves {} MiB; "
+                  "remove the limit: ulimit -v unlimited",
+                  limit.rlim_cur >> 20, kOfShow >> 20),
+      {}};
+}
+
 DoctorProbes probesOfThisMachine() {
   DoctorProbes probes;
   probes.hasProgram = isInPath;
@@ -187,6 +202,7 @@ DoctorProbes probesOfThisMachine() {
     return monitorsOf(screen);
   };
   probes.windowPixels = windowPixels;
+  probes.isRoot = [] { return geteuid() == 0; };
   probes.realtime = mayBeRealtime;
   probes.network = portsHere;
   probes.file = firstLineOf;

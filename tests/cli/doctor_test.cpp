@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
+#include <unistd.h>
 
 namespace stadion {
 namespace {
@@ -19,7 +20,9 @@ TEST(ProgramDoctor, SaysWhatIsMissingAndHowItIsMended) {
   const ProgramResult r = doctor({});
   EXPECT_EQ(r.status, 0) << r.err;
   EXPECT_NE(r.out.find("missing  video"), std::string::npos) << r.out;
-  EXPECT_NE(r.out.find("do: sudo apt-get install ffmpeg"), std::string::npos) << r.out;
+  const std::string install =
+      geteuid() == 0 ? "do: apt-get install ffmpeg" : "do: sudo apt-get install ffmpeg";
+  EXPECT_NE(r.out.find(install), std::string::npos) << r.out;
   EXPECT_NE(r.out.find("missing  displays"), std::string::npos) << r.out;
 }
 
@@ -30,6 +33,15 @@ TEST(ProgramDoctor, EndsWithOneIfWhatWasAskedForCannotWork) {
   const ProgramResult wrong = doctor({"--for", "vidio"});
   EXPECT_EQ(wrong.status, 2);
   EXPECT_NE(wrong.err.find("did you mean \"video\"?"), std::string::npos) << wrong.err;
+}
+
+TEST(ProgramDoctor, SaysThatTheAddressSpaceIsLimited) {
+  for (const char* limit : {"300000", "400000", "1000000", "8000000"}) {
+    const ProgramResult r = runProgram(
+        {{"/bin/bash", "-c", std::string("ulimit -v ") + limit + "; exec \"$0\" doctor", stadionPath()}});
+    EXPECT_EQ(r.status, 2) << limit << r.err;
+    EXPECT_NE(r.err.find("error: the address space is limited to "), std::string::npos) << limit << r.err;
+  }
 }
 
 TEST(ProgramDoctor, PrintsOneJsonObject) {

@@ -44,6 +44,7 @@ DoctorProbes wellMachine() {
   p.windowPixels = [] { return Result<std::string>(std::string("shared memory")); };
   p.swapGroups = [] { return std::optional(true); };
   p.packages = [] { return packagesOf({"testing", "fuzzing", "peers"}); };
+  p.isRoot = [] { return false; };
   p.realtime = [] { return true; };
   p.network = [] {
     return std::vector<NetworkPort>{{"lo", "127.0.0.1", true, false, true},
@@ -127,6 +128,18 @@ TEST(Doctor, NamesTheCommandThatMends) {
             std::string::npos)
       << toText(asked);
   EXPECT_TRUE(canWork(examine(wellMachine(), {{"sound"}, {}})));
+}
+
+TEST(Doctor, NamesNoSudoToRoot) {
+  DoctorProbes sick = wellMachine();
+  sick.hasProgram = [](const std::string&) { return false; };
+  sick.realtime = [] { return false; };
+  EXPECT_EQ(of(examine(sick, {}), "video").mend, "sudo apt-get install ffmpeg");
+  sick.isRoot = [] { return true; };
+  const auto all = examine(sick, {});
+  EXPECT_EQ(of(all, "video").mend, "apt-get install ffmpeg");
+  EXPECT_EQ(of(all, "realtime").mend,
+            "echo \"$USER - rtprio 10\" | tee /etc/security/limits.d/stadion.conf  # then log in again");
 }
 
 TEST(Doctor, SaysHowWindowsWithoutOpenGlGetTheirPictures) {
@@ -229,7 +242,7 @@ TEST(Doctor, SaysHowTheProgramsThatMeasureAreBuilt) {
   p.helper = [](const std::string& name) { return name == "stadion-bench" ? std::string() : "/lib/" + name; };
   const auto all = examine(p, {{"measurements"}, {}});
   EXPECT_EQ(of(all, "measurements").found, "no stadion-bench");
-  EXPECT_EQ(of(all, "measurements").mend, "in a checkout ./stadion bench --help, which builds");
+  EXPECT_EQ(of(all, "measurements").mend, "./stadion bench --help  # in a checkout, which builds");
   EXPECT_FALSE(canWork(all));
 }
 
