@@ -10,6 +10,7 @@
 
 #include <CLI/CLI.hpp>
 #include <cstdio>
+#include <filesystem>
 #include <memory>
 
 namespace stadion {
@@ -20,8 +21,18 @@ struct MergeOptions {
   std::string trace;
 };
 
+/// A trace that is named twice would be two hosts.
+void refuseRepeated(const std::vector<std::string>& files, Diagnostics& findings) {
+  std::error_code none;
+  for (std::size_t i = 0; i < files.size(); ++i)
+    for (std::size_t k = 0; k < i; ++k)
+      if (std::filesystem::equivalent(files[i], files[k], none))
+        return findings.error({files[i], 0, 0}, "is named twice; name the trace of each host once");
+}
+
 int mergeFiles(const MergeOptions& o) {
   Diagnostics findings;
+  refuseRepeated(o.files, findings);
   std::vector<NamedFile> named{{"--trace", o.trace}};
   for (const std::string& file : o.files) named.push_back({"TRACE", file, false});
   refuseSameFiles(named, findings);

@@ -4,6 +4,7 @@
 #include "cli/options/option_table.h"
 #include "engine/base/installed_files.h"
 #include "pipeline/platform/child_process.h"
+#include "show/base/standard_nodes.h"
 #include "show/base/version.h"
 #include "show/doctor/doctor.h"
 
@@ -153,7 +154,7 @@ std::string inTroff(std::string_view text) {
   return escaped;
 }
 
-std::string manOfCommand(const NamedCommand& command) {
+std::string manOfCommand(const CLI::App& program, const NamedCommand& command) {
   std::vector<std::string> options, arguments;
   for (const CLI::Option* option : ownOptions(*command.app)) {
     const OptionRow* row = findOption(nameOfOption(*option));
@@ -163,8 +164,19 @@ std::string manOfCommand(const NamedCommand& command) {
   std::string text = fmt::format(".SS stadion {} {}\n{}.\n", inTroff(command.name), fmt::join(arguments, " "),
                                  inTroff(command.app->get_description()));
   if (!options.empty()) text += fmt::format(".PP\n{}\n", inTroff(fmt::format("{}", fmt::join(options, " "))));
-  const std::string footer = command.app->get_footer();
+  std::string footer = command.app->get_footer();
+  if (footer == program.get_footer()) footer.clear();  // inherited: the command has no text of its own
+  constexpr std::string_view kOfCheckout = "  ./";     // begins an example; an installed program is in PATH
+  for (std::size_t at = 0; (at = footer.find(kOfCheckout, at)) != footer.npos;)
+    footer.replace(at, kOfCheckout.size(), "  ");
   return footer.empty() ? text : text + ".PP\n.nf\n" + inTroff(footer) + "\n.fi\n";
+}
+
+/// A line may break behind each word of "a|b|c".
+std::string mayBreak(std::string_view text) {
+  std::string out;
+  for (const char c : text) out += c == '|' ? "|\\:" : std::string(1, c);
+  return out;
 }
 
 std::string manOfOptions(const std::string& uses) {
@@ -173,7 +185,7 @@ std::string manOfOptions(const std::string& uses) {
   for (const OptionRow& row : optionTable()) {
     if (row.isInternal() || !commands.contains(std::string(row.name))) continue;
     if (heading != headingOf(row.group)) text += fmt::format(".SS {}\n", heading = headingOf(row.group));
-    const std::string value = row.isPositional() ? "" : inTroff(valueText(row.value));
+    const std::string value = row.isPositional() ? "" : mayBreak(inTroff(valueText(row.value)));
     text += fmt::format(".TP\n.B {}\n.RI {}\n{}\n", inTroff(row.name),
                         value.empty() ? "\"\"" : '"' + value + '"', inTroff(row.fullText()));
   }
@@ -191,7 +203,7 @@ std::string manPage(const CLI::App& program) {
                                  name, kVersion, inTroff(name), inTroff(program.get_description()));
   page += ".SH SYNOPSIS\nstadion COMMAND [OPTION...] [ARGUMENT...]\n.SH COMMANDS\n";
   for (const NamedCommand& command : commandsOf(program)) {
-    page += manOfCommand(command);
+    page += manOfCommand(program, command);
     if (const std::string other = programOf(command); other != name)
       page += fmt::format(".PP\nIts options are in {}(1).\n", inTroff(other));
   }
@@ -286,11 +298,14 @@ std::optional<TypedValue> typedValue(std::span<const std::string> words) {
 
 /// Of the first argument: which files, with the names that may take their place.
 std::string argumentsOf(const CLI::App& command, const std::string& typed) {
-  std::string answer = ":files\n";
-  for (const CLI::Option* option : ownOptions(command))
-    if (option->get_positional())
-      return answer + beginningWith(typed, namesBesideFiles(nameOfOption(*option)));
-  return answer;
+  const std::string files = ":files\n";
+  for (const CLI::Option* option : ownOptions(command)) {
+    if (!option->get_positional()) continue;
+    const std::string name = nameOfOption(*option);
+    if (name == "TYPE") return beginningWith(typed, standardNodes()->names());
+    return files + beginningWith(typed, namesBesideFiles(name));
+  }
+  return files;
 }
 
 std::string completion(const CLI::App& program, std::span<const std::string> words) {
@@ -312,11 +327,14 @@ std::string completion(const CLI::App& program, std::span<const std::string> wor
 std::optional<std::string> referenceAnswer(const CLI::App& program, std::span<const std::string> words) {
   if (words.empty()) return std::nullopt;
   if (words[0] == "complete") return completion(program, words.subspan(1));
-  if (words[0] != "manual" || words.size() != 2) return std::nullopt;
-  if (words[1] == "man") return manPage(program);
-  if (words[1] == "options") return optionsPage(program);
-  if (words[1] == "uses") return usesOf(program);
-  return std::nullopt;
+  if (words[0] != "manual") return std::nullopt;
+  const std::string page = words.size() == 2 ? words[1] : "";
+  if (page == "man") return manPage(program);
+  if (page == "options") return optionsPage(program);
+  if (page == "uses") return usesOf(program);
+  throw std::runtime_error(
+      "`manual` takes one word: man (a man page), options (the page of all options) or uses "
+      "(which command has which option)");
 }
 
 }  // namespace stadion

@@ -59,13 +59,23 @@ struct CommandPlace {
   std::size_t last = 0;  ///< the word that ends its name
 };
 
-/// The name of a bench may stand behind options.
+bool hasRetiredOptions(const std::string& command) {
+  return std::ranges::any_of(kRetired,
+                             [&](const RetiredSpelling& r) { return hasWord(r.commands, command); });
+}
+
+/// The name of a bench may stand behind options, and behind the values of retired ones.
 CommandPlace commandIn(std::span<const std::string> words) {
   if (words.empty()) return {};
-  if (words[0] == "bench")
-    for (std::size_t i = 1; i < words.size(); ++i)
-      if (!words[i].starts_with('-')) return {"bench " + words[i], i};
-  return {words[0]};
+  CommandPlace place{words[0]};
+  if (words[0] != "bench") return place;
+  for (std::size_t i = 1; i < words.size(); ++i) {
+    if (words[i].starts_with('-')) continue;
+    const CommandPlace bench{"bench " + words[i], i};
+    if (i == 1 || hasRetiredOptions(bench.command)) return bench;
+    if (place.last == 0) place = bench;
+  }
+  return place;
 }
 
 }  // namespace

@@ -166,6 +166,34 @@ TEST(ProgramRetiredSpellings, LeavePresentOnesAlone) {
   }
   EXPECT_TRUE(finds({"bench", "--json", "flight", "x.json"}));
   EXPECT_FALSE(finds({"bench", "--json", "flight"}));
+  EXPECT_FALSE(finds({"bench", "dynamics", "--out", "walls", "--only", "C05"}));
+}
+
+TEST(ProgramRetiredSpellings, AreFoundBeforeTheNameOfABench) {
+  for (const std::vector<std::string>& words : std::vector<std::vector<std::string>>{
+           {"bench", "--only", "a", "walls"}, {"bench", "--rounds", "1", "--only", "a", "walls"}}) {
+    const auto wrong = retiredSpellingIn(words);
+    ASSERT_TRUE(wrong) << words[1];
+    EXPECT_TRUE(has(*wrong, "--only is an earlier spelling; the present one is --scenes")) << *wrong;
+  }
+}
+
+TEST(ProgramManual, SaysWhichWordsItTakes) {
+  for (const std::vector<std::string>& words :
+       std::vector<std::vector<std::string>>{{"manual", "bash"}, {"manual"}, {"manual", "man", "run"}}) {
+    const ProgramResult r = stadionProgram(words);
+    EXPECT_EQ(r.status, 2);
+    EXPECT_TRUE(has(r.err, "`manual` takes one word: man ")) << r.err;
+  }
+}
+
+TEST(ProgramManual, GivesNoCommandATextOfTheWholeProgram) {
+  for (const auto& [name, program] : programs()) {
+    const std::string page = runProgram({{program, "manual", "man"}}).out;
+    EXPECT_FALSE(has(page, "Start with:")) << name;
+    EXPECT_FALSE(has(page, "\n  ./stadion ")) << name;
+    EXPECT_EQ(page.find("141 "), page.rfind("141 ")) << name << ": exit codes are listed twice";
+  }
 }
 
 TEST(ValueGrammar, AMistakeNamesTheValueAndWhatIsAllowed) {
@@ -225,6 +253,7 @@ TEST(ProgramCompletion, KnowsCommandsOptionsAndValues) {
   EXPECT_EQ(complete({"bench", "wa"}), "walls\n");
   EXPECT_EQ(complete({"bench", "walls", "--scene-"}), "--scene-nodes\n");
   EXPECT_EQ(complete({"run", "--ends-"}), "") << "an internal option";
+  EXPECT_EQ(complete({"nodes", "dyno"}), "dynobject\n");
 }
 
 TEST(ProgramManPage, HasEachOptionOnce) {

@@ -66,6 +66,15 @@ TEST(ProgramUsage, AMissingScriptIsNamed) {
   }
 }
 
+TEST(ProgramUsage, ATraceThatIsNamedTwiceIsRefused) {
+  const TestFolder folder;
+  const std::string trace = folder.write("trace-a.json", "{}"), merged = folder.path() / "merged.json";
+  const ProgramResult r = stadionProgram({"merge-traces", trace, trace, "--trace", merged});
+  EXPECT_EQ(r.status, 2);
+  EXPECT_TRUE(has(r.err, "trace-a.json: error: is named twice")) << r.err;
+  EXPECT_FALSE(std::filesystem::exists(merged));
+}
+
 TEST(ProgramUsage, AFolderIsNotAScript) {
   for (const char* command : {"run", "hash", "check"})
     EXPECT_EQ(stadionProgram({command, assetFolder()}).status, 2) << command;
