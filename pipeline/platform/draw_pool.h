@@ -48,16 +48,27 @@ private:
     bool hasMore() const { return next < count; }
     bool isDone() const { return !hasMore() && running == 0; }
   };
+  /// A thread that waits: a caller for its job, a thread of the pool for any.
+  struct Waiter {
+    const Job* job = nullptr;
+    bool isWoken = false;
+    std::condition_variable woken;
+  };
+  using Lock = std::unique_lock<std::mutex>;
 
   void work();
-  Job* waiting();
-  void take(Job& job, std::unique_lock<std::mutex>& lock);
+  Job* jobWithMore();
+  void take(Job& job, Lock& lock);
+  void wait(const Job* job, Lock& lock);
+  void wake(Waiter& waiter);
+  bool canWork(const Waiter& waiter);
+  void offerPlace();
 
   const std::size_t most_;
   const Callers callers_;
   std::mutex mutex_;
-  std::condition_variable changed_;
   std::deque<Job*> jobs_;
+  std::vector<Waiter*> waiters_;
   std::size_t working_ = 0;
   bool leaving_ = false;
   std::vector<std::thread> threads_;
