@@ -98,19 +98,32 @@ void ShadowSet::bound(std::size_t ring, const std::array<int, 4>& area) {
             x1 = (corner[0] + area[2] - 1) / kShadowTile;
   const int y0 = std::max(corner[1] + area[1] - kReach, 0) / kShadowTile,
             y1 = (corner[1] + area[3] - 1) / kShadowTile;
-  for (int ty = y0; ty <= y1; ++ty)
+  std::vector<float> least(kShadowSide), most(kShadowSide);
+  const int left = x0 * kShadowTile, right = std::min((x1 + 1) * kShadowTile + kReach, kShadowSide);
+  for (int ty = y0; ty <= y1; ++ty) {
+    const int low = ty * kShadowTile, high = std::min(low + kShadowTile + kReach, kShadowSide);
+    boundColumns(left, right, low, high, least.data(), most.data());
     for (int tx = x0; tx <= x1; ++tx) {
-      const int left = tx * kShadowTile, right = std::min(left + kShadowTile + kReach, kShadowSide);
-      const int low = ty * kShadowTile, high = std::min(low + kShadowTile + kReach, kShadowSide);
-      float least = depths_[static_cast<std::size_t>(low) * kShadowSide + static_cast<std::size_t>(left)],
-            most = least;
-      for (int y = low; y < high; ++y) {
-        const float* row = depths_.data() + static_cast<std::ptrdiff_t>(y) * kShadowSide;
-        for (int x = left; x < right; ++x) least = std::min(least, row[x]), most = std::max(most, row[x]);
-      }
+      const int first = tx * kShadowTile, end = std::min(first + kShadowTile + kReach, kShadowSide);
       const auto tile = static_cast<std::size_t>(2 * (ty * kCount + tx));
-      bounds_[tile] = least, bounds_[tile + 1] = most;
+      bounds_[tile] = *std::min_element(least.data() + first, least.data() + end);
+      bounds_[tile + 1] = *std::max_element(most.data() + first, most.data() + end);
     }
+  }
+}
+
+/// Least and greatest depth of texels above each other.
+void ShadowSet::boundColumns(int left, int right, int low, int high, float* least, float* most) const {
+  const auto row = [&](int y) { return depths_.data() + static_cast<std::ptrdiff_t>(y) * kShadowSide; };
+  std::copy(row(low) + left, row(low) + right, least + left);
+  std::copy(row(low) + left, row(low) + right, most + left);
+  for (int y = low + 1; y < high; ++y) {
+    const float* depth = row(y);
+    for (int x = left; x < right; ++x) {
+      least[x] = std::min(least[x], depth[x]);
+      most[x] = std::max(most[x], depth[x]);
+    }
+  }
 }
 
 ShadowParameters ShadowSet::parameters(const DrawShadows& shadows, int taps) const {

@@ -36,6 +36,7 @@ private:
   };
   bool holds(const DrawShadows& shadows) const;
   void bound(std::size_t ring, const std::array<int, 4>& area);
+  void boundColumns(int left, int right, int low, int high, float* least, float* most) const;
 
   std::vector<float> depths_;
   std::vector<float> bounds_;  ///< least and greatest depth of each tile

@@ -15,11 +15,17 @@ struct FragmentFinder : DrawLanes<By> {
   using I = typename L::I;
   static constexpr int kLanes = By::kLanes;
 
-  /// Whether all samples of kLanes pixels show one triangle.
+  /// Whether all samples of a run's pixels show one triangle.
   [[gnu::always_inline]] static inline bool alike(const unsigned* shown) {
+    constexpr int kNumbers = kRunPixels * kSamples;
+    if constexpr (kNumbers < kLanes) {
+      unsigned differs = 0;
+      for (int i = 1; i < kNumbers; ++i) differs |= shown[i] ^ shown[0];
+      return differs == 0;
+    }
     const I first = I{} + static_cast<int>(shown[0]);
     I differs{};
-    for (int i = 0; i < kSamples; ++i) differs |= L::loadInts(shown + i * kLanes) ^ first;
+    for (int i = 0; i + kLanes <= kNumbers; i += kLanes) differs |= L::loadInts(shown + i) ^ first;
     return L::bits(differs != 0) == 0;
   }
   /// Whether all samples of a pixel do.
@@ -58,12 +64,12 @@ struct FragmentFinder : DrawLanes<By> {
   static void find(FragmentSearch& row) {
     for (int x = 0; x < row.width;) {
       const unsigned* shown = row.shown + x * kSamples;
-      if (x + kLanes <= row.width && alike(shown)) {
+      if (x + kRunPixels <= row.width && alike(shown)) {
         add(row, *row.runs, shown[0], x, row.place + static_cast<unsigned>(x));
-        x += kLanes;
+        x += kRunPixels;
         continue;
       }
-      const int end = x + kLanes < row.width ? x + kLanes : row.width;
+      const int end = x + kRunPixels < row.width ? x + kRunPixels : row.width;
       for (; x < end; ++x, shown += kSamples) {
         if (isWhole(shown))
           add(row, *row.ones, shown[0], x, row.place + static_cast<unsigned>(x));

@@ -13,6 +13,7 @@ namespace stadion {
 constexpr int kKernelPadding = 16;  ///< arrays have room for so many more values than they hold
 constexpr int kBandRows = 16;       ///< rows of a picture that are drawn together
 constexpr int kSurfaceFloats = 48;
+constexpr int kRunPixels = 8;  ///< pixels of a run: stretches of a row that begin at a multiple of it
 
 /// Places of samples in a pixel, in parts of 2 * samples. In each row and column of that grid there is one.
 constexpr int kOneSample[1][2] = {{1, 1}};
@@ -123,7 +124,7 @@ struct FragmentSearch {
   int width;              ///< pixels
   unsigned place;         ///< of the first pixel
   unsigned sky;           ///< the number of the sky
-  FragmentList* runs;     ///< stretches of as many pixels of one triangle as the kernel has lanes
+  FragmentList* runs;     ///< stretches of kRunPixels pixels that show one triangle
   FragmentList* ones;     ///< all others
   SharedPixel* shared;
   unsigned sharedSize;
@@ -210,7 +211,7 @@ struct SceneParameters {
 };
 
 constexpr int kShadowSide = 2048;  ///< texels of all rings' maps together, two by two
-constexpr int kShadowTile = 8;     ///< texels a side for which the least and the greatest depth are known
+constexpr int kShadowTile = 2;     ///< texels a side for which the least and the greatest depth are known
 
 /// Shadow maps. Depths are 1 towards the light.
 struct ShadowParameters {
@@ -236,7 +237,7 @@ struct FragmentJob {
   const unsigned* surface;  ///< by fragment: its surface
   const unsigned* place;    ///< by fragment: where its colour goes
   unsigned count;
-  int runs;        ///< 1: each of them stands for as many pixels to the right as the kernel has lanes
+  int runs;        ///< 1: each of them stands for kRunPixels pixels to the right
   float* colours;  ///< red, green, blue and alpha, linear (in the plain look: as stored)
   const MaterialParameters* material;
   const SceneParameters* scene;

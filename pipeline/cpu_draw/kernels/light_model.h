@@ -16,7 +16,7 @@ struct LightModel : DrawLanes<By> {
   using I = typename L::I;
   using T = Triple<F>;
   static constexpr int kLanes = By::kLanes;
-  static constexpr int kTileShift = 3;
+  static constexpr int kTileShift = 1;
   static_assert(1 << kTileShift == kShadowTile);
   static constexpr float kPerE = -1.442695f;  ///< exp(-x) = 2^(kPerE x)
 
@@ -71,9 +71,12 @@ struct LightModel : DrawLanes<By> {
     return L::most(L::size(x * ring[3] + ring[0] - middleX), L::size(y * ring[3] + ring[1] - middleY));
   }
 
-  /// The part of the light that arrives.
-  [[gnu::always_inline]] static inline F lightArriving(const ShadowParameters& s, const T& placed,
-                                                       const T& n) {
+  /// A place in the map: texels, depth, and how far it lies from the middle of the widest ring.
+  struct ShadowPlace {
+    F u, v, depth, edge;
+  };
+  [[gnu::always_inline]] static inline ShadowPlace shadowPlace(const ShadowParameters& s, const T& placed,
+                                                               const T& n) {
     const T right = T::of(s.right), up = T::of(s.up), towards = T::of(s.towards);
     F x = T::dot(right, placed), y = T::dot(up, placed), z = T::dot(towards, placed);
     F ringX = L::all(s.rings[3][0]), ringY = L::all(s.rings[3][1]), ringZ = L::all(s.rings[3][2]),
@@ -90,10 +93,37 @@ struct LightModel : DrawLanes<By> {
     x += lift * T::dot(right, n), y += lift * T::dot(up, n), z += lift * T::dot(towards, n);
     constexpr float kSide = kShadowSide;
     const auto texel = [](F at) { return L::most(L::least(at * kSide - 0.5f, L::all(kSide)), L::all(-1)); };
-    const F depth = L::clamp(z * s.depthScale + ringZ);
-    const F u = texel(x * scale + ringX), v = texel(y * scale + ringY);
-    const F lit = s.taps == 16 ? sixteen(s, u, v, depth) : four(s, u, v, depth);
+    return {texel(x * scale + ringX), texel(y * scale + ringY), L::clamp(z * s.depthScale + ringZ), edge};
+  }
+
+  /// The part of the light that arrives.
+  [[gnu::always_inline]] static inline F lightArriving(const ShadowParameters& s, const ShadowPlace& p) {
+    return beyondRings(s.taps == 16 ? sixteen(s, p.u, p.v, p.depth) : four(s, p.u, p.v, p.depth), p.edge);
+  }
+  /// Shadows end where the widest ring does.
+  [[gnu::always_inline]] static inline F beyondRings(F lit, F edge) {
     return lit + (1.0f - lit) * L::clamp((edge - 0.22f) * 40.0f);
+  }
+
+  /// The tile of a place, and whether all of it lets light through, or none of it.
+  struct ShadowTile {
+    I x, y, light, dark;
+  };
+  [[gnu::always_inline]] static inline ShadowTile shadowTile(const ShadowParameters& s,
+                                                             const ShadowPlace& p) {
+    return tileAt(s, corner(L::floor(p.u - 0.75f)), corner(L::floor(p.v - 0.75f)), p.depth);
+  }
+  [[gnu::always_inline]] static inline ShadowTile tileAt(const ShadowParameters& s, I x, I y, F depth) {
+    ShadowTile tile{x >> kTileShift, y >> kTileShift, {}, {}};
+    I least, most;
+    By::pairs(reinterpret_cast<const int*>(s.bounds), (tile.y * (kShadowSide / kShadowTile) + tile.x) * 2,
+              least, most);
+    tile.light = depth >= F(most), tile.dark = depth < F(least);
+    return tile;
+  }
+  /// The first of four texels in a row.
+  [[gnu::always_inline]] static inline I corner(F x) {
+    return L::truncated(L::most(L::least(x, L::all(kShadowSide - 4)), F{}));
   }
 
   /// The four weights of two bilinear lookups at `at` -+ 0.75 texels, and the first of the four texels.
@@ -110,15 +140,11 @@ struct LightModel : DrawLanes<By> {
   [[gnu::always_inline]] static inline F sixteen(const ShadowParameters& s, F u, F v, F depth) {
     F across[4], along[4];
     const F left = weights(u, across), low = weights(v, along);
-    const auto corner = [](F x) { return L::truncated(L::most(L::least(x, L::all(kShadowSide - 4)), F{})); };
     const I x = corner(left), y = corner(low);
     // Most places are in light, or in shadow, as a whole.
-    const I tile = ((y >> kTileShift) * (kShadowSide / kShadowTile) + (x >> kTileShift)) * 2;
-    I least, most;
-    By::pairs(reinterpret_cast<const int*>(s.bounds), tile, least, most);
-    const I light = depth >= F(most), dark = depth < F(least);
+    const ShadowTile tile = tileAt(s, x, y, depth);
     F lit{};
-    if (L::bits(light | dark) != L::kAll) {
+    if (L::bits(tile.light | tile.dark) != L::kAll) {
       alignas(64) int at[kLanes];
       L::storeInts(at, y * kShadowSide + x);
       for (int j = 0; j < 4; ++j) {
@@ -129,7 +155,7 @@ struct LightModel : DrawLanes<By> {
       }
       lit *= 0.25f;
     }
-    return L::select(light, L::all(1), L::where(~dark, lit));
+    return L::select(tile.light, L::all(1), L::where(~tile.dark, lit));
   }
 
   /// Looks up two by two texels and returns their weighted mean.

@@ -22,10 +22,16 @@ struct TextureFilter : DrawLanes<By> {
     F alpha;
   };
 
-  /// Texture coordinates, and the squares of their change for a pixel to the right and a pixel up [of the
-  /// texture's sides].
-  struct Place {
+  struct Coordinates {
     F u, v;
+  };
+  /// Where a texture is read, and its level of detail: 0 = all of it.
+  struct Place {
+    Coordinates at;
+    F level;
+  };
+  /// The change of texture coordinates for a pixel to the right and a pixel up [of the texture's sides].
+  struct Slopes {
     F uRight, vRight, uUp, vUp;
   };
 
@@ -116,8 +122,7 @@ struct TextureFilter : DrawLanes<By> {
     sum.add(linear, here, lowLeft), sum.add(linear, next, lowRight);
   }
 
-  /// The level of detail: 0 = all of the texture.
-  [[gnu::always_inline]] static inline F levelOf(const TextureParameters& t, const Place& p) {
+  [[gnu::always_inline]] static inline F levelOf(const TextureParameters& t, const Slopes& p) {
     const float w = static_cast<float>(t.width[0]), h = static_cast<float>(t.height[0]);
     const F right = p.uRight * p.uRight * (w * w) + p.vRight * p.vRight * (h * h);
     const F up = p.uUp * p.uUp * (w * w) + p.vUp * p.vUp * (h * h);
@@ -128,9 +133,9 @@ struct TextureFilter : DrawLanes<By> {
   /// `roots`: colours are stored as square roots.
   [[gnu::always_inline]] static inline Texel at(const TextureParameters& t, const Place& p, bool nearestLevel,
                                                 bool roots) {
-    F level = levelOf(t, p);
+    F level = p.level;
     if (nearestLevel) level = L::floor(level + 0.5f);
-    const F u = wrapped(p.u, t.wrapU), v = wrapped(p.v, t.wrapV);
+    const F u = wrapped(p.at.u, t.wrapU), v = wrapped(p.at.v, t.wrapV);
     const I whole = L::truncated(level), last = I{} + (t.levels - 1);
     const F coarser = L::floor(256.0f * (level - L::whole(whole)));
     const Linear linear(roots);
