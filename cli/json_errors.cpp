@@ -14,7 +14,7 @@ namespace {
 /// A reason stands in the first or the last lines of a failed command; long runs write more.
 constexpr std::size_t kMostText = std::size_t{1} << 16;
 
-/// "stadion: error: there is no baseline" without the words that say who reports it, and that it is an error.
+/// "stadion: error: there is no baseline" without the name of the program and the word "error".
 std::string withoutPrefixes(std::string line) {
   for (const std::string_view prefix : {"stadion: ", "error: "})
     if (line.starts_with(prefix)) line.erase(0, prefix.size());
@@ -62,7 +62,8 @@ JsonErrors::JsonErrors(bool wanted) {
 }
 
 void JsonErrors::finish(int code) {
-  if (!out_ || code == kOk) return;
+  constexpr int kFirstSignal = 128;
+  if (!out_ || code == kOk || code > kFirstSignal) return;
   const bool written = std::fflush(stdout) == 0;
   if (!written || !out_->text().empty()) return;
   try {

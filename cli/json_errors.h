@@ -39,7 +39,7 @@ public:
   /// Does nothing unless `wanted`.
   explicit JsonErrors(bool wanted);
 
-  /// Prints {"error": REASON} if a command ended with a `code` of a failure and printed nothing.
+  /// Prints {"error": REASON} if a command ended with a `code` of a failure and printed nothing. A signal is no failure.
   void finish(int code);
 
 private:

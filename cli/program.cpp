@@ -127,9 +127,11 @@ int runProgram(int argc, char** argv, const AddCommands& addCommands) {
   reportCrashes();
   std::signal(SIGXFSZ,
               SIG_IGN);  // a file that may not grow is a full disk: an error with a name, not the end
-  const bool json =
-      std::any_of(argv, argv + argc, [](const char* word) { return !std::strcmp(word, "--json"); });
-  JsonErrors errors(json);
+  const auto given = [&](const char* option) {
+    return std::any_of(argv, argv + argc, [&](const char* word) { return !std::strcmp(word, option); });
+  };
+  // A supervised player has the options of its supervisor, writes to the same output, and says why it failed.
+  JsonErrors errors(given("--json") && !given("--supervise"));
   const int code = runGuarded(argc, argv, addCommands);
   errors.finish(code);
   return finishOutput(code);

@@ -218,7 +218,10 @@ std::optional<FrameOrder> Follower::next() {
   const bool isNew = std::exchange(kept_, nullptr) || !plays_;
   plays_ = true;
   if (isNew) announce(told_);
-  if (heard.order.last && !over_) frames_ = frame_ + 1;
+  if (heard.order.last && !over_) {
+    frames_ = frame_ + 1;
+    tellEnd();  // this node may leave before it hears that the session is over
+  }
   heard.order.drawn = (heard.numbers.members >> options_.node & 1U) != 0;
   // The leader left us out for being late. A node that has caught up is taken back.
   if (!heard.order.drawn && told_ == Phase::Ready && orders_.empty()) announce(Phase::Ready);
@@ -335,6 +338,12 @@ bool Follower::isOurs(const Session& session) const {
   return options_.played != 0 && (session.number == options_.played || session.resumes == options_.played);
 }
 
+/// Expects the lock.
+void Follower::tellEnd() {
+  if (!std::exchange(endTold_, true))
+    options_.tell(options_.cluster.nodes[options_.cluster.lead].name + " has ended the show");
+}
+
 void Follower::receive(const Session& session) {
   {
     const std::lock_guard lock(mutex_);
@@ -345,8 +354,8 @@ void Follower::receive(const Session& session) {
     session_ = session;
     if (session.over && isOurs(session)) {
       frames_ = session.shown;
-      if (!std::exchange(over_, true))
-        options_.tell(options_.cluster.nodes[options_.cluster.lead].name + " has ended the show");
+      over_ = true;
+      tellEnd();
     }
     // While another node is asked for its scene, we keep ours.
     const bool holds =

@@ -117,6 +117,7 @@ private:
   void announce(Phase phase);
   void announceProgress();
   void giveIfAsked();
+  void tellEnd();
   std::optional<JoinTerms> joinSession(std::unique_lock<std::mutex>& lock);
   bool hasEnded() const { return again_ || over_ || double_; }
   bool leaves() const { return options_.leave && options_.leave(); }
@@ -151,6 +152,7 @@ private:
       shows_;  ///< orders applied and not yet shown: whether we draw them
   bool again_ = false, double_ = false, refused_ = false;
   bool over_ = false;                           ///< the leader has ended the show
+  bool endTold_ = false;                        ///< the operator knows it, or that the last frame plays
   bool plays_ = false;                          ///< there is a scene from which the show can go on
   bool differs_ = false;                        ///< but it is not that of the others
   std::shared_ptr<const ResumableScene> kept_;  ///< until there is another one
