@@ -24,7 +24,9 @@ public:
       : PlacedNode(kSpringType, self, std::move(name), std::move(place)), target_(target),
         rate_(2 * 3.14159265358979323846 * frequency), switch_(on) {}
 
-  Rank rank() const override { return Rank::Sensing; }  // after what moves by itself
+  /// After what moves by itself (Rank::Motion). Without it, a PlacedNode has Rank::Attachment, and the spring
+  /// would see where its target was a frame ago.
+  Rank rank() const override { return Rank::Sensing; }
   bool busy() const override { return switch_.on() || PlacedNode::busy(); }
   void hash(StateHash& h) const override { hashFields(*this, h); }
   void state(StateFields& f) override { fields(*this, f); }
