@@ -1,5 +1,6 @@
 #pragma once
-/// The meshes of a show as bytes, in memory that all wall processes map. Each mesh is written once.
+/// The meshes of a show as bytes, in memory that all wall processes map. A mesh is there once, while a process
+/// uses it.
 ///
 /// Layout   a mesh file (engine/asset/mesh_file.h), then its simplified levels.
 /// Threads  any, at once. Expects that a mesh stays in the store until take() returns.
@@ -23,6 +24,7 @@ public:
   /// Returns where the mesh lies, and writes it there if it is new. Each call needs a giveBack(). Returns
   /// nothing if the store has no such mesh.
   std::optional<MeshPlace> take(MeshId id, std::uint64_t hash);
+  /// Ends one use of the mesh. The last one discards its bytes: a later take() writes them again.
   void giveBack(const MeshPlace& place);
 
   int descriptor() const { return segment_.descriptor(); }
