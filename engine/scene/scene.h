@@ -84,6 +84,14 @@ public:
   /// unknown.
   bool command(const std::string& target, CommandId command, std::vector<std::string> arguments,
                Nanoseconds when);
+  /// Hash of the scene after the last frame. It covers:
+  ///   - of each node, the fields on which its future depends. `dynamics` and `collision` nodes add what their
+  ///     bodies, colliders and fields do not: switch, pairs, grips, free places, recoveries
+  ///   - show time, the free rig, the numbers of the loaded files
+  ///   - pending messages, alarms, loads and unloads; degradation
+  /// It does not cover parameters that never change, kept fields (state_fields.h), and the rest of a world:
+  /// predicted events, search structures, the solver's memory. SceneSnapshot::digest() covers what a snapshot
+  /// saves of these.
   std::uint64_t stateHash() const;
   const FrameCounters& counters() const { return counters_; }
   const std::vector<EventRecord>& events() const { return events_; }  ///< events of the last frame, by time
