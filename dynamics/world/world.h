@@ -10,8 +10,9 @@
 /// Frames   node poses X_WN in World, right-handed, +Z up. Velocities are of the centre of mass.
 /// Units    metres, seconds, kilograms; times in show nanoseconds.
 /// Threads  one thread at a time; worlds are independent of each other.
-/// Errors   unusable arguments are refused (invalid id or false). A body whose state would not be finite
-///          is quarantined at its last good pose. No exception leaves.
+/// Errors   a call with an unknown id or an unusable argument, such as a pose that is not finite, changes
+///          nothing: it returns the id 0 or false. A body whose state would not be finite is quarantined at
+///          its last good pose. No exception leaves.
 /// Order    results depend on nothing but the sequence of calls: no addresses, no hashing, no threads.
 
 #include "dynamics/body/body.h"
@@ -43,17 +44,24 @@ public:
   World(World&&) noexcept;
   World& operator=(World&&) noexcept;
 
-  /// Adds a shape, which many bodies, colliders and worlds may share. 0 if its bounds are not finite. A shape
-  /// stays until it is removed, and one in use is not removed.
+  /// Adds a shape, which many bodies, colliders and worlds may share. Returns 0 if its bounds are not finite
+  /// or empty. Expects a shape.
   ShapeId addShape(std::shared_ptr<const Shape> shape);
+  /// Adds a shape that this world alone uses.
   ShapeId addShape(Shape shape) { return addShape(std::make_shared<const Shape>(std::move(shape))); }
+  /// Removes a shape. Returns false, and keeps it, if a body or collider uses it.
   bool removeShape(ShapeId id);
+  /// The shape, or null if there is none. Valid until it is removed.
   const Shape* shape(ShapeId id) const;
 
-  /// A body that touches something when it appears keeps its place and reports no impact.
+  /// Adds a body that flies. If it touches something there, it keeps its place and reports no impact.
+  /// Returns 0 if its shape is unknown or a plane.
   BodyId addBody(const BodyDef& def);
+  /// Removes a body; what leaned on it wakes.
   bool removeBody(BodyId id);
+  /// Adds a collider, which stands still until moveCollider(). Returns 0 if its shape is unknown.
   ColliderId addCollider(const ColliderDef& def);
+  /// Removes a collider; what leaned on it wakes.
   bool removeCollider(ColliderId id);
 
   /// Sets the pose of the collider at the end of the coming frame. It moves there evenly, and its velocity
@@ -63,10 +71,12 @@ public:
   /// Moves the collider on a known path from the frame's start to its end, which is `end`. A jump needs a
   /// call of its own at its time.
   bool moveCollider(ColliderId id, const Pose& end, const ArcTrack& arcs);
-  /// A collider or body that is off takes part in nothing.
+  /// Switches a collider. While it is off, it takes part in nothing.
   bool enableCollider(ColliderId id, bool on);
+  /// Switches a body. While it is off, it takes part in nothing. It starts from rest when it is on again.
   bool enableBody(BodyId id, bool on);
   /// Sets whether a pair never collides (selfcollide off, or a body and the geometry that carries it).
+  /// Returns true.
   bool ignorePair(ContactSide a, ContactSide b, bool ignored);
   /// Sets whether bodies collide with each other; on by default.
   void setBodiesCollide(bool on);
@@ -76,37 +86,52 @@ public:
   /// Sets how first contacts are found; exactly by default. Expects that the world has not been advanced.
   void setImpactScheme(const ImpactScheme& scheme);
 
+  /// Adds a field. It acts on bodies that are hooked to it, while it is on. Returns 0 if one of its poses is
+  /// unusable or its duration negative.
   FieldId addField(const ForceField& field, bool on = false);
+  /// Removes a field, and unhooks all bodies from it.
   bool removeField(FieldId id);
   /// Sets the poses of the field at the two ends of the coming frame.
   bool moveField(FieldId id, const Pose& start, const Pose& end);
   /// Sets its strength at the two ends of the coming frame, in multiples of its law; 1 by default.
   bool setFieldStrength(FieldId id, double start, double end);
+  /// Replaces its law from the start of the coming frame on.
   bool setFieldLaw(FieldId id, const FieldLaw& law);
   /// Switches at exactly `when`, or at once if that is past. Switching on starts a new activation. It ends
   /// when the field's duration, from `when` on, is over, or earlier if the field is switched off.
   bool switchField(FieldId id, bool on, Nanoseconds when);
+  /// Returns true if the field is on now; false also if there is no such field.
   bool fieldOn(FieldId id) const;
 
-  /// From exactly `when` on the body feels the field, or no longer feels it.
+  /// From exactly `when` on the body feels the field.
   bool hook(BodyId body, FieldId field, Nanoseconds when);
+  /// From exactly `when` on the body no longer feels the field.
   bool unhook(BodyId body, FieldId field, Nanoseconds when);
+  /// Returns true if the body is hooked to the field now.
   bool hooked(BodyId body, FieldId field) const;
 
-  /// The body jumps. Bodies that leaned on it wake, and so do bodies that it is put into.
+  /// The body jumps to X_WN and flies on with velocity v [m/s] and omega [rad/s] in World. Bodies that leaned
+  /// on it wake, and so do bodies that it is put into. A quarantine ends.
   bool placeBody(BodyId id, const Pose& X_WN, const Vec3& v, const Vec3& omega);
-  /// Adds momentum [N s] at a point of World, now.
+  /// Adds momentum [N s] at a point of World, now. Returns false if the body is held, quarantined or stuck.
   bool push(BodyId id, const Vec3& impulse, const Vec3& at);
-  /// A held body follows `moveHeld` like a collider and pushes others. Its release gives it v and omega.
+  /// Holds a body: it follows moveHeld() like a collider and pushes others. Returns false if it is
+  /// quarantined.
   bool holdBody(BodyId id);
-  /// `teleport`: the body is there from the frame's start and gives no impulse for the jump.
+  /// Sets the pose of a held body at the end of the coming frame. Returns false if the body is not held.
+  /// `teleport`: it is there from the frame's start and gives no impulse for the jump.
   bool moveHeld(BodyId id, const Pose& end, bool teleport = false);
+  /// Moves a held body on a known path, as moveCollider() does.
   bool moveHeld(BodyId id, const Pose& end, const ArcTrack& arcs);
+  /// Lets a held body fly on with velocity v [m/s] and omega [rad/s] in World. Returns false if it is not
+  /// held.
   bool releaseBody(BodyId id, const Vec3& v, const Vec3& omega);
   /// Sets the fields that the holding hand carries, until the next call or grab. While such a field is
-  /// linear, on and hooked to the body, its push adds up instead of moving the body.
+  /// linear, on and hooked to the body, its push adds up instead of moving the body. Returns false if the
+  /// body is not held.
   bool carryFields(BodyId id, std::vector<FieldId> fields);
-  /// The velocity that has added up since the grab, turned with the hand, in World [m/s].
+  /// The velocity that has added up since the grab, turned with the hand, in World [m/s]. Zero if the body is
+  /// not held.
   Vec3 accumulatedVelocity(BodyId id) const;
 
   /// Advances the world [ns]. `from` is the end of the last call, or any time in the first call. Returns
@@ -115,7 +140,7 @@ public:
   /// external motion turns, jumps or receives a command. "Start" and "end of the frame" above then mean those
   /// of each part.
   bool advance(Nanoseconds from, Nanoseconds to, bool continues = false);
-  /// Advances show time, but the world stands still.
+  /// Advances show time, but the world stands still. Returns as advance() does.
   bool pause(Nanoseconds from, Nanoseconds to, bool continues = false);
 
   /// Starts or stops recording how the body moves within a frame.
@@ -124,38 +149,46 @@ public:
   /// recorded.
   const ArcTrack& arcsOf(BodyId id) const;
 
-  /// Bodies whose state may have changed in the last frame, by id. No other state has.
+  /// The bodies whose state may have changed in the last frame, in order of id. No other body's has.
   const std::vector<BodyId>& changed() const;
 
-  Pose pose(BodyId id) const;  ///< X_WN at the end of the last frame
+  /// X_WN at the end of the last frame; identity if there is no such body.
+  Pose pose(BodyId id) const;
   /// Returns the pose at a later time `when`, if nothing happens to the body. For a held body, the pose set
   /// by moveHeld.
   Pose poseAhead(BodyId id, Nanoseconds when) const;
-  BodyState state(BodyId id) const;  ///< at the end of the last frame
+  /// The state at the end of the last frame; a default one if there is no such body.
+  BodyState state(BodyId id) const;
+  /// What the body does now; Rest if there is no such body.
   BodyMode mode(BodyId id) const;
-  bool moving(BodyId id) const;                   ///< false if asleep or quarantined: nothing to publish
-  std::string quarantineReason(BodyId id) const;  ///< reason of the quarantine; empty if there is none
+  /// Returns false if the body stands: it is asleep, quarantined or stuck. Then there is nothing to publish.
+  bool moving(BodyId id) const;
+  /// The reason why the body is quarantined; empty if it is not.
+  std::string quarantineReason(BodyId id) const;
+  /// The mass [kg]; 0 if there is no such body.
   double mass(BodyId id) const;
-  /// Total energy of motion [J], for reports.
+  /// Energy of translation and rotation [J], for reports.
   double kineticEnergy(BodyId id) const;
 
   /// Saves, compares or restores, between two frames, all that the future depends on, except shapes and
   /// flights. These belong to the models. Give them back before any other call.
   void visitState(StateFields& f);
-  /// False if no such shape or body lacks one.
+  /// Gives a restored world a shape back. Returns false if that shape is unknown or not missing.
   bool restoreShape(ShapeId id, std::shared_ptr<const Shape> shape);
+  /// Gives a restored body its flight back. Returns false if the body is unknown or its flight not missing.
   bool restoreFlight(BodyId id, std::shared_ptr<const BodyFlight> flight);
-  /// Returns true if everything has been given back.
+  /// Returns true if no shape or flight of a body or collider is missing.
   bool complete() const;
 
-  /// The impacts and releases of the last frame, by time.
+  /// The impacts and releases of the last frame, in order of time. Valid until the next advance().
   const std::vector<ContactEvent>& events() const;
   /// Hash of the pairs that touch or await their release: part of the simulated state.
   std::uint64_t pairsDigest() const;
   /// Hash of the last free places of held bodies and of ways out: part of the simulated state.
   std::uint64_t recoveryDigest() const;
 
-  /// Distance between the surfaces of two sides now [m], negative or 0 when they touch.
+  /// Distance between the surfaces of two sides now [m], negative or 0 when they touch. Infinite if one
+  /// of them does not exist.
   double separation(ContactSide a, ContactSide b) const;
 
   /// Work done by the last advance, for cost reports.
@@ -166,6 +199,7 @@ public:
     std::uint64_t dampedBounces = 0;  ///< impacts without rebound, since the body has bounced too often
     std::uint64_t limited = 0;        ///< frames cut short because of endless events: never expected
   };
+  /// What the last advance() has counted.
   const Counters& counters() const;
 
 private:
