@@ -134,31 +134,53 @@ std::optional<JoinTerms> Follower::join() {
 
 /// Expects the lock.
 std::optional<JoinTerms> Follower::joinSession(std::unique_lock<std::mutex>& lock) {
-  const std::string& lead = options_.cluster.nodes[options_.cluster.lead].name;
-  const auto known = [&] {
-    return over_ || (session_.number != 0 && session_.giver == kNoNode && !session_.over);
-  };
-  if (!await(lock, (lead + ", the leader").c_str(), known) || over_) return {};
+  if (!awaitSession(lock)) return {};
   const CompatibilityKey theirs = read(session_.compatibility);
-  if (const std::string why = refusal(theirs, options_.key, lead); !why.empty()) {
-    options_.tell(why);
-    refused_ = true;
-    return {};
-  }
-  if (const std::string what = remark(theirs, options_.key, lead); !what.empty()) options_.tell(what);
+  if (!agrees(theirs)) return {};
   joined_ = session_.number;
   show_ = theirs.show();
-  std::erase_if(orders_, [&](const HeardOrder& o) { return o.numbers.session != joined_; });
-  if (incoming_.session() != joined_) incoming_ = {};
-  const std::uint64_t ofKept = kept_ ? kept_->transfer.session : joined_;
-  if (ofKept != joined_ && ofKept != session_.resumes) {
-    kept_.reset();
-    framesShown_ = 0;
-  }  // it is another show
+  forgetOtherSessions();
   JoinTerms joining{session_.rate, {}, {}, 0, theirs.input != 0};
   if (!session_.begun && session_.resumes == 0) return joining;
   if (session_.begun) awaitDouble(lock);
-  if (hasEnded()) return {};
+  if (hasEnded() || !awaitState(lock)) return {};
+  continueFromState(joining);
+  return joining;
+}
+
+/// Expects the lock. Returns true if there is a session that this node can join.
+bool Follower::awaitSession(std::unique_lock<std::mutex>& lock) {
+  const auto known = [&] {
+    return over_ || (session_.number != 0 && session_.giver == kNoNode && !session_.over);
+  };
+  return await(lock, (leader() + ", the leader").c_str(), known) && !over_;
+}
+
+/// Expects the lock. Tells the user where the leader's files and settings differ. Returns false if the two
+/// cannot play together.
+bool Follower::agrees(const CompatibilityKey& theirs) {
+  if (const std::string why = refusal(theirs, options_.key, leader()); !why.empty()) {
+    options_.tell(why);
+    refused_ = true;
+    return false;
+  }
+  if (const std::string what = remark(theirs, options_.key, leader()); !what.empty()) options_.tell(what);
+  return true;
+}
+
+/// Expects the lock. Drops what belongs to other sessions than the joined one: orders, a state, and a kept
+/// scene if it is of another show.
+void Follower::forgetOtherSessions() {
+  std::erase_if(orders_, [&](const HeardOrder& o) { return o.numbers.session != joined_; });
+  if (incoming_.session() != joined_) incoming_ = {};
+  const std::uint64_t ofKept = kept_ ? kept_->transfer.session : joined_;
+  if (ofKept == joined_ || ofKept == session_.resumes) return;
+  kept_.reset();
+  framesShown_ = 0;
+}
+
+/// Expects the lock. Asks for the scene's state, again after a long silence. Returns true if it is complete.
+bool Follower::awaitState(std::unique_lock<std::mutex>& lock) {
   announce(Phase::Asking);
   std::uint64_t received = 0;
   auto since = Clock::now();
@@ -170,7 +192,11 @@ std::optional<JoinTerms> Follower::joinSession(std::unique_lock<std::mutex>& loc
     }
     return incoming_.complete() || hasEnded();
   };
-  if (!await(lock, ("the scene's state from " + lead).c_str(), has) || hasEnded()) return {};
+  return await(lock, ("the scene's state from " + leader()).c_str(), has) && !hasEnded();
+}
+
+/// Expects the lock and a complete state. Keeps the state, and notes in `joining` where the show continues.
+void Follower::continueFromState(JoinTerms& joining) {
   const auto kept =
       std::make_shared<const ResumableScene>(ResumableScene{incoming_.take(), show_, framesShown_});
   kept_ = kept;
@@ -182,7 +208,6 @@ std::optional<JoinTerms> Follower::joinSession(std::unique_lock<std::mutex>& loc
   std::erase_if(orders_, [&](const HeardOrder& o) { return o.numbers.serial <= appliedSerial_; });
   joining.state = {kept, &transfer.scene.bytes};
   joining.files = transfer.scene.files;
-  return joining;
 }
 
 /// Expects the lock. The leader may still count a node of our name. If that program has crashed, the deadline
@@ -197,9 +222,8 @@ std::optional<FrameOrder> Follower::next() {
   const ScopedRealtimePriority prompt;  // others wait while it holds the lock
   std::unique_lock lock(mutex_);
   if (orders_.empty() && told_ != Phase::Ready) announce(Phase::Ready);
-  const std::string& lead = options_.cluster.nodes[options_.cluster.lead].name;
   const auto has = [&] { return !orders_.empty() || hasEnded() || leaves(); };
-  if (!await(lock, (lead + ", the leader").c_str(), has)) return {};
+  if (!await(lock, (leader() + ", the leader").c_str(), has)) return {};
   if (again_ || double_ || leaves() || orders_.empty()) return {};
   HeardOrder heard = std::move(orders_.front());
   orders_.pop_front();
@@ -259,8 +283,7 @@ bool Follower::explain(std::unique_lock<std::mutex>& lock) {
   if (!differs) return false;
   const bool goesOn = options_.cluster.stopOnDifference;  // to the last order, which follows
   options_.tell(fmt::format("our scene differs from that of {} after frame {}: {} is {} here and {} there",
-                            options_.cluster.nodes[options_.cluster.lead].name, frame_, d.where, d.here,
-                            d.there));
+                            leader(), frame_, d.where, d.here, d.there));
   return !goesOn;
 }
 
@@ -340,8 +363,7 @@ bool Follower::isOurs(const Session& session) const {
 
 /// Expects the lock.
 void Follower::tellEnd() {
-  if (!std::exchange(endTold_, true))
-    options_.tell(options_.cluster.nodes[options_.cluster.lead].name + " has ended the show");
+  if (!std::exchange(endTold_, true)) options_.tell(leader() + " has ended the show");
 }
 
 void Follower::receive(const Session& session) {

@@ -118,7 +118,13 @@ private:
   void announceProgress();
   void giveIfAsked();
   void tellEnd();
+  const std::string& leader() const { return options_.cluster.nodes[options_.cluster.lead].name; }
   std::optional<JoinTerms> joinSession(std::unique_lock<std::mutex>& lock);
+  bool awaitSession(std::unique_lock<std::mutex>& lock);
+  bool agrees(const CompatibilityKey& theirs);
+  void forgetOtherSessions();
+  bool awaitState(std::unique_lock<std::mutex>& lock);
+  void continueFromState(JoinTerms& joining);
   bool hasEnded() const { return again_ || over_ || double_; }
   bool leaves() const { return options_.leave && options_.leave(); }
   bool explain(std::unique_lock<std::mutex>& lock);

@@ -185,7 +185,8 @@ std::unique_ptr<LoadedScene> Loader::prepare(const Job& job) {
   if (auto source = read(job)) {
     StateHash script;
     script.add(source.value().text());
-    load = build(job, std::make_unique<Document>(parseScript(std::move(source.value()), parts_.types, findings)), findings);
+    Document document = parseScript(std::move(source.value()), parts_.types, findings);
+    load = build(job, std::make_unique<Document>(std::move(document)), findings);
     if (load) load->script = script.value();
   } else {
     findings.add(source.error());
