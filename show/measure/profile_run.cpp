@@ -36,6 +36,96 @@ std::unique_ptr<ShowRecording> record(const ProfileRunOptions& options, bool rep
   return findings.hasErrors() ? nullptr : ShowRecording::create(std::move(recorded), findings);
 }
 
+/// Limits a run that nothing else ends. Returns false if it would be too short to be recorded.
+bool limitFrames(FrameLoopOptions& loop, Diagnostics& findings) {
+  if (loop.frames == 0 && loop.end == 0) loop.frames = kProfiledWithoutInput;
+  if (loop.frames == 0 || loop.frames > kUnrecorded) return true;
+  findings.error({}, tooShort("too few frames: " + std::to_string(loop.frames)));
+  return false;
+}
+
+/// One run of a show that is recorded. Borrows all that it is made of.
+class RecordedRun {
+public:
+  RecordedRun(const ProfileRunOptions& options, ShowRenderer& renderer, Player& player,
+              ShowRecording& recording, const FrameLoopOptions& loop, const std::atomic<bool>& stop,
+              Reporter& reporter)
+      : player_(player), recording_(recording), reporter_(reporter), loopOptions_(loop),
+        stages_(wire(options, renderer)), loop_(stages_, loopOptions_, stop, &recording.probe()) {}
+  RecordedRun(const RecordedRun&) = delete;
+  RecordedRun& operator=(const RecordedRun&) = delete;
+
+  FrameLoopOutcome play() {
+    FrameLoopOutcome outcome = loop_.run();
+    reporter_.progressOver();
+    return outcome;
+  }
+  std::string drawnBy() const { return stages_.drawnBy(); }
+  /// What the run has cost, once it has been played.
+  ShowFigures figures(bool isDrawn) {
+    ShowFigures figures = recording_.figures(player_.walls().names(), drawnBy());
+    if (isDrawn) figures.warmUpMs = loop_.times().warmUp;
+    if (watch_) figures.counters = costOfWatch(sampleStatisticsOf(loop_.times().app.values()));
+    return figures;
+  }
+
+private:
+  ShowParts wire(const ProfileRunOptions& options, ShowRenderer& renderer) {
+    ShowParts parts = player_.parts(options.layout);
+    renderer.drawFor(parts);
+    parts.probe = &recording_.probe();
+    parts.observer = [this](const TimeSignature& now, const InputSample&, const Scene& scene) {
+      recording_.see(scene);
+      player_.collect(stages_.shownFrame());
+      reporter_.progress(now.frame + 1, loopOptions_.frames);
+    };
+    watch_ = watchWrites(options.guard, parts, loopOptions_);
+    return parts;
+  }
+
+  Player& player_;
+  ShowRecording& recording_;
+  Reporter& reporter_;
+  FrameLoopOptions loopOptions_;
+  std::unique_ptr<WriteWatch> watch_;  ///< goes after the stages
+  ShowStages stages_;
+  FrameLoop loop_;
+};
+
+/// Returns false, and says why in `findings`, if the run has failed or lost its trace.
+bool isWhole(const FrameLoopOutcome& outcome, Player& player, ShowRecording& recording, Diagnostics& findings,
+             Failure& failure) {
+  if (failure = outcome.failure; failure) {
+    recording.keepLastFrames();
+    nameNode(failure, player.scene());
+    findings.error({}, failure->message);
+    return false;
+  }
+  recording.finishTrace(findings);
+  if (findings.hasErrors()) return false;
+  if (recording.lost() > 0)
+    findings.warning({}, std::to_string(recording.lost()) + " spans were lost: they came faster than they "
+                                                            "could be collected");
+  return true;
+}
+
+/// Returns false, and says why in `findings`, if a file cannot be written.
+bool writeReports(const ProfileRunOptions& options, const ShowFigures& figures, ReportHead head,
+                  ShowRecording& recording, const std::atomic<bool>& stop, OutputFiles& files,
+                  Diagnostics& findings) {
+  if (figures.warmUpMs > 0)
+    head.facts.emplace_back(
+        "warm-up", fmt::format("{:.3f} s before the first frame: shaders, uploads", figures.warmUpMs / 1000));
+  for (const auto& [name, value] : figures.counters)
+    head.facts.emplace_back(name, fmt::format("{:g}", value));
+  ReportData data = recording.report(std::move(head), figures);
+  if (!stop) data.dynamics = dynamicsFigures(options, figures, files);
+  files.write("profile.html", reportPage(data));
+  files.write("profile.json", toJson(figures) + "\n");
+  files.write("profile.csv", toCsv(figures));
+  return files.commit(findings);
+}
+
 }  // namespace
 
 OutputFiles profileFiles(const std::string& folder, bool fidelityAsked) {
@@ -54,65 +144,23 @@ std::optional<ShowFigures> profileShow(const ProfileRunOptions& options, OutputF
   }
   const auto player = Player::create(options.show, findings, reporter.reportFunction(), &stop);
   if (!player) return {};
-  FrameLoopOptions loopOptions = player->loopOptions();
-  if (loopOptions.frames == 0 && loopOptions.end == 0) loopOptions.frames = kProfiledWithoutInput;
-
-  if (loopOptions.frames > 0 && loopOptions.frames <= kUnrecorded) {
-    findings.error({}, tooShort("too few frames: " + std::to_string(loopOptions.frames)));
-    return std::nullopt;
-  }
-
+  FrameLoopOptions loop = player->loopOptions();
+  if (!limitFrames(loop, findings)) return {};
   // Files are opened before anything is played.
   files.open(findings);
   const auto recording = record(options, files.areWanted(), *player, findings);
   if (!recording || findings.hasErrors()) return {};
-  const ShowStages* running = nullptr;
-  ShowParts parts = player->parts(options.layout);
-  renderer.value()->drawFor(parts);
-  parts.probe = &recording->probe();
-  parts.observer = [&](const TimeSignature& now, const InputSample&, const Scene& scene) {
-    recording->see(scene);
-    player->collect(running->shownFrame());
-    reporter.progress(now.frame + 1, loopOptions.frames);
-  };
-  const auto watch = watchWrites(options.guard, parts, loopOptions);
-  ShowStages stages(std::move(parts));
-  running = &stages;
-  FrameLoop loop(stages, loopOptions, stop, &recording->probe());
-  const FrameLoopOutcome outcome = loop.run();
-  reporter.progressOver();
-  if (failure = outcome.failure; failure) {
-    recording->keepLastFrames();
-    nameNode(failure, player->scene());
-    findings.error({}, failure->message);
-    return std::nullopt;
-  }
-  recording->finishTrace(findings);
-  if (findings.hasErrors()) return {};
-  if (recording->lost() > 0)
-    findings.warning({}, std::to_string(recording->lost()) + " spans were lost: they came faster than they "
-                                                             "could be collected");
-  ShowFigures figures = recording->figures(player->walls().names(), stages.drawnBy());
-  if (!options.renderer.drawsNothing()) figures.warmUpMs = loop.times().warmUp;
-  if (watch) figures.counters = costOfWatch(sampleStatisticsOf(loop.times().app.values()));
+
+  RecordedRun run(options, *renderer.value(), *player, *recording, loop, stop, reporter);
+  if (!isWhole(run.play(), *player, *recording, findings, failure)) return {};
+  ShowFigures figures = run.figures(!options.renderer.drawsNothing());
   if (figures.frames == 0) {
     findings.error({}, tooShort("the show ended too early"));
     return std::nullopt;
   }
-  if (files.areWanted()) {
-    ReportHead head = reportHead(options, *player, stages.drawnBy());
-    if (figures.warmUpMs > 0)
-      head.facts.emplace_back("warm-up", fmt::format("{:.3f} s before the first frame: shaders, uploads",
-                                                     figures.warmUpMs / 1000));
-    for (const auto& [name, value] : figures.counters)
-      head.facts.emplace_back(name, fmt::format("{:g}", value));
-    ReportData data = recording->report(std::move(head), figures);
-    if (!stop) data.dynamics = dynamicsFigures(options, figures, files);
-    files.write("profile.html", reportPage(data));
-    files.write("profile.json", toJson(figures) + "\n");
-    files.write("profile.csv", toCsv(figures));
-    if (!files.commit(findings)) return {};
-  }
+  if (!files.areWanted()) return figures;
+  ReportHead head = reportHead(options, *player, run.drawnBy());
+  if (!writeReports(options, figures, std::move(head), *recording, stop, files, findings)) return {};
   return figures;
 }
 
