@@ -39,6 +39,7 @@ namespace {
   X(PollEvents)                                                                                              \
   X(SetCursorEnterCallback)                                                                                  \
   X(SetCursorPosCallback)                                                                                    \
+  X(SetFramebufferSizeCallback)                                                                              \
   X(SetInputMode)                                                                                            \
   X(SetKeyCallback)                                                                                          \
   X(SetMouseButtonCallback)                                                                                  \
@@ -48,6 +49,7 @@ namespace {
   X(SetWindowIconifyCallback)                                                                                \
   X(SetWindowRefreshCallback)                                                                                \
   X(SetWindowPos)                                                                                            \
+  X(SetWindowSizeCallback)                                                                                   \
   X(SetWindowTitle)                                                                                          \
   X(SetWindowUserPointer)                                                                                    \
   X(ShowWindow)                                                                                              \
@@ -197,6 +199,21 @@ public:
       if (!focused) note(w, at(WindowEvent::Kind::FocusLost, 0, 0));
     });
     glfw_.SetWindowCloseCallback(handle_, [](GLFWwindow* w) { note(w, at(WindowEvent::Kind::Close, 0, 0)); });
+    // Sizes are kept: GLFW does not say if it asks in vain, because the window or the server is gone, and
+    // returns any number.
+    glfw_.GetFramebufferSize(handle_, &pixelsAcross_, &pixelsDown_);
+    glfw_.GetWindowSize(handle_, &across_, &down_);
+    if (xConnectionLost()) pixelsAcross_ = pixelsDown_ = across_ = down_ = 1;
+    glfw_.SetFramebufferSizeCallback(handle_, [](GLFWwindow* w, int width, int height) {
+      GlfwWindow& window = *static_cast<GlfwWindow*>(ownerOf(w));
+      window.pixelsAcross_ = width;
+      window.pixelsDown_ = height;
+    });
+    glfw_.SetWindowSizeCallback(handle_, [](GLFWwindow* w, int width, int height) {
+      GlfwWindow& window = *static_cast<GlfwWindow*>(ownerOf(w));
+      window.across_ = width;
+      window.down_ = height;
+    });
     // A full screen that is restored takes its monitor again.
     glfw_.SetWindowIconifyCallback(handle_, [](GLFWwindow* w, int iconified) {
       if (!iconified) static_cast<GlfwWindow*>(ownerOf(w))->saver_.restoreTimeouts();
@@ -214,9 +231,8 @@ public:
   WindowContext* context() override { return context_.get(); }
   WindowPixels* pixels() override { return pixels_.get(); }
   std::array<std::uint32_t, 2> size() const override {
-    int width = 0, height = 0;
-    if (!xConnectionLost()) glfw_.GetFramebufferSize(handle_, &width, &height);
-    return {static_cast<std::uint32_t>(std::max(width, 1)), static_cast<std::uint32_t>(std::max(height, 1))};
+    return {static_cast<std::uint32_t>(std::max(pixelsAcross_, 1)),
+            static_cast<std::uint32_t>(std::max(pixelsDown_, 1))};
   }
   std::vector<WindowEvent> takeEvents() override { return std::exchange(events_, {}); }
   void setTitle(const std::string& title) override { glfw_.SetWindowTitle(handle_, title.c_str()); }
@@ -225,13 +241,13 @@ public:
     const MonitorPart atTop{{0, 0, width, height}, 0};
     if (xConnectionLost()) return {atTop};
     glfw_.GetError(nullptr);
-    int x = 0, y = 0, across = 0, down = 0;
+    int x = 0, y = 0;
     glfw_.GetWindowPos(handle_, &x, &y);
     if (glfw_.GetError(nullptr) != GLFW_NO_ERROR) return {atTop};  // Wayland gives no position
-    glfw_.GetWindowSize(handle_, &across, &down);
-    if (across <= 0 || down <= 0) return {atTop};
-    const PixelRectangle content{x, y, static_cast<std::uint32_t>(across), static_cast<std::uint32_t>(down)};
-    return partsOnMonitors(content, monitors_.now(), static_cast<double>(height) / down);
+    if (across_ <= 0 || down_ <= 0) return {atTop};
+    const PixelRectangle content{x, y, static_cast<std::uint32_t>(across_),
+                                 static_cast<std::uint32_t>(down_)};
+    return partsOnMonitors(content, monitors_.now(), static_cast<double>(height) / down_);
   }
 
 private:
@@ -253,6 +269,8 @@ private:
   MonitorPlaces& monitors_;
   ScreenSaverPause& saver_;
   std::vector<WindowEvent> events_;
+  int pixelsAcross_ = 1, pixelsDown_ = 1;  ///< size [pixels]
+  int across_ = 1, down_ = 1;              ///< size [units of the desktop]
 };
 
 using WindowNumber = unsigned long(GLFWwindow*);
