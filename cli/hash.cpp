@@ -73,13 +73,10 @@ int hashShow(const HashOptions& o) {
   if (!player) return kBadInput;
 
   ShowParts parts = player->parts(StereoLayout::Off);
-  const ShowStages* running = nullptr;
   parts.observer = [&](const TimeSignature& now, const InputSample&, const Scene& scene) {
     printHash(now.frame, scene.stateHash(), o.json);
-    player->collect(running->shownFrame());
   };
   ShowStages stages(std::move(parts));
-  running = &stages;
   FrameLoopOptions loopOptions = player->loopOptions();
   if (loopOptions.frames == 0 && loopOptions.end == 0) loopOptions.frames = 600;
   const std::atomic<bool> never = false;

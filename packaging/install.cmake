@@ -29,10 +29,10 @@ install(FILES ${completion}/stadion.fish DESTINATION ${CMAKE_INSTALL_DATADIR}/fi
 
 install(TARGETS stadion_options stadion_sanitize stadion_plugin stadion_engine stadion_wire stadion_pipeline stadion_dynamics
   stadion_profiling stadion_show stadion_measure EXPORT StadionTargets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT development)
-foreach(floor engine pipeline dynamics profiling show)
-  set_target_properties(stadion_${floor} PROPERTIES EXPORT_NAME ${floor})
-  add_library(Stadion::${floor} ALIAS stadion_${floor})
-  install(DIRECTORY ${floor} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/stadion COMPONENT development
+foreach(layer engine pipeline dynamics profiling show)
+  set_target_properties(stadion_${layer} PROPERTIES EXPORT_NAME ${layer})
+  add_library(Stadion::${layer} ALIAS stadion_${layer})
+  install(DIRECTORY ${layer} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/stadion COMPONENT development
     FILES_MATCHING PATTERN "*.h" PATTERN "*_program" EXCLUDE)
 endforeach()
 install(FILES ${PROJECT_BINARY_DIR}/wire.h DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/stadion COMPONENT development)

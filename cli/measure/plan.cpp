@@ -132,9 +132,7 @@ plan::Question questionOf(const PlanOptions& o, const plan::ShowCosts& costs) {
   q.plan.takesTurns = costs.renderer != "cpu";
   q.plan.waitsInTurn = costs.waitsInTurn;
   q.plan.rasterisers = o.processes ? q.plan.walls : 1;
-  q.plan.pacing = o.pace == "lock"    ? plan::Pacing::Lock
-                  : o.pace == "float" ? plan::Pacing::Float
-                                      : plan::Pacing::Free;
+  q.plan.pace = o.pace == "lock" ? Pace::Lock : o.pace == "float" ? Pace::Float : Pace::Free;
   q.plan.newest = o.pace != "free";
   q.plan.rate = o.run.show.rate;
   q.plan.mostInFlight = o.mostInFlight;

@@ -1,5 +1,5 @@
 #pragma once
-/// Makes the node of a dynobject, and holds what the nodes of this floor share while a show is built.
+/// Makes the node of a dynobject, and holds what the nodes of this layer share while a show is built.
 
 #include "dynamics/collision/impact_scheme.h"
 #include "engine/build/node_request.h"
@@ -30,7 +30,7 @@ BodyAttributes bodyAttributesOf(const Declaration& dynobject);
 /// NodeType::make of the dynobject.
 std::unique_ptr<Node> makeDynObject(const NodeRequest& request);
 
-/// The services of this floor (NodeServices). By default the script counts and no table of coefficients is
+/// The services of this layer (NodeServices). By default the script counts and no table of coefficients is
 /// found.
 struct DynamicsServices {
   DynamicsServices();

@@ -97,8 +97,8 @@ void DynObjectNode::fields(Self& self, Fields& f) {
   auto& s = self.state_;
   f("centre of mass", s.p), f("attitude", s.q), f("velocity", s.v), f("angular velocity", s.omega);
   f("angular momentum", s.L), f("mode", s.mode), f("clock", s.clock), f("clock rest", s.clockRest);
-  f.kept("pose", s.pose), f.kept("flight", s.flight), f.kept("arcs", s.arcs);
-  f.kept("requests", self.requests_);
+  f.unhashed("pose", s.pose), f.unhashed("flight", s.flight), f.unhashed("arcs", s.arcs);
+  f.unhashed("requests", self.requests_);
 }
 
 void DynObjectNode::hash(StateHash& h) const {

@@ -1,5 +1,5 @@
 #pragma once
-/// The node types of this floor. Their list is generated: every file `dynamics/nodes/x_y_node.cpp` defines
+/// The node types of this layer. Their list is generated: every file `dynamics/nodes/x_y_node.cpp` defines
 /// `node_types::addXYNode`.
 
 namespace stadion {

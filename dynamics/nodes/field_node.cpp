@@ -107,8 +107,8 @@ void FieldNode::fields(Self& self, Fields& f) {
   PlacedNode::fields(self, f);
   f("switch", self.switch_), f("since", self.since_);
   if (!self.strength_.empty()) f.hashed(self.strength_.back().value);
-  f.kept("strength", self.strength_), f.kept("changes", self.changes_);
-  f.kept("changed in", self.changedIn_), f.kept("users", self.users_);
+  f.unhashed("strength", self.strength_), f.unhashed("changes", self.changes_);
+  f.unhashed("changed in", self.changedIn_), f.unhashed("users", self.users_);
 }
 
 void FieldNode::hash(StateHash& h) const {

@@ -1,5 +1,5 @@
 #pragma once
-/// Receives the costs of the frame loop, the stages and the nodes. The profiling floor implements it. Without
+/// Receives the costs of the frame loop, the stages and the nodes. The profiling layer implements it. Without
 /// a probe, nothing is measured.
 ///
 /// Spans of time nest strictly within a thread: a stage contains its parts, and these contain nodes. Time in

@@ -7,7 +7,7 @@
 ///     static void fields(Self& self, Fields& f) {
 ///       f("on", self.on_);
 ///       f("due", self.due_);
-///       f.kept("handle", self.handle_);  // usually follows from other fields: saved, but not hashed
+///       f.unhashed("handle", self.handle_);  // usually follows from other fields: saved, but not hashed
 ///     }
 ///
 /// A node whose state other nodes hash in part has a hash() of its own: `dynamics` and `collision` nodes save
@@ -58,7 +58,7 @@ public:
   }
   /// A field that is not part of the hash.
   template <class T>
-  void kept(std::string_view name, T& value) {
+  void unhashed(std::string_view name, T& value) {
     (*this)(name, value);
   }
   /// A value that only the hash visits: another form of a saved field.
@@ -251,7 +251,7 @@ public:
       hash_.add(value);
   }
   template <class T>
-  void kept(std::string_view, const T&) {}
+  void unhashed(std::string_view, const T&) {}
   template <class T>
   void hashed(const T& value) {
     (*this)({}, value);
@@ -290,7 +290,7 @@ private:
   std::vector<std::uint8_t> bytes_;
 };
 
-/// A hash of all that SavedState would write, with kept() fields. Numbers are gathered and hashed many at a
+/// A hash of all that SavedState would write. Unlike the state hash it includes unhashed() fields. Numbers are gathered and hashed many at a
 /// time, which takes half as long.
 class StateDigest final : public StateFields {
 public:

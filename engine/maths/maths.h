@@ -1,5 +1,5 @@
 #pragma once
-/// The linear algebra that every floor shares: Eigen types under the names the field uses.
+/// The linear algebra that every layer shares: Eigen types under the names the field uses.
 ///
 /// Frames   right-handed, +Z up. `X_AB` maps coordinates in B to coordinates in A; `p_AB` is B's origin in A;
 ///          `v_WB` is body B's velocity in World.

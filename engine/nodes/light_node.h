@@ -23,7 +23,7 @@ public:
   static void fields(Self& self, Fields& f) {
     PlacedNode::fields(self, f);
     f("switch", self.switch_);
-    f.kept("handle", self.handle_);
+    f.unhashed("handle", self.handle_);
   }
   bool resume(Scene& scene) override;
 

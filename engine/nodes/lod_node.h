@@ -31,7 +31,7 @@ public:
 
   void state(StateFields& f) override {
     PlacedNode::state(f);
-    f.kept("level", level_), f.kept("chosen", chosen_);
+    f.unhashed("level", level_), f.unhashed("chosen", chosen_);
   }
 
   /// The level at that distance [m] for one that is at `level` now.

@@ -147,7 +147,7 @@ void ThrowMeasureNode::fields(Self& self, Fields& f) {
   f("body", self.body_.load), f("body", self.body_.position), f("started", self.started_);
   f.hashed(self.result_.has_value()), f("compared", self.compared_);
   f("result", self.result_);
-  f.kept("written", self.written_);
+  f.unhashed("written", self.written_);
 }
 
 void ThrowMeasureNode::hash(StateHash& h) const {

@@ -192,7 +192,7 @@ template <class Self, class Fields>
 void PathNode::fields(Self& self, Fields& f) {
   PlacedNode::fields(self, f);
   f("switch", self.switch_), f("elapsed", self.elapsed_), f("since", self.since_);
-  f.kept("put", self.putAt_);
+  f.unhashed("put", self.putAt_);
 }
 
 void PathNode::hash(StateHash& h) const {

@@ -52,7 +52,7 @@ public:
   static void fields(Self& self, Fields& f) {
     f("switch", self.switch_), f("ended", self.ended_);
     f("wand", self.q_RT_), f("head", self.p_RH_);
-    f.kept("since", self.since_);
+    f.unhashed("since", self.since_);
   }
 
 protected:

@@ -85,7 +85,7 @@ template <class Self, class Fields>
 void SoundNode::fields(Self& self, Fields& f) {
   PlacedNode::fields(self, f);
   f("switch", self.switch_), f("since", self.since_), f("due", self.due_);
-  f.kept("handle", self.handle_), f.kept("heard", self.heard_);
+  f.unhashed("handle", self.handle_), f.unhashed("heard", self.heard_);
 }
 
 void SoundNode::hash(StateHash& h) const {

@@ -262,9 +262,9 @@ template <class Self, class Fields>
 void SwayNode::fields(Self& self, Fields& f) {
   PlacedNode::fields(self, f);
   f("switch", self.switch_), f("elapsed", self.elapsed_), f("since", self.since_);
-  f.kept("put", self.putAt_), f.kept("settled", self.prepared_), f.kept("fleet", self.fleet_);
-  f.kept("sin", self.moment_.first.sin), f.kept("cos", self.moment_.first.cos);
-  f.kept("turn", self.moment_.turn);
+  f.unhashed("put", self.putAt_), f.unhashed("settled", self.prepared_), f.unhashed("fleet", self.fleet_);
+  f.unhashed("sin", self.moment_.first.sin), f.unhashed("cos", self.moment_.first.cos);
+  f.unhashed("turn", self.moment_.turn);
 }
 
 void SwayNode::hash(StateHash& h) const {

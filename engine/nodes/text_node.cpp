@@ -51,7 +51,7 @@ template <class Self, class Fields>
 void TextNode::fields(Self& self, Fields& f) {
   PlacedNode::fields(self, f);
   f("words", self.words_);
-  f.kept("instance", self.instance_);
+  f.unhashed("instance", self.instance_);
 }
 
 void TextNode::hash(StateHash& h) const {

@@ -216,7 +216,7 @@ void TriggerNode::fields(Self& self, Fields& f) {
   f("switch", self.switch_), f("inside", self.inside_), f("looked", self.looked_), f("seen", self.seen_);
   f("visitor", self.last_), f("in rig", self.p_RV_), f("rig", self.X_NR_);
   f.hashed(std::uint64_t{self.pressed_} << 32 | self.buttons_);
-  f.kept("pressed", self.pressed_), f.kept("buttons", self.buttons_);
+  f.unhashed("pressed", self.pressed_), f.unhashed("buttons", self.buttons_);
 }
 
 void TriggerNode::hash(StateHash& h) const {

@@ -27,7 +27,7 @@ public:
   static void fields(Self& whole, Fields& f) {
     auto& self = partOf<ObjectNode>(whole);
     PlacedNode::fields(self, f);
-    f.kept("instance", self.instance_);
+    f.unhashed("instance", self.instance_);
   }
   bool resume(Scene& scene) override;
 

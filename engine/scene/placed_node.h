@@ -61,9 +61,9 @@ public:
   static void fields(Self& whole, Fields& f) {
     auto& self = partOf<PlacedNode>(whole);
     f("place", self.X_PN_), f("follows", self.follow_), f("tracker", self.tracker_), f("shown", self.shown_);
-    f.kept("placement", self.placement_), f.kept("home", self.attributes_.X_PN);
-    f.kept("traced", self.traced_), f.kept("arrived", self.arrived_);
-    f.kept("carries", self.carriesStatics_);
+    f.unhashed("placement", self.placement_), f.unhashed("home", self.attributes_.X_PN);
+    f.unhashed("traced", self.traced_), f.unhashed("arrived", self.arrived_);
+    f.unhashed("carries", self.carriesStatics_);
   }
 
 protected:

@@ -5,17 +5,12 @@
 
 #include "engine/base/time_signature.h"
 
+#include "engine/core/pace.h"
+
 #include <chrono>
 #include <cstdint>
 
 namespace stadion {
-
-/// Policies of the frame rate (IRIS Performer's phases).
-enum class Pace {
-  Free,   ///< as fast as possible
-  Lock,   ///< frames begin on ticks of the rate; after a missed tick the loop waits for the next one
-  Float,  ///< a frame that missed its tick begins at once, and the ticks move with it
-};
 
 class Pacer {
 public:

@@ -96,6 +96,7 @@ void ShowStages::app(const TimeSignature& now, std::size_t slot) {
     const SpanScope span(parts_.probe, Span::Publish);
     parts_.state.finish(changes_);
     parts_.meshes.collect(shownFrame_);
+    if (parts_.freeUnshown) parts_.freeUnshown(shownFrame_);
   }
   if (whole) tellPublished();
   if (parts_.sounds) {

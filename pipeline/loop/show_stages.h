@@ -70,6 +70,8 @@ struct ShowParts {
   WallContexts* contexts = nullptr;  ///< contexts that outlive the show; null: it makes its own
   bool drawUnseen = true;            ///< false: draws only frames that the sink wants, and the last one
   AppObserver observer;
+  /// Called in each App stage with the newest frame that all walls have shown. It frees what no later frame draws.
+  std::function<void(std::uint64_t)> freeUnshown{};
   FrameProbe* probe = nullptr;
   /// Once it returns true, Draw stops and the run ends. Any thread; null = never.
   std::function<bool()> giveUp{};
@@ -122,8 +124,6 @@ public:
   const LatchCounts* latched() const { return latch_ ? &latch_->counts() : nullptr; }
   /// Returns the current prediction, as time after a frame's start [ns]. Any thread.
   Nanoseconds aimedAt() const;
-  /// Returns the newest frame that all walls have shown. Any thread.
-  std::uint64_t shownFrame() const { return shownFrame_; }
 
 private:
   /// The last picture of a wall.
@@ -159,7 +159,7 @@ private:
   /// Time at which the head pose of App's current frame was measured.
   std::optional<std::chrono::steady_clock::time_point> measured_;
   std::atomic<std::chrono::steady_clock::time_point> began_{};  ///< the frame that is drawn now
-  std::atomic<std::uint64_t> shownFrame_ = 0;
+  std::atomic<std::uint64_t> shownFrame_ = 0;  ///< the newest frame that all walls have shown
   std::string drawnBy_;
 };
 

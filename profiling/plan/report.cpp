@@ -100,10 +100,10 @@ std::string planText(const Plan& p) {
   if (p.pipelined && p.mostInFlight > 0)
     text += fmt::format(", {} frame{} in flight", p.mostInFlight, p.mostInFlight == 1 ? "" : "s");
   if (p.pipelined && !p.drawBeginsEarly) text += ", Draw apart from Cull";
-  if (p.pacing == Pacing::Free)
+  if (p.pace == Pace::Free)
     return text + (p.newest ? ", live, as fast as it goes" : ", every frame, as fast as it goes");
-  return text + fmt::format(", {} at {:g} frames a second", p.pacing == Pacing::Lock ? "locked" : "floating",
-                            p.rate);
+  return text +
+         fmt::format(", {} at {:g} frames a second", p.pace == Pace::Lock ? "locked" : "floating", p.rate);
 }
 
 std::string usesText(const Forecast& f) {
@@ -126,14 +126,14 @@ Json forecastJson(const Forecast& f) {
 }
 
 Json planJson(const Plan& p) {
-  const char* pacing = p.pacing == Pacing::Free ? "free" : p.pacing == Pacing::Lock ? "lock" : "float";
+  const char* pace = p.pace == Pace::Free ? "free" : p.pace == Pace::Lock ? "lock" : "float";
   return {{"mode", modeOf(p)},
           {"walls", p.walls},
           {"cores", p.machine.cores},
           {"raster_threads_factor", p.machine.rasterThreads},
           {"machines", p.machines},
           {"rasterisers", p.rasterisers},
-          {"pace", pacing},
+          {"pace", pace},
           {"rate_hz", p.rate},
           {"newest", p.newest},
           {"latency", p.mostInFlight},

@@ -109,12 +109,12 @@ private:
 
   // Returns the time at which the next frame may begin (pipeline/loop/pacer.h).
   double nextBegin(double& next) const {
-    if (plan_.pacing == Pacing::Free) return 0;
+    if (plan_.pace == Pace::Free) return 0;
     const double period = 1000 / plan_.rate, now = simulation_.now();
     if (next < 0) next = now;
     double begin = next;
     if (now > next)
-      begin = plan_.pacing == Pacing::Float ? now : next + period * (std::floor((now - next) / period) + 1);
+      begin = plan_.pace == Pace::Float ? now : next + period * (std::floor((now - next) / period) + 1);
     next = begin + period;
     return begin;
   }

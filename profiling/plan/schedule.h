@@ -11,6 +11,8 @@
 /// Units    milliseconds of processor time and of time.
 /// Threads  plain values.
 
+#include "engine/core/pace.h"
+
 #include <cstddef>
 #include <cstdint>
 #include <string>
@@ -44,8 +46,6 @@ struct Machine {
   double rasterThreads = 1;  ///< relative to the measuring machine: this factor more work at a time
 };
 
-enum class Pacing { Free, Lock, Float };
-
 /// Distribution of the work. Walls are assigned to machines, and to rasterisers on a machine, in turn: wall w
 /// to number w mod n.
 struct Plan {
@@ -56,7 +56,7 @@ struct Plan {
   std::size_t rasterisers = 1;  ///< on each machine; more than one: walls are processes
   bool takesTurns = true;       ///< walls of a rasteriser, with their calls: those of OpenGL do
   bool waitsInTurn = true;      ///< for each picture, as llvmpipe does; else for all of them, afterwards
-  Pacing pacing = Pacing::Free;
+  Pace pace = Pace::Free;
   double rate = 60;     ///< [1/s], unless free
   bool newest = false;  ///< the walls show the newest frame, as in a live show; else every frame
   /// Limit of frames in flight, if pipelined; 0: as many as the stages hold. Counted from App, or if the newest

@@ -116,13 +116,8 @@ std::optional<PlayedShow> playWith(const ShowOptions& show, const BodyModel& mod
   BodyWatch watch(player->scene(), model.body);
   ShowParts parts = player->parts(StereoLayout::Off);
   parts.probe = &recording->probe();
-  const ShowStages* running = nullptr;
-  parts.observer = [&](const TimeSignature& now, const InputSample&, const Scene&) {
-    watch.look(now);
-    player->collect(running->shownFrame());
-  };
+  parts.observer = [&](const TimeSignature& now, const InputSample&, const Scene&) { watch.look(now); };
   ShowStages stages(std::move(parts));
-  running = &stages;
   FrameLoopOptions o = player->loopOptions();
   if (o.frames == 0 && o.end == 0) o.frames = kFramesWithoutInput;
   o.mode = Mode::Sequential;

@@ -39,12 +39,7 @@ bool play(const PlanRunOptions& options, Mode mode, ShowRenderer& renderer, Repo
   std::optional<DrawPool> measured;  // what its threads share is not mixed with what Draw does itself
   if (probe && parts.pool) parts.pool = &measured.emplace(parts.pool->threads(), DrawPool::Callers::Wait);
   parts.probe = probe;
-  const ShowStages* running = nullptr;
-  parts.observer = [&](const TimeSignature&, const InputSample&, const Scene&) {
-    player->collect(running->shownFrame());
-  };
   ShowStages stages(std::move(parts));
-  running = &stages;
   FrameLoop loop(stages, loopOptions, stop, probe);
   const FrameLoopOutcome outcome = loop.run();
   if (outcome.failure) findings.error({}, outcome.failure->message);

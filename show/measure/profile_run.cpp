@@ -76,7 +76,6 @@ private:
     parts.probe = &recording_.probe();
     parts.observer = [this](const TimeSignature& now, const InputSample&, const Scene& scene) {
       recording_.see(scene);
-      player_.collect(stages_.shownFrame());
       reporter_.progress(now.frame + 1, loopOptions_.frames);
     };
     watch_ = watchWrites(options.guard, parts, loopOptions_);

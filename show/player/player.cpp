@@ -207,7 +207,8 @@ ShowParts Player::parts(StereoLayout stereo, InputDevice* instead) {
                   .meshes = *meshes_,
                   .input = instead ? *instead : input(),
                   .walls = {},
-                  .observer = {}};
+                  .observer = {},
+                  .freeUnshown = [this](std::uint64_t frame) { loader_->shown(frame); }};
   if (options_.look == Look::Plain) parts.quality = RenderQuality::plain();
   if (options_.samples > 0) parts.quality.samples = options_.samples;
   for (const WallEntry& entry : walls_.walls) {

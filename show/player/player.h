@@ -33,7 +33,7 @@ struct ShowOptions {
   Mode mode = Mode::Pipelined;
   Look look = Look::Full;
   std::uint32_t samples = 0;  ///< for each pixel: 1, 2, 4 or 8; 0 = 4, or 1 in the plain look
-  std::string size;  ///< empty = as the wall file says, else 800x600
+  std::string size;           ///< empty = as the wall file says, else 800x600
   double rate = 60;
   bool rateGiven = false;    ///< true: `rate` was given; false: a recorded run's own rate counts more
   std::uint64_t frames = 0;  ///< 0 = by `seconds`
@@ -115,8 +115,6 @@ public:
   /// From now on the input is what this device says, not the log's. Before the first frame.
   void takeInputFrom(InputDevice& device) { live_ = &device; }
   bool inputIsLive() const { return live_ != nullptr; }
-  /// To be called after each App stage: unloaded files go when they are no longer shown.
-  void collect(std::uint64_t shownFrame) { loader_->shown(shownFrame); }
 
 private:
   Player();

@@ -32,7 +32,6 @@ ShowParts OpenSession::stageParts() {
   parts.giveUp = [] { return sinceStopSignal() > kDrawAfterStop; };
   parts.observer = [this](const TimeSignature& now, const InputSample& input, const Scene& scene) {
     for (const auto& part : parts_) part->afterFrame(now, input, scene);
-    player_->collect(state_.stages->shownFrame());
     reporter_.progress(now.frame + 1, player_->frames());
   };
   parts.shown = [this] {

@@ -141,7 +141,6 @@ void PlayingShow::see(const TimeSignature& now, const InputSample& input, const 
   watch_->see(now, input, scene);
   recording_->see(scene);
   overview_->see(input);
-  player_->collect(stages_->shownFrame());
   if (now.frame == 0 && from_) takeUp(*from_);
   notePlace(scene);
   frames_ = now.frame + 1;

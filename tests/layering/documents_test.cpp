@@ -138,6 +138,33 @@ TEST(Documents, EachTestThatTheTablesOfFaultsNameExists) {
   EXPECT_GT(count, 40U);
 }
 
+/// Returns what the first group of the pattern matches in the file.
+std::set<std::string> namedIn(const fs::path& file, const std::regex& pattern) {
+  std::set<std::string> names;
+  const std::string text = textOfPage(file);
+  for (std::sregex_iterator at(text.begin(), text.end(), pattern), end; at != end; ++at)
+    names.insert((*at)[1]);
+  return names;
+}
+
+TEST(Documents, ExamplesIncludeOnlyHeadersOfThePublicInterface) {
+  const std::set<std::string> open = namedIn(
+      kPages / "docs/compatibility.md", std::regex(R"(`((?:engine|pipeline|dynamics|show)/[\w/]+\.h)`)"));
+  EXPECT_GT(open.size(), 10U);
+  for (const std::string& header : open) EXPECT_TRUE(fs::exists(kPages / header)) << header;
+  std::size_t count = 0;
+  const std::regex include(R"(#include <stadion/([\w/]+\.h)>)");
+  std::vector<fs::path> files = pages();
+  for (const auto& entry : fs::recursive_directory_iterator(kPages / "examples"))
+    if (entry.path().extension() == ".cpp") files.push_back(entry.path());
+  for (const fs::path& file : files)
+    for (const std::string& header : namedIn(file, include)) {
+      EXPECT_TRUE(open.contains(header)) << fs::relative(file, kPages).string() << ": " << header;
+      ++count;
+    }
+  EXPECT_GT(count, 5U);
+}
+
 /// The page of a folder, or of the nearest folder above that has one.
 fs::path pageOf(fs::path folder) {
   while (!fs::exists(folder / "README.md")) folder = folder.parent_path();
@@ -151,17 +178,17 @@ bool names(const fs::path& page, const fs::path& folder) {
   return text.find(name + "`") != text.npos || text.find(name + "/") != text.npos;
 }
 
-TEST(Documents, EachRoomIsOnThePageOfItsFloor) {
-  for (const char* floor : {"engine", "pipeline", "dynamics", "profiling", "show", "bench", "cli"}) {
-    std::set<fs::path> rooms;
-    for (const auto& entry : fs::recursive_directory_iterator(kPages / floor))
+TEST(Documents, EachFolderIsOnThePageOfItsLayer) {
+  for (const char* layer : {"engine", "pipeline", "dynamics", "profiling", "show", "bench", "cli"}) {
+    std::set<fs::path> folders;
+    for (const auto& entry : fs::recursive_directory_iterator(kPages / layer))
       if (entry.path().extension() == ".h" || entry.path().extension() == ".cpp")
-        rooms.insert(entry.path().parent_path());
-    rooms.erase(kPages / floor);
-    for (const fs::path& room : rooms) {
-      const fs::path page = pageOf(room.parent_path());
-      EXPECT_TRUE(names(page, room) || names(kPages / floor / "README.md", room))
-          << fs::relative(room, kPages).string() << " is not on " << fs::relative(page, kPages).string();
+        folders.insert(entry.path().parent_path());
+    folders.erase(kPages / layer);
+    for (const fs::path& folder : folders) {
+      const fs::path page = pageOf(folder.parent_path());
+      EXPECT_TRUE(names(page, folder) || names(kPages / layer / "README.md", folder))
+          << fs::relative(folder, kPages).string() << " is not on " << fs::relative(page, kPages).string();
     }
   }
 }

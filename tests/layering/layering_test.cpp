@@ -1,5 +1,5 @@
-/// The house stands as it was drawn: includes go down and never up or sideways, each foreign library has its
-/// one room, and what is simulated calls no function whose results differ between machines.
+/// Includes go to lower layers, never up or sideways, each foreign library has its
+/// one folder, and what is simulated calls no function whose results differ between machines.
 
 #include <algorithm>
 #include <filesystem>
@@ -55,15 +55,15 @@ const std::vector<Line>& linesBelow(const std::string& folder) {
   return known != read.end() ? known->second : read.emplace(folder, readBelow(folder)).first->second;
 }
 
-const std::vector<std::string> kFloors{"engine", "pipeline", "dynamics", "profiling", "show", "bench", "cli"};
+const std::vector<std::string> kLayers{"engine", "pipeline", "dynamics", "profiling", "show", "bench", "cli"};
 
-/// Which floors a file may include.
+/// Which layers a file may include.
 std::set<std::string> allowedFor(const std::string& file) {
-  const std::string floor = file.substr(0, file.find('/'));
-  if (floor == "cli") return {kFloors.begin(), kFloors.end()};
-  if (floor == "show") return {"engine", "pipeline", "dynamics", "profiling", "show"};
-  if (floor == "bench") return {"engine", "pipeline", "dynamics", "profiling", "bench"};
-  return {"engine", floor};
+  const std::string layer = file.substr(0, file.find('/'));
+  if (layer == "cli") return {kLayers.begin(), kLayers.end()};
+  if (layer == "show") return {"engine", "pipeline", "dynamics", "profiling", "show"};
+  if (layer == "bench") return {"engine", "pipeline", "dynamics", "profiling", "bench"};
+  return {"engine", layer};
 }
 
 /// The name in `#include "name"`, or with other signs around it; empty if the line is none.
@@ -74,8 +74,8 @@ std::string included(const std::string& code, char open, char close) {
 }
 
 TEST(Layering, IncludesGoDownAndNeverUpOrSideways) {
-  for (const std::string& floor : kFloors)
-    for (const Line& line : linesBelow(floor)) {
+  for (const std::string& layer : kLayers)
+    for (const Line& line : linesBelow(layer)) {
       const std::string name = included(line.text, '"', '"');
       if (name.empty()) continue;
       EXPECT_TRUE(allowedFor(line.file).contains(name.substr(0, name.find('/')))) << line.place();
@@ -93,40 +93,40 @@ TEST(Layering, IncludesAreRelativeToTheRoot) {
 }
 
 TEST(Layering, TheFoldersOfAFloorFormNoCycleWithItsImporterProgram) {
-  for (const std::string& floor : kFloors)
-    for (const Line& line : linesBelow(floor))
+  for (const std::string& layer : kLayers)
+    for (const Line& line : linesBelow(layer))
       if (!line.file.starts_with("engine/asset/importer_program/")) {
         EXPECT_FALSE(included(line.text, '"', '"').starts_with("engine/asset/importer_program/"))
             << line.place();
       }
 }
 
-/// A room is a folder; its name is the folder's path.
-std::string roomOf(const std::string& file) {
+std::string folderOf(const std::string& file) {
   return file.substr(0, file.rfind('/'));
 }
 
-/// The rooms of a part of the house, and one include for each room that another one includes.
-using Rooms = std::map<std::string, std::map<std::string, std::string>>;
-Rooms roomsOf(const std::string& part) {
-  Rooms rooms;
+/// The folders of a layer or of the tests, and one include for each folder that another one includes.
+using Folders = std::map<std::string, std::map<std::string, std::string>>;
+Folders foldersOf(const std::string& part) {
+  Folders folders;
   for (const Line& line : linesBelow(part)) {
-    const std::string name = included(line.text, '"', '"'), room = roomOf(line.file);
-    if (name.starts_with(part + "/") && roomOf(name) != room) rooms[room].emplace(roomOf(name), line.place());
+    const std::string name = included(line.text, '"', '"'), folder = folderOf(line.file);
+    if (name.starts_with(part + "/") && folderOf(name) != folder)
+      folders[folder].emplace(folderOf(name), line.place());
   }
-  return rooms;
+  return folders;
 }
 
-/// A way along includes from the last room of `way` back to its first; empty if there is none.
-std::vector<std::string> cycleFrom(const Rooms& rooms, std::vector<std::string> way,
+/// A way along includes from the last folder of `way` back to its first; empty if there is none.
+std::vector<std::string> cycleFrom(const Folders& folders, std::vector<std::string> way,
                                    std::set<std::string>& seen) {
-  const auto next = rooms.find(way.back());
-  if (next == rooms.end()) return {};
-  for (const auto& [room, place] : next->second) {
-    if (room == way.front()) return way;
-    if (!seen.insert(room).second) continue;
-    way.push_back(room);
-    if (auto cycle = cycleFrom(rooms, way, seen); !cycle.empty()) return cycle;
+  const auto next = folders.find(way.back());
+  if (next == folders.end()) return {};
+  for (const auto& [folder, place] : next->second) {
+    if (folder == way.front()) return way;
+    if (!seen.insert(folder).second) continue;
+    way.push_back(folder);
+    if (auto cycle = cycleFrom(folders, way, seen); !cycle.empty()) return cycle;
     way.pop_back();
   }
   return {};
@@ -135,13 +135,13 @@ std::vector<std::string> cycleFrom(const Rooms& rooms, std::vector<std::string> 
 TEST(Layering, TheRoomsOfAFloorFormNoCycle) {
   for (const char* part :
        {"engine", "pipeline", "dynamics", "profiling", "show", "bench", "cli", "assets/generator"}) {
-    const Rooms rooms = roomsOf(part);
-    for (const auto& [room, others] : rooms) {
+    const Folders folders = foldersOf(part);
+    for (const auto& [folder, others] : folders) {
       std::set<std::string> seen;
-      const std::vector<std::string> cycle = cycleFrom(rooms, {room}, seen);
+      const std::vector<std::string> cycle = cycleFrom(folders, {folder}, seen);
       for (std::size_t i = 0; i < cycle.size(); ++i) {
         const std::string& to = cycle[(i + 1) % cycle.size()];
-        ADD_FAILURE() << cycle[i] << " -> " << to << ", " << rooms.at(cycle[i]).at(to);
+        ADD_FAILURE() << cycle[i] << " -> " << to << ", " << folders.at(cycle[i]).at(to);
       }
       if (!cycle.empty()) break;
     }
@@ -216,9 +216,9 @@ TEST(Layering, NoFolderHasMoreThanFortyFiles) {
 }
 
 TEST(Layering, OnlyTheCommandLineKnowsCli11AndExitCodes) {
-  for (const std::string& floor : kFloors) {
-    if (floor == "cli") continue;
-    for (const Line& line : linesBelow(floor)) {
+  for (const std::string& layer : kLayers) {
+    if (layer == "cli") continue;
+    for (const Line& line : linesBelow(layer)) {
       const std::string library = included(line.text, '<', '>');
       // The program of a bench has a command line of its own.
       if (line.file.starts_with("bench/")) continue;
@@ -238,8 +238,8 @@ TEST(Layering, TheLibraryThatPlaysShowsWritesToNoTerminal) {
 /// The files that include a header whose name begins so.
 std::set<std::string> includersOf(const std::string& prefix) {
   std::set<std::string> files;
-  for (const std::string& floor : kFloors)
-    for (const Line& line : linesBelow(floor))
+  for (const std::string& layer : kLayers)
+    for (const Line& line : linesBelow(layer))
       if (included(line.text, '<', '>').starts_with(prefix)) files.insert(line.file);
   return files;
 }
@@ -275,8 +275,8 @@ TEST(Layering, EachForeignLibraryHasItsRoom) {
 TEST(Layering, EigenIsReadAsMathsSays) {
   std::string file;
   bool decided = false;
-  for (const std::string& floor : kFloors)
-    for (const Line& line : linesBelow(floor)) {
+  for (const std::string& layer : kLayers)
+    for (const Line& line : linesBelow(layer)) {
       if (line.file != file) file = line.file, decided = file == "engine/maths/eigen.h";
       if (included(line.text, '"', '"') == "engine/maths/eigen.h") decided = true;
       if (!included(line.text, '<', '>').starts_with("Eigen/")) continue;
@@ -291,8 +291,8 @@ TEST(Layering, WhatIsSimulatedCallsNoFunctionThatDiffersBetweenMachines) {
   const std::regex own(R"(det::\w+)");
   const std::regex hidden(
       R"(AngleAxis|Rotation2D|\.slerp\(|angularDistance|eulerAngles|setFromTwoVectors|FromTwoVectors)");
-  for (const char* floor : {"engine", "dynamics"})
-    for (const Line& line : linesBelow(floor)) {
+  for (const char* layer : {"engine", "dynamics"})
+    for (const Line& line : linesBelow(layer)) {
       // rotations.cpp lies in the namespace of these functions and calls its neighbours.
       if (line.file.starts_with("engine/maths/")) continue;
       std::string code = line.text;

@@ -1,5 +1,5 @@
 #pragma once
-/// Nodes of this floor with shapes given by the test, for shows built by hand.
+/// Nodes of this layer with shapes given by the test, for shows built by hand.
 
 #include "dynamics/collision/shape_choice.h"
 #include "dynamics/nodes/collision_node.h"

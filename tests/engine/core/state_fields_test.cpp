@@ -38,7 +38,7 @@ struct Whole {
   static void fields(Self& w, Fields& f) {
     f("on", w.on), f("time", w.time), f("count", w.count), f("colour", w.colour), f("place", w.place);
     f("pose", w.pose), f("limit", w.limit), f("parts", w.parts), f("node", w.node);
-    f.kept("names", w.names);
+    f.unhashed("names", w.names);
   }
 };
 

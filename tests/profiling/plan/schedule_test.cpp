@@ -108,16 +108,16 @@ TEST(Schedule, AllWallsSwapTogetherWithTheSlowest) {
 
 TEST(Schedule, LockedFramesTakeWholeTicks) {
   Plan plan = planned(false, 4);
-  plan.pacing = Pacing::Lock, plan.rate = 50;
+  plan.pace = Pace::Lock, plan.rate = 50;
   EXPECT_NEAR(forecast(frameOf(1, 1, 10), plan).period, 20, 1e-9);
   EXPECT_NEAR(forecast(frameOf(1, 1, 21), plan).period, 40, 1e-9);
-  plan.pacing = Pacing::Float;
+  plan.pace = Pace::Float;
   EXPECT_NEAR(forecast(frameOf(1, 1, 21), plan).period, 23, 1e-9);
 }
 
 TEST(Schedule, ALiveShowLeavesFramesOutAndIsYounger) {
   Plan plan = planned(true, 8);
-  plan.pacing = Pacing::Lock, plan.rate = 100;
+  plan.pace = Pace::Lock, plan.rate = 100;
   plan.newest = true;
   const Schedule live = scheduleOf(frameOf(1, 1, 45), plan);
   plan.newest = false;
@@ -143,7 +143,7 @@ TEST(Schedule, OneFrameInFlightIsAsYoungAsItsStagesTogether) {
 
 TEST(Schedule, ALiveShowCountsFramesInFlightFromCull) {
   Plan plan = planned(true, 8);
-  plan.pacing = Pacing::Lock, plan.rate = 200, plan.newest = true, plan.mostInFlight = 1;
+  plan.pace = Pace::Lock, plan.rate = 200, plan.newest = true, plan.mostInFlight = 1;
   const Forecast f = forecast(frameOf(1, 2, 20), plan);
   EXPECT_NEAR(f.period, 22, 1e-9);
   EXPECT_LT(f.latency, 22 + 1 + 5.0 + 1e-9) << "Cull takes the newest frame, at most a tick old";

@@ -70,9 +70,7 @@ Seen playReloading(const Playing& what) {
   if (!player) return seen;
   ShowParts parts = player->parts(StereoLayout::Pair);
   parts.provider = what.provider;
-  const ShowStages* running = nullptr;
   parts.observer = [&](const TimeSignature& now, const InputSample&, const Scene& scene) {
-    player->collect(running->shownFrame());
     if (what.noteBall) seen.ball.push_back(placeOf("ball", player->scene()));
     for (const EventRecord& e : scene.events()) {
       if (e.event != Event("loaded") && e.event != Event("unloaded")) continue;
@@ -85,7 +83,6 @@ Seen playReloading(const Playing& what) {
     }
   };
   ShowStages stages(std::move(parts));
-  running = &stages;
   FrameLoopOptions o;
   o.mode = what.mode, o.walls = 1, o.frames = what.frames, o.pace = what.pace, o.rate = kReloadRate;
   const std::atomic<bool> never = false;

@@ -71,7 +71,7 @@ public:
     const TimeSignature now = signatureAt(n, rate_);
     parts_.input.sampleFrame(now.time - now.step, now.time, input_);
     player_->scene().advance(now, input_, changes_, nullptr);
-    player_->collect(n);
+    parts_.freeUnshown(n);
     seen_.take(changes_);
   }
   /// Nothing has been simulated since it was put back.

@@ -30,12 +30,7 @@ void playOnFourWalls(Delivery delivery, std::uint64_t frames) {
   ShowParts parts = player->parts(StereoLayout::Pair);
   parts.provider = provider.value().get();
   parts.sink = &sink;
-  const ShowStages* running = nullptr;
-  parts.observer = [&](const TimeSignature&, const InputSample&, const Scene&) {
-    player->collect(running->shownFrame());
-  };
   ShowStages stages(std::move(parts));
-  running = &stages;
   FrameLoopOptions o;
   o.walls = 4, o.frames = frames, o.delivery = delivery;
   const std::atomic<bool> never = false;

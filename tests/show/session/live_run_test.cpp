@@ -40,7 +40,6 @@ LiveRun playLive(const std::string& show, const std::string& log, Mode mode) {
   player->playLive();
   player->tellLateLoads([&](std::uint32_t load, Nanoseconds time) { recorder.lateLoad(load, time); });
   ShowParts parts = player->parts(StereoLayout::Off);
-  const ShowStages* running = nullptr;
   FrameLoop* playing = nullptr;
   Nanoseconds ended = 0;
   parts.observer = [&](const TimeSignature& now, const InputSample& input, const Scene& scene) {
@@ -48,12 +47,10 @@ LiveRun playLive(const std::string& show, const std::string& log, Mode mode) {
     recorder.frame(now);
     recorder.record(input);
     run.hashes += fmt::format("{} {:016x}\n", now.frame, scene.stateHash());
-    player->collect(running->shownFrame());
     if (now.frame % 10 == 5) std::this_thread::sleep_for(std::chrono::milliseconds(60));
     if (now.frame == 59) playing->endAfterThisFrame();
   };
   ShowStages stages(std::move(parts));
-  running = &stages;
   FrameLoopOptions o = player->loopOptions();
   o.mode = mode, o.pace = Pace::Lock, o.delivery = Delivery::Latest;
   const std::atomic<bool> never = false;
@@ -125,9 +122,9 @@ TEST(ProgramLiveRun, ThatIsToldTwiceAtOnceToStopEndsInOrder) {
   for (int tries = 0; tries < 20 && !inOrder; ++tries) {
     const TestFolder folder;
     const std::string journal = folder.path() / "run.log", out = folder.path() / "out";
-    RunningProgram program({{stadionPath(), "run", writeShow(folder), "--asset-root", assetFolder(), "--walls",
-                             "desktop", "--size", "64x48", "--frames", "1000000", "--pictures", "none",
-                             "--journal", journal, "--out", out}});
+    RunningProgram program({{stadionPath(), "run", writeShow(folder), "--asset-root", assetFolder(),
+                             "--walls", "desktop", "--size", "64x48", "--frames", "1000000", "--pictures",
+                             "none", "--journal", journal, "--out", out}});
     ASSERT_TRUE(program.waitUntil([&] { return has(fileContent(journal), "the first picture"); }));
     kill(program.pid(), SIGINT), kill(-program.pid(), SIGINT);
     EXPECT_EQ(program.status(), 130) << program.err();

@@ -24,12 +24,14 @@ std::uint64_t allocationsOfApp(const std::string& script, const std::string& log
   const auto player = options.complete(findings) ? Player::create(options, findings) : nullptr;
   printFindings(findings);
   if (!player) return ADD_FAILURE() << "the show cannot be played", 0;
-  ShowStages stages(player->parts(StereoLayout::Pair));
+  ShowParts parts = player->parts(StereoLayout::Pair);
+  const auto freeUnshown = std::exchange(parts.freeUnshown, {});
+  ShowStages stages(std::move(parts));
   Allocations before;
   for (std::uint64_t frame = 0; frame < warm + 60; ++frame) {
     if (frame == warm) before = allocationsSoFar();
     stages.app(signatureAt(frame, 60), frame % kSlots);
-    player->collect(frame);
+    freeUnshown(frame);
   }
   return (allocationsSoFar() - before).count;
 }
@@ -63,7 +65,6 @@ std::uint64_t allocationsOfDraw(const std::string& script, Look look) {
       if (frame >= kWarm) asked += allocationsSoFar() - before;
     }
     EXPECT_FALSE(stages.swap(signatureAt(frame, 60)));
-    player->collect(frame);
   }
   for (std::size_t wall = 0; wall < walls; ++wall) stages.closeWall(wall);
   return asked.count;
