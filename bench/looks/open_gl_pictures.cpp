@@ -2,9 +2,10 @@
 
 namespace stadion::bench {
 
-Result<std::unique_ptr<OpenGlPictures>> OpenGlPictures::create(const MeshStore& meshes, PixelSize size) {
+Result<std::unique_ptr<OpenGlPictures>> OpenGlPictures::create(const MeshStore& meshes, PixelSize size,
+                                                               GlProviderKind kind) {
   std::unique_ptr<OpenGlPictures> made(new OpenGlPictures);
-  auto provider = openGlProvider(GlProviderKind::OsMesa);
+  auto provider = openGlProvider(kind);
   if (!provider) return provider.error();
   made->provider_ = std::move(provider.value());
   auto target = made->provider_->create(size.width, size.height);

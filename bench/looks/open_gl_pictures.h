@@ -1,5 +1,5 @@
 #pragma once
-/// A context of OpenGL in software with a renderer in the full look, current on the thread that made it.
+/// A context of OpenGL with a renderer in the full look, current on the thread that made it.
 
 #include "engine/display/wall_file.h"
 #include "pipeline/gl_draw/gl_renderer.h"
@@ -11,7 +11,8 @@ namespace stadion::bench {
 
 class OpenGlPictures {
 public:
-  static Result<std::unique_ptr<OpenGlPictures>> create(const MeshStore& meshes, PixelSize size);
+  static Result<std::unique_ptr<OpenGlPictures>> create(const MeshStore& meshes, PixelSize size,
+                                                        GlProviderKind kind);
   ~OpenGlPictures();
 
   Renderer& renderer() { return *renderer_; }

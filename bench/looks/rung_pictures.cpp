@@ -65,10 +65,10 @@ private:
 }  // namespace
 
 Result<std::unique_ptr<RungPictures>> RungPictures::create(const MeshStore& meshes, PixelSize size,
-                                                           bool openGl) {
+                                                           std::optional<GlProviderKind> openGl) {
   std::unique_ptr<RungPictures> made(new RungPictures(meshes, size));
   if (openGl) {
-    auto pictures = OpenGlPictures::create(meshes, size);
+    auto pictures = OpenGlPictures::create(meshes, size, *openGl);
     if (!pictures) return pictures.error();
     made->openGl_ = std::move(pictures.value());
   }

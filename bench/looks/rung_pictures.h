@@ -11,6 +11,7 @@
 #include "engine/display/wall_file.h"
 #include "pipeline/cpu_draw/cpu_renderer.h"
 #include "pipeline/picture/picture.h"
+#include "pipeline/target/target.h"
 
 #include <memory>
 #include <vector>
@@ -27,8 +28,9 @@ struct DrawnViews {
 
 class RungPictures {
 public:
-  /// Pictures of this size. `openGl`: OpenGL is loaded, too; fails if it cannot be.
-  static Result<std::unique_ptr<RungPictures>> create(const MeshStore& meshes, PixelSize size, bool openGl);
+  /// Pictures of this size. `openGl`: this OpenGL is loaded, too; fails if it cannot be.
+  static Result<std::unique_ptr<RungPictures>> create(const MeshStore& meshes, PixelSize size,
+                                                      std::optional<GlProviderKind> openGl);
   ~RungPictures();
 
   Result<DrawnViews> draw(const DrawList& list, const NamedRung& rung);

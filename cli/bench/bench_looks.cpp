@@ -23,7 +23,7 @@ namespace {
 
 struct BenchLooksOptions {
   std::vector<std::string> scenes, rungs;  ///< empty: all
-  std::string size;
+  std::string size, gl = "osmesa";
   std::size_t rounds = 5;
   std::uint64_t frames = 60;
   bool noPrograms = false, json = false;
@@ -64,12 +64,14 @@ public:
 
 private:
   bool openShowOf(const LooksScene& scene, Diagnostics& findings) {
-    if (show_ && script_ == scene.script) return true;
+    if (show_ && script_ == scene.script && !script_.empty()) return true;
     pictures_.reset();  // it draws meshes of the show before
     show_ = LooksShow::open(scene, o_.size, findings);
     if (!show_) return false;
     script_ = scene.script;
-    const bool openGl = std::ranges::any_of(rungs_, [](const bench::NamedRung& r) { return !r.rung; });
+    std::optional<GlProviderKind> openGl;
+    if (std::ranges::any_of(rungs_, [](const bench::NamedRung& r) { return !r.rung; }))
+      openGl = o_.gl == "egl" ? GlProviderKind::Egl : GlProviderKind::OsMesa;
     auto pictures = bench::RungPictures::create(show_->meshes(), show_->size(), openGl);
     if (!pictures) {
       findings.add(pictures.error());
@@ -180,6 +182,7 @@ void addBenchLooks(CLI::App& bench, int& code) {
   options.add("--scenes", o->scenes, {.words = kLooksSceneNames});
   options.add("--rungs", o->rungs, {.words = bench::kRungNames});
   options.add("--size", o->size);
+  options.add("--gl", o->gl, {.words = "osmesa|egl"});
   options.add("--rounds", o->rounds, {.most = 999});
   options.add("--frames", o->frames, {.most = 600});
   options.add("--no-perception", o->noPrograms);

@@ -10,7 +10,7 @@ namespace stadion {
 namespace {
 
 /// Between them lies one round of the samples that FrameLog takes of a large wall.
-constexpr int kFewer = 9, kMore = 73;
+constexpr int kFewer = 9, kMore = 521;
 constexpr std::chrono::minutes kLimit{30};
 
 /// All instructions of a run; with `wrong`, if there are none.

@@ -1,5 +1,6 @@
 #include "cli/bench/looks_scenes.h"
 
+#include "bench/walls/wall_files.h"
 #include "cli/terminal.h"
 #include "engine/base/installed_files.h"
 
@@ -9,6 +10,9 @@ namespace stadion {
 namespace {
 
 constexpr std::size_t kSlot = 0;  ///< App and Cull take turns, so that one slot serves
+constexpr std::size_t kWallsOfRoom = 4;
+constexpr std::size_t kMostFrames =
+    700;  ///< length of the visitor's path: the moment, and what --frames may add
 
 }  // namespace
 
@@ -22,19 +26,31 @@ const std::vector<LooksScene>& allLooksScenes() {
       {"olympia-5", "olympia.evs", {"right", "front"}, 60},
       {"olympia-6", "olympia.evs", {"right", "front"}, 74},
       {"crowd", "crowd.evs", {"front"}, 2},
+      {"a", "", {"right", "front"}, 1},
+      {"b", "", {"right", "front"}, 1},
+      {"c", "", {"right", "front"}, 1},
   };
   return scenes;
 }
 
 std::unique_ptr<LooksShow> LooksShow::open(const LooksScene& scene, const std::string& size,
                                            Diagnostics& findings) {
+  std::unique_ptr<LooksShow> show(new LooksShow);
   ShowOptions options;
-  options.script = shareFolder() + "/scripts/" + std::string(scene.script);
   options.walls = "cave4";
+  options.script = shareFolder() + "/scripts/" + std::string(scene.script);
+  if (scene.script.empty()) {
+    options.script = show->folder_.path("show.evs");
+    options.walls = show->folder_.path("room.walls");
+    const bench::WallScene walls{.letter = scene.name.front()};
+    if (const std::string wrong =
+            writeWallScene(show->folder_.path(""), walls, kWallsOfRoom, false, kMostFrames);
+        !wrong.empty())
+      return findings.error({}, wrong), nullptr;
+  }
   options.onlyWalls = scene.walls;
   options.size = size;
   if (!options.complete(findings)) return nullptr;
-  std::unique_ptr<LooksShow> show(new LooksShow);
   show->player_ = Player::create(options, findings, printFindings);
   if (!show->player_) return nullptr;
   ShowParts parts = show->player_->parts(StereoLayout::Pair);

@@ -1,9 +1,11 @@
 #pragma once
-/// The scenes of `stadion bench looks`: moments of shows, and the draw lists of their walls.
+/// The scenes of `stadion bench looks`: moments of shows and of the scenes of `stadion bench walls`, and the draw lists
+/// of their walls.
 ///
 /// Threads  the thread that calls; the show's own threads only wait.
 
 #include "pipeline/draw_list/draw_list.h"
+#include "show/base/temporary_folder.h"
 #include "show/player/player.h"
 
 #include <memory>
@@ -15,9 +17,9 @@
 namespace stadion {
 
 struct LooksScene {
-  std::string_view name;           ///< as it is chosen
-  std::string_view script;         ///< in the folder scripts
-  std::vector<std::string> walls;  ///< of cave4; flicker is measured on the last one
+  std::string_view name;    ///< as it is chosen
+  std::string_view script;  ///< in the folder scripts; empty: the scene of `bench walls` with this letter
+  std::vector<std::string> walls;  ///< walls of the room; flicker is measured on the last one
   double seconds;                  ///< show time of the moment
 };
 
@@ -25,7 +27,7 @@ struct LooksScene {
 const std::vector<LooksScene>& allLooksScenes();
 /// Their names, for the grammar of an option.
 constexpr std::string_view kLooksSceneNames =
-    "kick|olympia-1|olympia-2|olympia-3|olympia-4|olympia-5|olympia-6|crowd";
+    "kick|olympia-1|olympia-2|olympia-3|olympia-4|olympia-5|olympia-6|crowd|a|b|c";
 
 /// A show with its recorded input, played frame by frame without being drawn.
 class LooksShow {
@@ -47,6 +49,7 @@ public:
 private:
   LooksShow() = default;
 
+  TemporaryFolder folder_;  ///< files of a scene of `bench walls`
   std::unique_ptr<Player> player_;
   std::unique_ptr<ShowStages> stages_;
   PixelSize size_;

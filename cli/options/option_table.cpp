@@ -321,7 +321,7 @@ constexpr OptionRow kRows[] = {
     {"--cold", flag(), "empties the processor's caches before each frame, as drawing does", Benches},
     {"--scenes",
      word("a|b|c|kick|olympia-1|olympia-2|olympia-3|olympia-4|olympia-5|olympia-6|crowd", ValueTimes::List),
-     "scenes of the table: a, b and c of bench walls, the others of bench looks", Benches},
+     "scenes of the table; bench walls has a, b and c", Benches},
     {"--rungs", word("8|4|2|1|4-coarse|4-nearest|plain|opengl", ValueTimes::List),
      "rungs of the ladder of pictures (default: all)", Benches},
     {"--no-perception", flag(), "leaves out the distances butteraugli and ssimulacra", Benches},

@@ -112,7 +112,7 @@ constexpr std::size_t kCounts = static_cast<std::size_t>(Count::Largest) + 1;
 std::string_view nameOf(Count count);
 
 /// Number of batches that a sampled frame draws alone, for each eye.
-constexpr std::size_t kBatchesAFrame = 8;
+constexpr std::size_t kBatchesAFrame = 4;
 
 constexpr std::uint64_t kNoFrame = ~std::uint64_t{0};
 constexpr std::uint32_t kNoWall = ~std::uint32_t{0};
@@ -155,6 +155,11 @@ public:
   virtual void ended(Span what) = 0;
   /// So much of it within the span that is under way on this thread; by a node, if that is valid.
   virtual void counted(Count, std::uint64_t, NodeRef = {}) {}
+
+  /// Returns true if a node's visit is told as its spans. False: visited() alone tells it. Asked once in App.
+  virtual bool wantsSpansOfVisits() const { return true; }
+  /// The visit of this node is over. It began when the visit before it was over, or when all mail was delivered.
+  virtual void visited(NodeRef) {}
 
   /// Returns true if `shared` is wanted for this frame of that wall.
   virtual bool wantsShares(std::uint64_t, std::uint32_t) const { return false; }

@@ -115,30 +115,35 @@ void Scene::visit(const TimeSignature& now, const InputSample& input, FrameProbe
     impacts_.setMayBegin(
         std::ranges::any_of(mail, [](const Message& m) { return m.command == CommandId::Start; }));
   }
+  FrameProbe* const spans = probe && probe->wantsSpansOfVisits() ? probe : nullptr;
   const auto next = [&] {
-    const SpanScope span(probe, Span::Mail);
-    return takeBatch(mail, frame, probe);
+    const SpanScope span(spans, Span::Mail);
+    return takeBatch(mail, frame, spans);
   };
   while (next()) {
-    computeTogether(probe);
+    batch_.size() == 1 ? batch_[0].node->compute(spans) : computeTogether(probe);
     for (const Cycle& cycle : batch_) {
-      Node* node = cycle.node;
-      schedule_.setCurrent(*node);
-      FrameContext own = cycle.context(frame);
-      node->conclude(own, probe);
-      ++counters_.nodesVisited;
-      const SpanScope span(probe, Span::Settle, node->self());
-      schedule_.update(*node);
-      hashes_.update(*node);
-      schedule_.wakeWatchers();
+      conclude(cycle, frame, spans);
+      if (probe && !spans) probe->visited(cycle.node->self());
     }
   }
   schedule_.end();
   for (const Detached& d : detached) rejoinParent(d, frame);
 }
 
+void Scene::conclude(const Cycle& cycle, FrameContext& frame, FrameProbe* probe) {
+  Node* node = cycle.node;
+  schedule_.setCurrent(*node);
+  FrameContext own = cycle.context(frame);
+  node->conclude(own, probe);
+  ++counters_.nodesVisited;
+  const SpanScope span(probe, Span::Settle, node->self());
+  schedule_.update(*node);
+  hashes_.update(*node);
+  schedule_.wakeWatchers();
+}
+
 void Scene::computeTogether(FrameProbe* probe) {
-  if (batch_.size() == 1) return batch_[0].node->compute(probe);
   const SpanScope span(probe, Span::Workers);
   workers_.run(batch_.size(), [&](std::size_t i) { batch_[i].node->compute(probe); });
 }

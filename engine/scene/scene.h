@@ -167,6 +167,7 @@ private:
   std::vector<Message> callRound(const TimeSignature& now);
   bool takeBatch(const std::vector<Message>& mail, FrameContext& frame, FrameProbe* probe);
   void computeTogether(FrameProbe* probe);
+  void conclude(const Cycle& cycle, FrameContext& frame, FrameProbe* probe);
   std::vector<Detached> detachedBy(const std::vector<Message>& mail, const FrameContext& frame);
   void rejoinParent(const Detached& d, const FrameContext& frame);
   void publish(const TimeSignature& now, const InputSample& input, ChangeSet& changes);

@@ -61,7 +61,7 @@ void FragmentShading::shade(const PictureShading& picture, BandTriangles& triang
   for (std::size_t m = 0, first = 0; m <= sky; first = ends_[m++]) {
     job.pixel = pixel_.data() + first, job.surface = surface_.data() + first;
     job.place = place_.data() + first, job.count = ends_[m] - static_cast<unsigned>(first);
-    if (job.count == 0) continue;
+    if (job.count == 0 || (m == sky && picture.surfacesOnly)) continue;
     job.material = m < sky ? materials[m] : nullptr;
     if (m == sky && plain)
       k.skyPlain(job);

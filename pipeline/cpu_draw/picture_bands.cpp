@@ -29,7 +29,7 @@ void PictureBand::draw(const PictureShading& picture, std::size_t band) {
   visible_.draw(picture, band, blocks);
   colours_.shade(picture, visible_, blocks);
   if (layers_.shade(picture, band, visible_, blocks)) layers_.blend(picture, visible_, colours_);
-  encode(picture);
+  if (!picture.surfacesOnly) encode(picture);
 }
 
 void PictureBand::encode(const PictureShading& picture) {

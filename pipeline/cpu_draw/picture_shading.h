@@ -17,6 +17,7 @@ struct PictureShading {
   const ViewParameters* view;
   PictureRung rung;
   std::span<std::uint8_t> rgba;  ///< the picture (height x width x 4), rows from the top
+  bool surfacesOnly = false;     ///< leaves out the sky and writes no picture: to measure what surfaces cost
 
   int width() const { return setup->geometry().width; }
   /// Rows of a band.

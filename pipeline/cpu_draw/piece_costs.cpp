@@ -91,14 +91,44 @@ void PieceCosts::setUp(const View& view, const Piece& piece) {
   for (std::size_t i = 0; i < setup_.setUpPieces(); ++i) setup_.setUp(i);
 }
 
-void PieceCosts::drawBands(const View& view, std::span<const std::size_t> bands) {
+void PieceCosts::drawBand(const View& view, std::size_t band, bool surfacesOnly) {
   PictureShading shading = view.shading;
   rgba_.resize(shading.rgba.size());
-  shading.setup = &setup_, shading.rgba = rgba_;
-  for (const std::size_t band : bands) bands_.draw(shading, band);
+  shading.setup = &setup_, shading.rgba = rgba_, shading.surfacesOnly = surfacesOnly;
+  bands_.draw(shading, band);
 }
 
-/// Only bands that the piece touches are drawn, and once more without it.
+void PieceCosts::measureEmpty(const View& view) {
+  double at = threadMilliseconds();
+  setUp(view, {0, 0});
+  emptySetUpMs_ = threadMilliseconds() - at;
+  emptyMs_.resize(setup_.bands());
+  for (std::size_t band = 0; band < emptyMs_.size(); ++band) {
+    at = threadMilliseconds();
+    drawBand(view, band, true);
+    emptyMs_[band] = threadMilliseconds() - at;
+  }
+}
+
+double PieceCosts::emptyOf(std::span<const std::size_t> bands) const {
+  return std::accumulate(bands.begin(), bands.end(), emptySetUpMs_,
+                         [&](double sum, std::size_t band) { return sum + emptyMs_[band]; });
+}
+
+/// Expects that nothing is set up. Each row of the sky costs about the same.
+double PieceCosts::skyOf(const View& view) {
+  constexpr std::size_t kEvery = 4;
+  const std::size_t bands = setup_.bands(), first = std::min(kEvery / 2, bands - 1);
+  int rows = 0;
+  const double began = threadMilliseconds();
+  for (std::size_t band = first; band < bands; band += kEvery) {
+    drawBand(view, band, false);
+    rows += view.shading.end(band) - view.shading.low(band);
+  }
+  return (threadMilliseconds() - began) * view.shading.setup->geometry().height / std::max(rows, 1);
+}
+
+/// Draws only bands that the piece touches.
 double PieceCosts::costOf(const View& view, const Piece& piece) {
   const double began = threadMilliseconds();
   setUp(view, piece);
@@ -110,22 +140,15 @@ double PieceCosts::costOf(const View& view, const Piece& piece) {
                      [&](const TriangleRecord*, std::span<const std::uint32_t>, bool) { touches = true; });
     if (touches) touched_.push_back(band);
   }
-  drawBands(view, touched_);
-  const double drawn = threadMilliseconds();
-  setUp(view, {0, 0});
-  drawBands(view, touched_);
-  return drawn - began - (threadMilliseconds() - drawn);
+  for (const std::size_t band : touched_) drawBand(view, band, true);
+  return threadMilliseconds() - began - emptyOf(touched_);
 }
 
 void PieceCosts::sampleSome(const View& view, FrameProbe& probe) {
   findSeen(view);
   findPieces(probe);
-  touched_.resize(view.shading.setup->bands());
-  std::iota(touched_.begin(), touched_.end(), std::size_t{0});
-  const double began = threadMilliseconds();
-  setUp(view, {0, 0});
-  drawBands(view, touched_);
-  probe.drewAlone(aloneIn(view, Span::Sky, threadMilliseconds() - began), {});
+  measureEmpty(view);
+  probe.drewAlone(aloneIn(view, Span::Sky, skyOf(view)), {});
   if (wanted_.empty()) return;
   const auto eye = static_cast<std::uint32_t>(view.list.views[view.number].eye);
   const std::size_t at = probe.nextBatch(view.list.wall, eye, wanted_.size());
@@ -139,11 +162,9 @@ void PieceCosts::sampleSome(const View& view, FrameProbe& probe) {
 
 void PieceCosts::sampleWhole(const View& view, FrameProbe& probe) {
   findSeen(view);
-  touched_.resize(view.shading.setup->bands());
-  std::iota(touched_.begin(), touched_.end(), std::size_t{0});
   const double began = threadMilliseconds();
   setUp(view, {0, seen_.size()});
-  drawBands(view, touched_);
+  for (std::size_t band = 0; band < setup_.bands(); ++band) drawBand(view, band, false);
   const bool left = view.list.views[view.number].eye == Eye::Left;
   probe.drewAlone(aloneIn(view, left ? Span::LeftEye : Span::RightEye, threadMilliseconds() - began), {});
 }

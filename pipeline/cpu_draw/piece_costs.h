@@ -1,9 +1,10 @@
 #pragma once
 /// Measures what drawing costs by node, where a probe asks for it (engine/core/frame_probe.h).
 ///
-/// Method   after a frame is drawn, some objects are drawn once more, alone, into a picture that is not shown. What
-///          the same bands cost without them is taken off. Nothing lies in front of them then: what they cost in the
-///          frame is less if they are hidden, and the reader scales the costs of all nodes to the whole view's.
+/// Method   after a frame is drawn, some objects are drawn once more, alone, without the sky. What the same bands cost
+///          without them is taken off. Nothing lies in front of them then: what they cost in the frame is less if they
+///          are hidden, and the reader scales the costs of all nodes to the whole view's. The sky is drawn in every
+///          fourth band.
 /// Units    milliseconds of processor time; work is an estimate of cost [pixels].
 /// Threads  the calling thread does everything, so that its processor time is the cost.
 
@@ -47,7 +48,10 @@ private:
   std::span<const NodeShare> sharesOf(const Piece& piece);
   double costOf(const View& view, const Piece& piece);
   void setUp(const View& view, const Piece& piece);
-  void drawBands(const View& view, std::span<const std::size_t> bands);
+  double skyOf(const View& view);
+  void measureEmpty(const View& view);
+  double emptyOf(std::span<const std::size_t> bands) const;
+  void drawBand(const View& view, std::size_t band, bool surfacesOnly);
 
   CpuMeshCache& meshes_;
   BandMemory& bands_;
@@ -62,6 +66,8 @@ private:
   std::vector<NodeRef> owners_;
   std::vector<NodeShare> shares_;
   std::vector<std::size_t> touched_;  ///< bands
+  std::vector<double> emptyMs_;       ///< by band: its cost without objects and without the sky
+  double emptySetUpMs_ = 0;           ///< cost of setting up no object
   std::vector<std::uint8_t> rgba_;
 };
 

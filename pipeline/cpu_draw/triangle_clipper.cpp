@@ -4,35 +4,15 @@
 #include <bit>
 #include <cmath>
 #include <cstdint>
+#include <span>
 
 namespace stadion {
 namespace {
 
 constexpr double kClipMargin = 64;  ///< around the picture [pixels]
 
-using ClipCorner = std::array<double, 3>;
-
-/// The part of a polygon on whose corners `distance`, which is linear, is not negative.
-template <class Distance>
-std::vector<ClipCorner> keptOf(const std::vector<ClipCorner>& polygon, const Distance& distance) {
-  std::vector<ClipCorner> kept;
-  for (std::size_t i = 0; i < polygon.size(); ++i) {
-    const ClipCorner &a = polygon[i], &b = polygon[(i + 1) % polygon.size()];
-    const double da = distance(a), db = distance(b);
-    if (da >= 0) kept.push_back(a);
-    if ((da >= 0) == (db >= 0)) continue;
-    // From the end that lies nearer to the border: the other one may be so far away that rounding would lose the
-    // first. And neighbours that share the edge get the same point.
-    const bool fromA = std::fabs(da) < std::fabs(db);
-    const ClipCorner &from = fromA ? a : b, &to = fromA ? b : a;
-    const double t = fromA ? da / (da - db) : db / (db - da);
-    kept.push_back(
-        {from[0] + t * (to[0] - from[0]), from[1] + t * (to[1] - from[1]), from[2] + t * (to[2] - from[2])});
-  }
-  return kept;
-}
-
-double planeProduct(const ClipCorner& a, const ClipCorner& b, const ClipCorner& c) {
+double planeProduct(const std::array<double, 3>& a, const std::array<double, 3>& b,
+                    const std::array<double, 3>& c) {
   return a[0] * (b[1] * c[2] - b[2] * c[1]) + a[1] * (b[2] * c[0] - b[0] * c[2]) +
          a[2] * (b[0] * c[1] - b[1] * c[0]);
 }
@@ -49,20 +29,72 @@ bool pixelSpan(double from, double to, int samples, int size, short& first, shor
 
 }  // namespace
 
-TriangleClipper::Polygon TriangleClipper::clipped(const std::array<Corner, 3>& corners) const {
-  Polygon p(corners.begin(), corners.end());
+/// A polygon that is cut at a border again and again, without asking for memory.
+class TriangleClipper::Polygon {
+public:
+  /// A cut adds a corner, or by rounding at most half of those there are: after five cuts 19.
+  static constexpr std::size_t kMost = 20;
+
+  explicit Polygon(const std::array<Corner, 3>& corners) : size_(3) {
+    std::ranges::copy(corners, at_.begin());
+  }
+
+  std::span<const Corner> corners() const { return {at_.data(), size_}; }
+
+  /// Keeps the part on whose corners `distance`, which is linear, is not negative.
+  template <class Distance>
+  void cut(const Distance& distance) {
+    if (std::ranges::all_of(corners(), [&](const Corner& c) { return distance(c) >= 0; })) return;
+    const Polygon whole = *this;
+    size_ = 0;
+    for (std::size_t i = 0; i < whole.size_; ++i) {
+      const Corner &a = whole.at_[i], &b = whole.at_[(i + 1) % whole.size_];
+      const double da = distance(a), db = distance(b);
+      if (da >= 0) at_[size_++] = a;
+      if ((da >= 0) == (db >= 0)) continue;
+      // From the end that lies nearer to the border: the other one may be so far away that rounding would lose the
+      // first. And neighbours that share the edge get the same point.
+      const bool fromA = std::fabs(da) < std::fabs(db);
+      const Corner &from = fromA ? a : b, &to = fromA ? b : a;
+      const double t = fromA ? da / (da - db) : db / (db - da);
+      at_[size_++] = {from[0] + t * (to[0] - from[0]), from[1] + t * (to[1] - from[1]),
+                      from[2] + t * (to[2] - from[2])};
+    }
+  }
+
+private:
+  std::array<Corner, kMost> at_;
+  std::size_t size_;
+};
+
+/// Calls work(distance) for the near plane and the four margins: a corner within has no negative distance.
+template <class Work>
+void TriangleClipper::forEachBorder(const Work& work) const {
   const double most = static_cast<double>(by_.mostDepth);
   if (parallel_) {
-    p = keptOf(p, [&](const Corner& c) { return most - c[2]; });
+    work([&](const Corner& c) { return most - c[2]; });
   } else {
-    p = keptOf(p, [&](const Corner& c) { return c[2] - 1 / most; });
+    work([&](const Corner& c) { return c[2] - 1 / most; });
   }
   const auto w = [this](const Corner& c) { return parallel_ ? 1.0 : c[2]; };
   for (std::size_t axis = 0; axis < 2; ++axis) {
     const double size = axis == 0 ? by_.width : by_.height;
-    p = keptOf(p, [&](const Corner& c) { return c[axis] + kClipMargin * w(c); });
-    p = keptOf(p, [&](const Corner& c) { return (size + kClipMargin) * w(c) - c[axis]; });
+    work([&](const Corner& c) { return c[axis] + kClipMargin * w(c); });
+    work([&](const Corner& c) { return (size + kClipMargin) * w(c) - c[axis]; });
   }
+}
+
+bool TriangleClipper::isOutside(const std::array<Corner, 3>& corners) const {
+  bool outside = false;
+  forEachBorder([&](const auto& distance) {
+    outside = outside || std::ranges::all_of(corners, [&](const Corner& c) { return distance(c) < 0; });
+  });
+  return outside;
+}
+
+TriangleClipper::Polygon TriangleClipper::clipped(const std::array<Corner, 3>& corners) const {
+  Polygon p(corners);
+  forEachBorder([&](const auto& distance) { p.cut(distance); });
   return p;
 }
 
@@ -100,17 +132,20 @@ void TriangleClipper::clip(const std::array<std::array<float, 3>, 3>& corners, c
       sum += std::fabs(placed[k][axis]);
     }
   }
-  const std::optional<Plane> plane = std::isfinite(sum) ? planeOf(placed) : std::nullopt;
+  if (!std::isfinite(sum) || isOutside(placed)) return;
+  const std::optional<Plane> plane = planeOf(placed);
   if (!plane) return;
-  std::vector<std::array<double, 2>> at;
+  const Polygon seen = clipped(placed);
+  std::array<std::array<double, 2>, Polygon::kMost> at;
+  std::size_t size = 0;
   double nearest = -1e30;
-  for (const Corner& c : clipped(placed)) {
+  for (const Corner& c : seen.corners()) {
     const double w = parallel_ ? 1 : c[2];
-    at.push_back({c[0] / w, c[1] / w});
+    at[size++] = {c[0] / w, c[1] / w};
     nearest = std::max(nearest, parallel_ ? c[2] : 1 / w);
   }
   double area = 0;
-  for (std::size_t i = 1; i + 1 < at.size(); ++i)
+  for (std::size_t i = 1; i + 1 < size; ++i)
     area +=
         (at[i][0] - at[0][0]) * (at[i + 1][1] - at[0][1]) - (at[i][1] - at[0][1]) * (at[i + 1][0] - at[0][0]);
   if (area == 0 || (by_.facing > 0 && area < 0) || (by_.facing < 0 && area > 0)) return;
@@ -118,7 +153,7 @@ void TriangleClipper::clip(const std::array<std::array<float, 3>, 3>& corners, c
   if (by_.mirrored > 0 ? area < 0 : area > 0) flags |= kFacesAway;
   if (grow) flags |= kGrown;
   const float most = std::min(static_cast<float>(nearest), by_.mostDepth);
-  for (std::size_t i = 1; i + 1 < at.size(); ++i)
+  for (std::size_t i = 1; i + 1 < size; ++i)
     emit({at[0], at[i], at[i + 1]}, *plane, most, triangle, flags, out);
 }
 

@@ -26,12 +26,15 @@ public:
 private:
   /// x * w, y * w and w, or in a parallel projection x, y and depth.
   using Corner = std::array<double, 3>;
-  using Polygon = std::vector<Corner>;
+  class Polygon;
   /// Depth in the picture: x * right + y * up + at.
   struct Plane {
     double right, up, at;
   };
+  bool isOutside(const std::array<Corner, 3>& corners) const;
   Polygon clipped(const std::array<Corner, 3>& corners) const;
+  template <class Work>
+  void forEachBorder(const Work& work) const;
   std::optional<Plane> planeOf(const std::array<Corner, 3>& corners) const;
   void emit(const std::array<std::array<double, 2>, 3>& at, const Plane& plane, float most, unsigned triangle,
             unsigned flags, std::vector<TriangleRecord>& out) const;

@@ -13,8 +13,6 @@ constexpr std::chrono::milliseconds kNap{2};
 constexpr std::uint64_t kManyVisits = 300, kVisitsAFrame = 30;
 /// Nodes that share a span; above this number, shares are sampled less often.
 constexpr std::uint64_t kManyShares = 500;
-/// On such walls the eyes are sampled this many times less often, in large parts.
-constexpr std::uint64_t kCrowdedEvery = 4;
 constexpr std::chrono::microseconds kDear{250};
 
 /// Spans that occur once for each visited node.
@@ -200,6 +198,11 @@ void FrameLog::ended(Span what) {
   if (light) t.beginLightly();
 }
 
+void FrameLog::visited(NodeRef node) {
+  track().nameLightly(node);
+  endedVisit();
+}
+
 void FrameLog::endedVisit() {
   SpanTrack& t = track();
   const NodeAccounts::Account account = accounts_ ? accounts_->of(t.namedLightly()) : NodeAccounts::kNone;
@@ -264,7 +267,7 @@ DrawSample FrameLog::drawSample(std::uint64_t frame, std::uint32_t wall) {
 }
 
 std::uint64_t FrameLog::sampleEvery(std::uint32_t wall) const {
-  return options_.sampleEvery * (crowded_.contains(wall) ? kCrowdedEvery : 1);
+  return options_.sampleEvery * (crowded_.contains(wall) ? options_.crowdedEvery : 1);
 }
 
 bool FrameLog::wantsAlone(std::span<const NodeRef> owners) const {

@@ -75,7 +75,8 @@ struct FrameLogOptions {
   bool shares = false;  ///< shares even without drawing
   bool whole = true;    ///< samples of drawing also measure the totals to be explained
   std::uint64_t sampleEvery = 16;
-  std::uint64_t from = 4;  ///< first frame for readers of costs: first use of data is slow
+  std::uint64_t crowdedEvery = 4;  ///< drawing of walls with very many nodes is sampled so much less often
+  std::uint64_t from = 4;          ///< first frame for readers of costs: first use of data is slow
 };
 
 class FrameLog final : public FrameProbe {
@@ -87,6 +88,8 @@ public:
   void began(Span what, NodeRef node) override;
   void ended(Span what) override;
   void counted(Count what, std::uint64_t amount, NodeRef node) override;
+  bool wantsSpansOfVisits() const override { return !light_.load(std::memory_order_relaxed); }
+  void visited(NodeRef node) override;
   bool wantsShares(std::uint64_t frame, std::uint32_t wall) const override;
   void shared(Span what, std::uint64_t frame, std::uint32_t wall, std::span<const NodeRef> among) override;
   DrawSample drawSample(std::uint64_t frame, std::uint32_t wall) override;
@@ -143,12 +146,12 @@ private:
   std::uint64_t number_;  ///< number of this log in the process: threads must not confuse the tracks of two
                           ///< logs
   std::atomic<std::uint64_t> appFrame_ = kNoFrame;
-  std::atomic<bool> light_ = false;  ///< App's frame is not recorded as a whole
+  std::atomic<bool> light_ = false;       ///< App's frame is not recorded as a whole
   std::atomic<bool> inParallel_ = false;  ///< nodes simulate in parallel, on App's thread and on others
-  std::uint64_t nextWhole_ = 0;      ///< used by App only
-  bool called_ = false;              ///< used by App only: the nodes to visit in this frame are known
-  std::uint64_t dearTicks_ = 0;      ///< kDear
-  std::uint64_t lightTicks_ = 0;     ///< cost of recording a visit in a light frame
+  std::uint64_t nextWhole_ = 0;           ///< used by App only
+  bool called_ = false;                   ///< used by App only: the nodes to visit in this frame are known
+  std::uint64_t dearTicks_ = 0;           ///< kDear
+  std::uint64_t lightTicks_ = 0;          ///< cost of recording a visit in a light frame
   double nanosecondsATick_ = 1;
   std::vector<std::uint64_t> shortTicks_;  ///< used by App only, by account: of visits that were not recorded
   RecordRing<ShortVisits> shortVisits_{kShortVisits};

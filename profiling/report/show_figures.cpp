@@ -8,7 +8,7 @@ namespace stadion {
 namespace {
 
 /// Walls with this many nodes are sampled less often (frame_log.cpp).
-constexpr std::uint64_t kCrowd = 500, kCrowdedEvery = 4;
+constexpr std::uint64_t kCrowd = 500;
 /// A scale above this is not due to the nodes.
 constexpr double kMostScaled = 1.5;
 
@@ -147,7 +147,7 @@ private:
     for (const auto& [eye, seen] : seen_) {
       const auto at = sampled_.find(eye);
       if (at == sampled_.end() || at->second == seen) continue;
-      const std::uint64_t every = log.sampleEvery * (seen > kCrowd ? kCrowdedEvery : 1);
+      const std::uint64_t every = log.sampleEvery * (seen > kCrowd ? log.crowdedEvery : 1);
       const double rounds = static_cast<double>(1 + played / every), margin = 1.25;
       const double all = rounds * static_cast<double>(seen) / static_cast<double>(at->second);
       most = std::max(most, every * (1 + static_cast<std::uint64_t>(margin * all)));

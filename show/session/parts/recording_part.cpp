@@ -13,6 +13,8 @@
 namespace stadion {
 namespace {
 
+constexpr std::uint64_t kCrowdedEvery = 32;
+
 /// Late frames, in words: each one for the journal, one in ten seconds for the terminal.
 std::function<void(const std::string&)> reportLate(RunJournal* journal, Reporter& reporter) {
   return
@@ -76,7 +78,10 @@ private:
     o.log.whole = s.record.profile;
     o.log.shares = true;
     const bool governed = !s.play.everyFrameCounts(player) || s.record.profile || o.trace;
-    o.log.samples = s.record.profile || (governed && hasDrawnBudgets(session_.player->scene()));
+    const bool hasBudgets = governed && hasDrawnBudgets(session_.player->scene());
+    o.log.samples = s.record.profile || hasBudgets;
+    // Budgets must be kept soon. Without them nothing is urgent, and the show is not to be slower.
+    if (!hasBudgets) o.log.crowdedEvery = kCrowdedEvery;
     if (governed) {
       o.govern = governorOf(s.play, player, walls, session_.reporter.sayFunction());
       o.govern->drawnElsewhere = session_.drawing && session_.drawing->setting().processes;
