@@ -22,6 +22,6 @@ for program in "$bin"/stadion*; do ldd "$program"; done 2>/dev/null | awk '$2 ==
     esac
   done
 cp -r "$root/scripts" "$root/walls" "$folder/share/stadion/"
-(cd "$root/assets" && find . -name generator -prune -o -type f -print | cpio -pdm --quiet "$folder/share/stadion/assets")
+tar -C "$root/assets" --exclude=./generator -cf - . | tar -C "$folder/share/stadion/assets" -xf -
 cp "$root/bench/gpu/run.sh" "$root/bench/gpu/report.py" "$folder/"
 du -sh "$folder"
