@@ -1,5 +1,7 @@
 #include "bench/overlap.h"
 
+#include "engine/maths/median.h"
+
 #include <algorithm>
 #include <thread>
 
@@ -44,11 +46,7 @@ double overlapPeriod(Mode mode, const OverlapTimes& times) {
   const std::atomic<bool> stop = false;
   FrameLoop loop(stages, options, stop);
   loop.run();
-  std::vector<double> periods = loop.times().period.values();
-  if (periods.empty()) return 0;
-  const auto middle = periods.begin() + static_cast<std::ptrdiff_t>(periods.size() / 2);
-  std::nth_element(periods.begin(), middle, periods.end());
-  return *middle;
+  return median(loop.times().period.values());
 }
 
 }  // namespace stadion

@@ -153,8 +153,7 @@ void addCheckCommand(CLI::App& app, int& code) {
   addPluginOption(*command, o->plugins, o->types);
   options.add("--json", o->json);
   command->footer("Sub-scenes and assets that a script names are checked with it. A script that a show loads "
-                  "is checked in "
-                  "that show.");
+                  "is checked in that show.");
   command->callback([o, &code] {
     if (o->scripts.empty() && o->models.empty()) {
       const char* wrong = "name a script, or a folder with --assets DIR";

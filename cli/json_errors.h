@@ -1,8 +1,8 @@
 #pragma once
 /// With --json, the standard output is JSON also if a command fails.
 ///
-/// Many places report errors, and all of them write to the standard error. So the standard streams are watched:
-/// if a command fails and has printed nothing, an object with the reason is printed.
+/// Many places report errors, and all of them write to the standard error. So the standard streams are
+/// watched: if a command fails and has printed nothing, an object with the reason is printed.
 ///
 /// Threads  any thread may write meanwhile. Created by the main thread, before there are others.
 
@@ -39,7 +39,8 @@ public:
   /// Does nothing unless `wanted`.
   explicit JsonErrors(bool wanted);
 
-  /// Prints {"error": REASON} if a command ended with a `code` of a failure and printed nothing. A signal is no failure.
+  /// Prints {"error": REASON} if a command ended with a `code` of a failure and printed nothing. A signal is
+  /// no failure.
   void finish(int code);
 
 private:

@@ -28,9 +28,9 @@
 namespace stadion {
 namespace {
 
-/// If the program was started with a standard stream closed, the next file that it opens would take its place,
-/// and messages would be written into that file. The streams are opened the wrong way round, so that their use
-/// is still an error.
+/// If the program was started with a standard stream closed, the next file that it opens would take its
+/// place, and messages would be written into that file. The streams are opened the wrong way round, so that
+/// their use is still an error.
 void occupyStandardStreams() {
   for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
     if (::fcntl(stream, F_GETFD) < 0 && errno == EBADF)
@@ -48,7 +48,8 @@ bool readerIsGone() {
   return ::poll(&output, 1, 0) == 1 && (output.revents & (POLLERR | POLLHUP)) != 0;
 }
 
-/// Returns the exit status of a command that ended with `code`, when all its output has been written or is lost.
+/// Returns the exit status of a command that ended with `code`, when all its output has been written or is
+/// lost.
 int finishOutput(int code) {
   const bool lostBefore = std::ferror(stdout) != 0;
   if (std::fflush(stdout) == 0 && !lostBefore) return code;

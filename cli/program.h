@@ -1,5 +1,6 @@
 #pragma once
-/// What the programs `stadion`, `stadion-measure` and `stadion-bench` have in common: streams, signals, errors and exit codes.
+/// What the programs `stadion`, `stadion-measure` and `stadion-bench` have in common: streams, signals,
+/// errors and exit codes.
 
 #include <functional>
 #include <optional>

@@ -48,8 +48,8 @@ TestResults readResults(const std::string& file) {
   return testResultsOf(std::string(std::istreambuf_iterator<char>(in), {}));
 }
 
-/// Many tests wait for a show's clock most of the time. More at once would take the processors from shows that
-/// play in real time.
+/// Many tests wait for a show's clock most of the time. More at once would take the processors from shows
+/// that play in real time.
 unsigned testsAtATime() {
   return std::max(2U, std::thread::hardware_concurrency() * 3 / 2);
 }

@@ -1,6 +1,6 @@
 #pragma once
-/// Folders for tests. A name with the process's number would not do: a test that was killed leaves its folder, and a
-/// later process may have the same number.
+/// Folders for tests. A name with the process's number would not do: a test that was killed leaves its
+/// folder, and a later process may have the same number.
 
 #include <cstdlib>
 #include <filesystem>

@@ -6,7 +6,7 @@
 
 namespace stadion::bench {
 
-/// metric| is at most this value. A metric that is missing or not a number is too great.
+/// |metric| is at most this value. A metric that is missing or not a number is too great.
 struct MetricLimit {
   std::string metric;
   double most = 0;

@@ -2,6 +2,7 @@
 
 #include "bench/flight/exact_table.h"
 #include "dynamics/flight/bias.h"
+#include "engine/maths/median.h"
 
 #include <algorithm>
 #include <chrono>
@@ -90,12 +91,6 @@ std::vector<TimedRun> everything() {
   add("ball", ball, factsOf(Thing::Ball).shipped, true);
   add("table", discus, tableOf(exactTable(Thing::Discus)), false);
   return all;
-}
-
-double median(std::vector<double> v) {
-  const auto middle = v.begin() + static_cast<std::ptrdiff_t>(v.size() / 2);
-  std::nth_element(v.begin(), middle, v.end());
-  return *middle;
 }
 
 double medianRatio(const TimedRun& a, const TimedRun& b) {

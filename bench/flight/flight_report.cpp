@@ -21,8 +21,8 @@ std::string ladderText(const Ladder& ladder) {
   for (const RungResult& r : ladder.rungs)
     text += fmt::format("  {:<9}{:<18}{:>9.3f}{:>9.3f}{:>10.2f}{:>10.3f}{:>9.3f}{:>9.3f}{:>10.2f}\n",
                         nameOf(r.thing), r.rung, 100 * r.reference.range, 100 * r.reference.landing,
-                        r.reference.attitude, 100 * r.held.range, 100 * r.held.landing,
-                        100 * r.held.landingMost, r.held.attitude);
+                        r.reference.attitude, 100 * r.heldOut.range, 100 * r.heldOut.landing,
+                        100 * r.heldOut.landingMost, r.heldOut.attitude);
   return text;
 }
 
@@ -65,7 +65,7 @@ std::string costText(const Costs& costs, const Ladder& ladder) {
     text += fmt::format("  {:<18}{:>8.1f}{:>12}{:>11}{:>10.2f}{:>12.2f}{:>12.3f}{:>11.2f}\n", s.rung, s.ns,
                         s.batch > 0 ? fmt::format("{:.1f}", s.batch) : "-",
                         s.batch > 0 ? fmt::format("{:.2f}", s.batchOfOne) : "-", s.ofFree, s.ofBias,
-                        error ? 100 * error->held.landing : NAN, error ? error->held.attitude : NAN);
+                        error ? 100 * error->heldOut.landing : NAN, error ? error->heldOut.attitude : NAN);
   }
   return text;
 }
@@ -126,7 +126,7 @@ nlohmann::ordered_json objectOf(const FlightReport& report) {
     json["ladder"].push_back({{"object", nameOf(r.thing)},
                               {"rung", r.rung},
                               {"reference", errorsJson(r.reference)},
-                              {"held_out", errorsJson(r.held)}});
+                              {"held_out", errorsJson(r.heldOut)}});
   for (const IntegratorResult& r : report.integrators.results)
     json["integrators"].push_back({{"object", nameOf(r.thing)},
                                    {"scheme", r.scheme},
@@ -143,8 +143,8 @@ nlohmann::ordered_json objectOf(const FlightReport& report) {
                              {"ns_in_batches_of_1000", s.batch > 0 ? Json(s.batch) : Json()},
                              {"of_force_free", s.ofFree},
                              {"of_paper_bias", s.ofBias},
-                             {"landing_rms", error ? numberOrNull(error->held.landing) : Json()},
-                             {"attitude_mean_deg", error ? numberOrNull(error->held.attitude) : Json()}});
+                             {"landing_rms", error ? numberOrNull(error->heldOut.landing) : Json()},
+                             {"attitude_mean_deg", error ? numberOrNull(error->heldOut.attitude) : Json()}});
   }
   const PublishedThrows& p = report.published;
   json["discus_optimum"] = {

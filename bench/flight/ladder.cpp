@@ -121,8 +121,8 @@ void addChecks(Ladder& ladder) {
     for (const RungResult& r : ladder.rungs) {
       if (r.thing != thing || r.rung != rung) continue;
       const std::string what = fmt::format("{} {} held out: ", factsOf(thing).name, rung);
-      ladder.checks.push_back({what + "landing", 100 * r.held.landing, 100 * landing, 0, "%"});
-      if (attitude > 0) ladder.checks.push_back({what + "attitude", r.held.attitude, attitude, 0, "deg"});
+      ladder.checks.push_back({what + "landing", 100 * r.heldOut.landing, 100 * landing, 0, "%"});
+      if (attitude > 0) ladder.checks.push_back({what + "attitude", r.heldOut.attitude, attitude, 0, "deg"});
     }
   };
   for (const std::string where : {"", " in a show"}) {
@@ -165,13 +165,14 @@ std::vector<Rung> rungsOf(Thing thing) {
   return rungs;
 }
 
-Ladder measureLadder(const std::vector<ReferenceFlight>& references, int held, const ShowFlights* show) {
+Ladder measureLadder(const std::vector<ReferenceFlight>& references, int heldOutFlights,
+                     const ShowFlights* show) {
   Ladder ladder;
   for (const Thing thing : {Thing::Javelin, Thing::Discus, Thing::Ball}) {
     std::vector<Pair> reference, others;
     for (const ReferenceFlight& r : references)
       if (r.release.thing == thing && r.smooth) reference.push_back({r.release, r.path});
-    for (const Throw& t : heldOut(thing, held)) others.push_back({t, flyExactly(t)});
+    for (const Throw& t : heldOut(thing, heldOutFlights)) others.push_back({t, flyExactly(t)});
     for (const Rung& rung : rungsOf(thing))
       ladder.rungs.push_back({thing, rung.name, errorsOn(reference, rung), errorsOn(others, rung)});
     for (const ShowRung& rung : show ? show->rungsOf(thing) : std::vector<ShowRung>{})

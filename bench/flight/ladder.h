@@ -24,7 +24,7 @@ struct SetErrors {
 struct RungResult {
   Thing thing = Thing::Javelin;
   std::string rung;
-  SetErrors reference, held;
+  SetErrors reference, heldOut;
 };
 
 struct Ladder {
@@ -32,7 +32,7 @@ struct Ladder {
   Checks checks;
 };
 /// `show`: also throws by scripts; null: does not.
-Ladder measureLadder(const std::vector<ReferenceFlight>& references, int held,
+Ladder measureLadder(const std::vector<ReferenceFlight>& references, int heldOutFlights,
                      const ShowFlights* show = nullptr);
 
 }  // namespace stadion::bench

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # bench/gpu/pack.sh [FOLDER]: copies the release build with its libraries, shows and assets into FOLDER (default: build/gpu),
-# about 60 MiB. The folder runs on an x86-64 machine with a graphics card that has neither packages nor a network: copy it
-# there and start FOLDER/run.sh. OpenGL and EGL are not copied: they belong to the driver of the card.
+# and packs FOLDER.tar.gz of it. It runs on an x86-64 machine with a graphics card that has neither packages nor a network:
+# copy the archive there, unpack it and start run.sh. OpenGL and EGL are not copied: they belong to the driver of the card.
 set -euo pipefail
 root=$(dirname "$(dirname "$(dirname "$(readlink -f "$0")")")")
 folder=${1:-$root/build/gpu}
@@ -24,4 +24,5 @@ for program in "$bin"/stadion*; do ldd "$program"; done 2>/dev/null | awk '$2 ==
 cp -r "$root/scripts" "$root/walls" "$folder/share/stadion/"
 tar -C "$root/assets" --exclude=./generator -cf - . | tar -C "$folder/share/stadion/assets" -xf -
 cp "$root/bench/gpu/run.sh" "$root/bench/gpu/report.py" "$folder/"
-du -sh "$folder"
+tar -C "$(dirname "$folder")" -czf "$folder.tar.gz" "$(basename "$folder")"
+du -sh "$folder" "$folder.tar.gz"

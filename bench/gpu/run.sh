@@ -54,7 +54,7 @@ for scene in a b c; do
   measure gpu-walls-$scene 25 "$bench" bench walls --one --scene $scene --class OPEN $gpu --width "${size%x*}" --height "${size#*x}" \
     --frames $walls_frames --json
 done
-measure gpu-looks 60 "$bench" bench looks --scenes kick-front,olympia-front --rungs 4 --frames 1 --rounds 1 --no-perception --gl "$gl" --json
+measure gpu-looks 60 "$bench" bench looks --scenes kick,olympia-2,a --rungs 4,opengl --frames 1 --rounds 1 --no-perception --gl "$gl" --size 800x600 --json
 
 # The processors.
 for threads in 1 2 4 8 16; do

@@ -1,8 +1,8 @@
 #pragma once
 /// How far a picture's details lie from their places to the left or right, and what that does to depth.
 ///
-/// Method     The picture is divided into blocks. Each is compared with the reference at whole-pixel shifts, then
-///            a least-squares fit on the brightness finds the fraction. Blocks without contrast are left out.
+/// Method     The picture is divided into blocks. Each is compared with the reference at whole-pixel shifts,
+///            then a least-squares fit on the brightness finds the fraction. Blocks without contrast are left out.
 /// Units      pixels, positive to the right.
 /// Threads    plain functions.
 
@@ -36,8 +36,9 @@ private:
   std::vector<float> values_;
 };
 
-/// How far the block of the picture lies to the right of the reference's, -2 to 2. Nothing if the reference has too
-/// little contrast there, or the block lies too near to the edge: so all pictures are judged by the same blocks.
+/// How far the block of the picture lies to the right of the reference's, -2 to 2. Nothing if the reference
+/// has too little contrast there, or the block lies too near to the edge: so all pictures are judged by the
+/// same blocks.
 std::optional<double> shiftOf(const PictureBlock& block, const Brightness& picture,
                               const Brightness& reference);
 
@@ -53,8 +54,8 @@ struct DisparityErrors {
   double p95 = 0;          ///< 95 % are at most this
   std::size_t blocks = 0;  ///< number of blocks
 };
-/// For each block of the left eye the reference tells where the right eye sees it. Then the disparity is wrong
-/// by the shift of the block in the right eye less its shift in the left one.
+/// For each block of the left eye the reference tells where the right eye sees it. Then the disparity is
+/// wrong by the shift of the block in the right eye less its shift in the left one.
 DisparityErrors disparityErrors(const EyePair& pictures, const EyePair& references);
 
 }  // namespace stadion::bench

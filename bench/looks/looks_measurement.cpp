@@ -4,6 +4,7 @@
 #include "bench/looks/perceptual_programs.h"
 #include "bench/looks/picture_errors.h"
 #include "bench/looks/side_by_side.h"
+#include "engine/maths/median.h"
 
 #include <fmt/format.h>
 
@@ -13,12 +14,6 @@ namespace stadion::bench {
 namespace {
 
 constexpr int kJustSeen = 8;  ///< difference of a channel, of 255
-
-double medianOf(std::vector<double> values) {
-  std::ranges::sort(values);
-  const std::size_t half = values.size() / 2;
-  return values.size() % 2 == 1 ? values[half] : (values[half - 1] + values[half]) / 2;
-}
 
 void addErrors(const std::vector<Picture>& views, const std::vector<Picture>& references, LooksRow& row) {
   PictureErrors errors;
@@ -68,7 +63,7 @@ Result<std::vector<DrawnViews>> LooksMeasurement::drawRounds(const DrawList& lis
       if (round > 0) times[r].push_back(drawn[r].ms);
     }
   for (std::size_t r = 0; r < rungs_.size(); ++r) {
-    rows[r].ms = medianOf(times[r]);
+    rows[r].ms = median(times[r]);
     rows[r].leastMs = *std::ranges::min_element(times[r]);
   }
   return drawn;

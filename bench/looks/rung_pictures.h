@@ -1,8 +1,8 @@
 #pragma once
 /// Draws a list by any rung, and as the reference: 64 samples a pixel, averaged in linear light.
 ///
-/// Cost       Processor time: of this thread for the CPU renderer, which has no other here; of the process for
-///            OpenGL, whose rasteriser has threads of its own.
+/// Cost       Processor time: of this thread for the CPU renderer, which has no other here; of the process
+///            for OpenGL, whose rasteriser has threads of its own.
 /// Ownership  the mesh store must outlive it.
 /// Threads    the thread that made it.
 /// Errors     as of a Renderer.

@@ -15,8 +15,8 @@ struct LabelledPicture {
   Picture picture;
 };
 
-/// The part of the pictures where they differ most from the first one, which is the reference: three in a row, with
-/// labels. Expects at least one picture, and all of one size.
+/// The part of the pictures where they differ most from the first one, which is the reference: three in a
+/// row, with labels. Expects at least one picture, and all of one size.
 Picture sideBySide(const std::vector<LabelledPicture>& pictures);
 
 }  // namespace stadion::bench

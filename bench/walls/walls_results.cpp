@@ -1,16 +1,11 @@
 #include "bench/walls/walls_results.h"
 
+#include "engine/maths/median.h"
+
 #include <algorithm>
 
 namespace stadion::bench {
 namespace {
-
-std::optional<double> medianOf(std::vector<double> values) {
-  if (values.empty()) return std::nullopt;
-  std::ranges::sort(values);
-  const std::size_t half = values.size() / 2;
-  return values.size() % 2 ? values[half] : (values[half - 1] + values[half]) / 2;
-}
 
 std::optional<double> number(const nlohmann::json& row, const std::string& field) {
   const auto found = row.find(field);
@@ -40,7 +35,8 @@ std::optional<double> WallsResults::median(const std::string& name, const std::s
   std::vector<double> values;
   for (const nlohmann::json& row : rowsOf(name))
     if (const auto n = number(row, field)) values.push_back(*n);
-  return medianOf(std::move(values));
+  if (values.empty()) return std::nullopt;
+  return stadion::median(std::move(values));
 }
 
 std::optional<double> WallsResults::medianRatio(const std::string& name, const std::string& field,
@@ -50,7 +46,8 @@ std::optional<double> WallsResults::medianRatio(const std::string& name, const s
     const auto n = number(row, field), d = number(row, to);
     if (n && d && *d > 0) values.push_back(*n / *d);
   }
-  return medianOf(std::move(values));
+  if (values.empty()) return std::nullopt;
+  return stadion::median(std::move(values));
 }
 
 }  // namespace stadion::bench

@@ -5,6 +5,7 @@
 #include "cli/options/renderer_options.h"
 #include "cli/terminal.h"
 #include "engine/base/installed_files.h"
+#include "engine/maths/median.h"
 #include "profiling/plan/forecast.h"
 #include "show/base/stop_signal.h"
 #include "show/measure/plan_run.h"
@@ -46,17 +47,10 @@ struct Combination {
   double middleOfRounds(double Round::*what) const;
 };
 
-double middleOf(std::vector<double> values) {
-  if (values.empty()) return 0;
-  std::ranges::sort(values);
-  const std::size_t half = values.size() / 2;
-  return values.size() % 2 == 1 ? values[half] : (values[half - 1] + values[half]) / 2;
-}
-
 double Combination::middleOfRounds(double Round::*what) const {
   std::vector<double> values;
   for (const Round& r : rounds) values.push_back(r.*what);
-  return middleOf(std::move(values));
+  return median(std::move(values));
 }
 
 class Validation {
@@ -135,7 +129,7 @@ private:
       std::vector<double> errors;
       for (const Round& r : c.rounds) errors.push_back(r.predicted / r.measured - 1);
       const auto [least, most] = std::ranges::minmax(errors);
-      const double error = middleOf(std::move(errors));
+      const double error = median(std::move(errors));
       const bool ok = std::abs(error) <= o_.within / 100;
       met = met && ok;
       const char* mode = c.mode == Mode::Pipelined ? "pipelined" : "sequential";

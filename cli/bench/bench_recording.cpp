@@ -8,6 +8,7 @@
 #include "cli/terminal.h"
 #include "engine/base/atomic_file.h"
 #include "engine/base/installed_files.h"
+#include "engine/maths/median.h"
 #include "show/base/stop_signal.h"
 #include "show/base/temporary_folder.h"
 #include "show/player/player.h"
@@ -129,13 +130,6 @@ private:
   Failure failure_;
 };
 
-double medianOfRounds(std::vector<double> values) {
-  if (values.empty()) return 0;
-  std::ranges::sort(values);
-  const std::size_t half = values.size() / 2;
-  return values.size() % 2 == 1 ? values[half] : (values[half - 1] + values[half]) / 2;
-}
-
 /// The middle frames alone would leave out those that are sampled: of every kBlock frames the sum is taken,
 /// and of these the middle ratio.
 double ratioOf(const std::vector<double>& with, const std::vector<double>& without) {
@@ -149,7 +143,7 @@ double ratioOf(const std::vector<double>& with, const std::vector<double>& witho
     }
     ratios.push_back(a / b);
   }
-  return medianOfRounds(std::move(ratios));
+  return median(std::move(ratios));
 }
 
 struct RoundCost {
@@ -173,8 +167,7 @@ std::optional<RoundCost> measureRound(const ShowOptions& options, ShowRenderer& 
       return std::nullopt;
     }
   if (shows[recorded]->lost() > 0) findings.warning({}, "spans were lost");
-  return RoundCost{ratioOf(turns.took(recorded), turns.took(1 - recorded)),
-                   medianOfRounds(turns.took(1 - recorded))};
+  return RoundCost{ratioOf(turns.took(recorded), turns.took(1 - recorded)), median(turns.took(1 - recorded))};
 }
 
 /// How much more a frame executes when it is recorded; nothing, with the findings, if that cannot be counted.
@@ -222,7 +215,7 @@ int benchRecording(const BenchRecordingOptions& o) {
     ms = measured->ms;
     std::fprintf(stderr, "round %zu of %zu: %+.2f %%\n", round + 1, o.rounds, 100 * (measured->ratio - 1));
   }
-  const double more = medianOfRounds(ratios) - 1;
+  const double more = median(ratios) - 1;
   std::optional<double> executed;
   if (!o.noInstructions && !(executed = moreInstructions(show, o.renderer, folder, findings)))
     return exitWith(findings, kBadInput);

@@ -1,6 +1,6 @@
 #pragma once
-/// The scenes of `stadion bench looks`: moments of shows and of the scenes of `stadion bench walls`, and the draw lists
-/// of their walls.
+/// The scenes of `stadion bench looks`: moments of shows and of the scenes of `stadion bench walls`, and the
+/// draw lists of their walls.
 ///
 /// Threads  the thread that calls; the show's own threads only wait.
 

@@ -8,14 +8,15 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <cassert>
+#include <stdexcept>
+#include <string>
 
 namespace stadion {
 namespace {
 
 const OptionRow& rowOf(const char* name) {
   const OptionRow* row = findOption(name);
-  assert(row && "the option table has a row for each option");
+  if (!row) throw std::logic_error(std::string("option_table.cpp has no row for ") + name);
   return *row;
 }
 

@@ -50,8 +50,8 @@ public:
   explicit CommandOptions(CLI::App& command) : command_(command) {}
 
   /// The variable's content is the default; help shows it if the grammar allows it. Defined for bool,
-  /// std::string, int, unsigned, std::uint64_t, double, std::optional<double>, Mode, Look, and vectors of strings and
-  /// numbers.
+  /// std::string, int, unsigned, std::uint64_t, double, std::optional<double>, Mode, Look, and vectors of
+  /// strings and numbers.
   /// A bool is a flag, or the word "on" or "off". Only a vector takes more than one value.
   template <class Variable>
   BoundOption add(const char* name, Variable& variable, const OptionLimits& limits = {});

@@ -281,8 +281,8 @@ struct TypedValue {
   std::string option, value;
 };
 
-/// Returns nothing if the last word is no value of an option. bash makes words of "--pace=f" at the sign: "--pace", "=",
-/// "f".
+/// Returns nothing if the last word is no value of an option. bash makes words of "--pace=f" at the sign:
+/// "--pace", "=", "f".
 std::optional<TypedValue> typedValue(std::span<const std::string> words) {
   const auto fromEnd = [&](std::size_t i) {
     return i < words.size() ? words[words.size() - 1 - i] : std::string();

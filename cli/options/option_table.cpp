@@ -362,8 +362,8 @@ std::vector<std::string_view> partsOf(std::string_view text, std::string_view se
   return parts;
 }
 
-/// The explanation of the accepted words alone: of "pair, off: so" with "off" it is "off: so". Empty if all its words
-/// are refused. A part of the text that explains no words stays.
+/// The explanation of the accepted words alone: of "pair, off: so" with "off" it is "off: so". Empty if all
+/// its words are refused. A part of the text that explains no words stays.
 std::string explanationOf(std::string_view part, std::string_view words, std::string_view accepted) {
   const std::size_t colon = part.find(": ");
   if (colon == part.npos) return std::string(part);

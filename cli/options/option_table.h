@@ -1,6 +1,7 @@
 #pragma once
-/// All options of all commands, of `stadion` and `stadion bench` alike. A name has one grammar and one help text,
-/// whichever command has it. Help, man pages, shell completion and docs/options.md are made from this table.
+/// All options of all commands, of `stadion` and `stadion bench` alike. A name has one grammar and one help
+/// text, whichever command has it. Help, man pages, shell completion and docs/options.md are made from this
+/// table.
 
 #include "cli/options/value_grammar.h"
 
@@ -44,7 +45,8 @@ struct OptionRow {
 std::span<const OptionRow> optionTable();
 /// Null if there is no such row.
 const OptionRow* findOption(std::string_view name);
-/// Returns the message about a flag with a value, such as --json=x, among the words of a command line, if there is one.
+/// Returns the message about a flag with a value, such as --json=x, among the words of a command line, if
+/// there is one.
 std::optional<std::string> flagWithValueIn(std::span<const std::string> words);
 /// The heading in help and documents. Empty for internal options.
 std::string_view headingOf(OptionGroup group);

@@ -39,7 +39,8 @@ constexpr RetiredSpelling kRetired[] = {
     {"bench walls", "--pictures", "", "--out DIR"},
 };
 
-/// A bare word may name a node: no ending, no folder before it. (A folder of that name is a mistake of another kind.)
+/// A bare word may name a node: no ending, no folder before it. (A folder of that name is a mistake of
+/// another kind.)
 bool mayNameNode(std::string_view value) {
   std::error_code none;
   return !value.empty() && value.find_first_of("./") == value.npos &&

@@ -1,7 +1,8 @@
 #pragma once
 /// The options that say which show is played, on which walls and for how long: the same in every subcommand.
 ///
-/// Ownership  the options' values are written into `o`, which must stay where it is until the command line has been read.
+/// Ownership  the options' values are written into `o`, which must stay where it is until the command line
+///            has been read.
 
 #include "show/player/player.h"
 

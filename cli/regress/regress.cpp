@@ -126,8 +126,8 @@ regression::SuiteResult emptyResult(const RegressOptions& o, const RegressRefere
   return {o.suite, o.program, reference, nowUtc(), {}};
 }
 
-/// Plays the cases that the folder does not have yet, until `stop` is true. Returns false if the folder cannot
-/// keep a result.
+/// Plays the cases that the folder does not have yet, until `stop` is true. Returns false if the folder
+/// cannot keep a result.
 bool playSuite(const RegressOptions& o, const regression::Suite& suite, const RegressReference& with,
                RegressFolder& folder, const std::atomic<bool>& stop, regression::Baseline* updated,
                regression::SuiteResult& result) {

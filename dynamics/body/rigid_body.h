@@ -195,12 +195,12 @@ struct BodyContact {
 /// The part of a body that a hand holds or has just released.
 struct BodyGrip {
   GuidedMotion held;
-  ArcTrack nextArcs;              ///< arcs in the coming part of a frame, if they are known
-  std::vector<FieldId> carried;   ///< fields in the same hand
-  Vec3 wound = Vec3::Zero();      ///< velocity from the pushes of these fields, added up, in N [m/s]
-  Instant woundTo;                ///< time up to which `wound` is added up
-  Vec3 freePlace = Vec3::Zero();  ///< last middle of `bound` outside of all colliders
-  bool letGo = false;             ///< a hand has released the body at this moment
+  ArcTrack nextArcs;                ///< arcs in the coming part of a frame, if they are known
+  std::vector<FieldId> carried;     ///< fields in the same hand
+  Vec3 accumulated = Vec3::Zero();  ///< velocity from the pushes of these fields, added up, in N [m/s]
+  Instant accumulatedTo;            ///< time up to which `accumulated` is added up
+  Vec3 freePlace = Vec3::Zero();    ///< last middle of `bound` outside of all colliders
+  bool letGo = false;               ///< a hand has released the body at this moment
   std::vector<PenetrationRecovery> recoveries;  ///< ways out of the colliders in which the body was released
 };
 
@@ -239,7 +239,6 @@ struct RigidBody : RigidMotion, BodyMatter {
   bool movable() const {
     return mode != BodyMode::Held && mode != BodyMode::Quarantined && mode != BodyMode::Stuck;
   }
-  bool sampled() const { return mode != BodyMode::Held; }
 
   double age(double tau) const { return age0 + tau; }
   double spinAge(double tau) const { return age0 + tau - spinStart; }

@@ -213,8 +213,8 @@ double closingRate(const Lower& f) {
   return slope + f.acceleration * s;
 }
 
-/// Finds the contact point of a patch that touches all at once: its middle if it comes flat on, else the point
-/// that comes fastest.
+/// Finds the contact point of a patch that touches all at once: its middle if it comes flat on, else the
+/// point that comes fastest.
 bool contactPoint(const Mover& a, const Mover* b, const std::vector<ManifoldPoint>& patch, double gap,
                   Vec3& x) {
   const auto rateAt = [&](const ManifoldPoint& p) {

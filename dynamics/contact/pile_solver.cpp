@@ -50,7 +50,7 @@ private:
   double response(std::uint32_t body, const Vec3& arm, const Vec3& along) const;
   double normalVelocity(const PileContact& c) const;
   void prepare(PileContact& c) const;
-  void give(const PileContact& c, double pressed, const Vec3& held);
+  void give(const PileContact& c, double pressed, const Vec3& tangential);
   double relax(PileContact& c);
   double sweepAll(bool forward);
   double sweepAvx2(bool forward);
@@ -58,14 +58,14 @@ private:
   double meanSquare() const;
   int sweepsFor(std::size_t points) const;
   void converge(int most);
-  void go(PileContact& c, double pressed, const Vec3& held);
+  void go(PileContact& c, double pressed, const Vec3& tangential);
   void jump();
   void shift();
   void push();
 
   struct Guess {
     double pressed;
-    Vec3 held;
+    Vec3 tangential;
   };
   Pile& pile_;
   PileEnergy energy_;
@@ -106,9 +106,9 @@ void PileSolver::prepare(PileContact& c) const {
   c.tangentMass = kt > 0 ? 1 / kt : 0;
 }
 
-void PileSolver::give(const PileContact& c, double pressed, const Vec3& held) {
+void PileSolver::give(const PileContact& c, double pressed, const Vec3& tangential) {
   PileBody &a = pile_.bodies[c.a], &b = pile_.bodies[c.b];
-  const Vec3 push = pressed * c.n, impulse = push + held;
+  const Vec3 push = pressed * c.n, impulse = push + tangential;
   a.v += a.inverseMass * impulse;
   b.v -= b.inverseMass * impulse;
   if (c.arms < 0) {
@@ -124,8 +124,8 @@ void PileSolver::give(const PileContact& c, double pressed, const Vec3& held) {
     else if (body.inverseMass > 0)
       body.omega += pile_.inverseInertia[i] * moment;
   };
-  turn(a, c.a, arms.a.cross(push) + arms.holdA.cross(held));
-  turn(b, c.b, -arms.b.cross(push) - arms.holdB.cross(held));
+  turn(a, c.a, arms.a.cross(push) + arms.holdA.cross(tangential));
+  turn(b, c.b, -arms.b.cross(push) - arms.holdB.cross(tangential));
 }
 
 /// One pass over a point; returns the greatest change of a velocity, squared.
@@ -136,13 +136,13 @@ double PileSolver::relax(PileContact& c) {
   const double pressed = std::max(0.0, c.pressed + (c.floor - u.dot(c.n)) * c.normalMass);
   if (pressed == 0 && c.pressed == 0) return 0;
   const Vec3 slip = apart + a.omega.cross(arms.holdA) - b.omega.cross(arms.holdB);
-  Vec3 held = c.held - c.tangentMass * (slip - slip.dot(c.n) * c.n);
-  const double most = c.friction * pressed, size = held.squaredNorm();
-  if (size > most * most) held *= most / std::sqrt(size);
+  Vec3 tangential = c.tangential - c.tangentMass * (slip - slip.dot(c.n) * c.n);
+  const double most = c.friction * pressed, size = tangential.squaredNorm();
+  if (size > most * most) tangential *= most / std::sqrt(size);
   const double more = pressed - c.pressed;
-  const Vec3 hold = held - c.held, step = more * c.n + hold;
+  const Vec3 hold = tangential - c.tangential, step = more * c.n + hold;
   c.pressed = pressed;
-  c.held = held;
+  c.tangential = tangential;
   give(c, more, hold);
   const double mass = std::max(a.inverseMass, b.inverseMass);
   return step.squaredNorm() * mass * mass;
@@ -161,17 +161,17 @@ double PileSolver::relax(PileContact& c) {
   if (pressed == 0 && c.pressed == 0) return 0;
   load(a.omega, wa);
   load(b.omega, wb);
-  load(c.held, before);
+  load(c.tangential, before);
   const Double4 rolls = c.leverA * wa + c.leverB * wb;
   Double4 across, turn;
   cross(rolls, n, across);
-  Double4 held = before - c.tangentMass * (apart - un * n - across);
-  const double most = c.friction * pressed, size = dot(held, held);
-  if (size > most * most) held *= most / std::sqrt(size);
-  const Double4 step = kThree * ((pressed - c.pressed) * n + (held - before));
-  held[3] = c.floor;
+  Double4 tangential = before - c.tangentMass * (apart - un * n - across);
+  const double most = c.friction * pressed, size = dot(tangential, tangential);
+  if (size > most * most) tangential *= most / std::sqrt(size);
+  const Double4 step = kThree * ((pressed - c.pressed) * n + (tangential - before));
+  tangential[3] = c.floor;
   c.pressed = pressed;
-  store(held, c.held);
+  store(tangential, c.tangential);
   cross(n, step, turn);
   store(va + a.inverseMass * step, a.v);
   store(vb - b.inverseMass * step, b.v);
@@ -204,10 +204,10 @@ int PileSolver::sweepsFor(std::size_t points) const {
 }
 
 /// Changes what a contact point pushes.
-void PileSolver::go(PileContact& c, double pressed, const Vec3& held) {
-  give(c, pressed, held);
+void PileSolver::go(PileContact& c, double pressed, const Vec3& tangential) {
+  give(c, pressed, tangential);
   c.pressed += pressed;
-  c.held += held;
+  c.tangential += tangential;
 }
 
 /// Small heaps can afford more sweeps, and need them where they are tall. What a sweep did is a gradient: the
@@ -219,13 +219,13 @@ void PileSolver::converge(int most) {
   direction_.assign(n, {0, Vec3::Zero()});
   double last = 0;
   for (int i = 0; i < most; ++i) {
-    for (std::size_t k = 0; k < n; ++k) before_[k] = {all[k].pressed, all[k].held};
+    for (std::size_t k = 0; k < n; ++k) before_[k] = {all[k].pressed, all[k].tangential};
     if (sweep(i % 2 == 0) < kConverged * kConverged || i + 1 == most) return;
     double square = 0;
     for (std::size_t k = 0; k < n; ++k) {
       const double dp = all[k].pressed - before_[k].pressed;
-      square +=
-          (dp * dp + (all[k].held - before_[k].held).squaredNorm()) / std::max(all[k].normalMass, 1e-300);
+      square += (dp * dp + (all[k].tangential - before_[k].tangential).squaredNorm()) /
+                std::max(all[k].normalMass, 1e-300);
     }
     const double beta = last > 0 ? square / last : 2;
     last = square;
@@ -234,10 +234,10 @@ void PileSolver::converge(int most) {
       continue;
     }
     for (std::size_t k = 0; k < n; ++k) {
-      const Guess step{beta * direction_[k].pressed, beta * direction_[k].held};
+      const Guess step{beta * direction_[k].pressed, beta * direction_[k].tangential};
       direction_[k] = {step.pressed + all[k].pressed - before_[k].pressed,
-                       step.held + all[k].held - before_[k].held};
-      if (step.pressed != 0 || !step.held.isZero(0)) go(all[k], step.pressed, step.held);
+                       step.tangential + all[k].tangential - before_[k].tangential};
+      if (step.pressed != 0 || !step.tangential.isZero(0)) go(all[k], step.pressed, step.tangential);
     }
   }
 }
@@ -257,7 +257,7 @@ void PileSolver::jump() {
     c.floor = closing > kBounceSpeed && closing > gap ? c.restitution * closing : -gap;
     any = any || closing > gap + kSettled;
     c.pressed = 0;
-    c.held.setZero();
+    c.tangential.setZero();
   }
   if (!any) return;
   const std::vector<PileBody> before = pile_.bodies;
@@ -296,13 +296,13 @@ void PileSolver::push() {
   for (std::size_t k = 0; k < all.size(); ++k) {
     PileContact& c = all[k];
     c.pressed = guess_[k].pressed;
-    c.held = guess_[k].held;
+    c.tangential = guess_[k].tangential;
     c.floor = std::min(0.0, -2 * std::max(c.gap, 0.0) / pile_.h - normalVelocity(c));
   }
   pile_.start = pile_.bodies;
   for (std::size_t i = 0; i < pile_.members; ++i) pile_.bodies[i].v += pile_.h * pile_.pull[i];
   for (const PileContact& c : all)
-    if (c.pressed > 0) give(c, c.pressed, c.held);
+    if (c.pressed > 0) give(c, c.pressed, c.tangential);
   const bool still = meanSquare() < kSlow * kSlow;
   const int sweeps = still ? kStillSweeps : kSweeps;
   const int affordable = sweepsFor(still ? kPileSwept : kPileSwept / 4);
@@ -325,7 +325,7 @@ void PileSolver::solve() {
   guess_.reserve(pile_.contacts.size());
   for (PileContact& c : pile_.contacts) {
     prepare(c);
-    guess_.push_back({c.pressed, c.held});
+    guess_.push_back({c.pressed, c.tangential});
   }
   jump();
   shift();

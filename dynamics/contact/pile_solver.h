@@ -30,12 +30,12 @@ struct PileBody {
 };
 
 struct PileContact {
-  std::uint32_t a = 0, b = 0;     ///< indices of bodies
-  Vec3 n = Vec3::UnitZ();         ///< from b to a
-  double pressed = 0;             ///< impulse on a along n [N s]
-  Vec3 held = Vec3::Zero();       ///< impulse on a across n [N s]
-  double floor = 0;               ///< least normal velocity [m/s]
-  double leverA = 0, leverB = 0;  ///< round: how far the centres are from the point, along n [m]
+  std::uint32_t a = 0, b = 0;      ///< indices of bodies
+  Vec3 n = Vec3::UnitZ();          ///< from b to a
+  double pressed = 0;              ///< impulse on a along n [N s]
+  Vec3 tangential = Vec3::Zero();  ///< impulse on a across n [N s]
+  double floor = 0;                ///< least normal velocity [m/s]
+  double leverA = 0, leverB = 0;   ///< round: how far the centres are from the point, along n [m]
   double friction = 0, restitution = 0;
   double rolling = 0;  ///< moment that resists a's spin, per force along n [m]
   double gap = 0;      ///< [m]

@@ -320,10 +320,10 @@ void CollisionNode::actAt(Nanoseconds time, FrameContext* frame) {
 
 void CollisionNode::step(FrameContext* frame) {
   // Nothing moved while the node was not visited: the world only has to know that time has passed.
-  const Nanoseconds begin = std::max(advancedTo_, span_.from);
+  const Nanoseconds begin = std::max(advancedTo_, step_.from);
   bool continues = false;
   const auto pass = [&](Nanoseconds from, Nanoseconds to) {
-    const bool runs = on_ && !(span_.rested && to <= span_.from);
+    const bool runs = on_ && !(step_.rested && to <= step_.from);
     if (runs)
       world_.advance(from, to, continues);
     else
@@ -331,8 +331,8 @@ void CollisionNode::step(FrameContext* frame) {
     continues = true;
   };
   if (advancedTo_ < begin) pass(advancedTo_, begin);
-  advancedTo_ = std::max(begin, span_.to);
-  std::vector<Nanoseconds>& cuts = span_.cuts;
+  advancedTo_ = std::max(begin, step_.to);
+  std::vector<Nanoseconds>& cuts = step_.cuts;
   std::erase_if(cuts, [&](Nanoseconds t) { return t <= begin || t > advancedTo_; });
   cuts.push_back(advancedTo_);
   std::ranges::sort(cuts);
@@ -351,20 +351,20 @@ void CollisionNode::step(FrameContext* frame) {
     if (to > begin) actAt(to, frame);
     from = to;
   }
-  span_.done = true;
+  step_.done = true;
 }
 
 void CollisionNode::simulate(FrameContext& frame) {
   findParts(frame.scene);
-  span_ = {
+  step_ = {
       frame.start(), std::min(frame.now.time, frame.scene.tree().endOf(self().load)), {}, false, frame.rested,
       false};
-  span_.outside = foresee(frame, span_.cuts);
+  step_.outside = foresee(frame, step_.cuts);
   if (needsScene(frame.now.time)) step(&frame);
 }
 
 void CollisionNode::simulateApart() {
-  if (!span_.done) step(nullptr);
+  if (!step_.done) step(nullptr);
 }
 
 void CollisionNode::afterSimulation(FrameContext& frame) {
@@ -374,7 +374,7 @@ void CollisionNode::afterSimulation(FrameContext& frame) {
   if (frame.scene.impacts().wanted()) noteImpacts(frame.scene);
   std::erase_if(comingOrGoing_,
                 [](const Part* p) { return !p->next.valid() && p->leaveAt == SceneTree::kNever; });
-  awake_ = afterStep(frame) || span_.outside;
+  awake_ = afterStep(frame) || step_.outside;
 }
 
 NodeRef CollisionNode::nodeOf(ContactSide key) const {

@@ -37,7 +37,7 @@ public:
                 std::shared_ptr<ShapeStore> shapes);
 
   /// A node that moves nothing is visited after all bodies have been moved.
-  Rank rank() const override { return kind() == "collision" ? Rank::Contact : Rank::Dynamics; }
+  Rank rank() const override { return Rank::Contact; }
   bool busy() const override { return switch_.on() && awake_; }
   void hash(StateHash& h) const override;
   void state(StateFields& f) override;
@@ -175,14 +175,14 @@ private:
   bool awake_ = true;
   Nanoseconds advancedTo_ = 0;
   /// The parameters of the present frame's step.
-  struct Span {
+  struct FrameStep {
     Nanoseconds from = 0, to = 0;
     std::vector<Nanoseconds> cuts;
     bool outside = false;  ///< something has changed outside
     bool rested = false;   ///< the node rested until `from`
     bool done = false;
   };
-  Span span_;
+  FrameStep step_;
 };
 
 /// Returns the attributes in the declaration of a collision or dynamics node.

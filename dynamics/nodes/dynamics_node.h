@@ -25,6 +25,7 @@ public:
                std::shared_ptr<ShapeStore> shapes)
       : CollisionNode(kDynamicsType, self, std::move(name), std::move(attributes), std::move(shapes)) {}
 
+  Rank rank() const override { return Rank::Dynamics; }
   void hash(StateHash& h) const override;
   void state(StateFields& f) override;
   bool resume(Scene& scene) override;

@@ -64,7 +64,7 @@ void FieldCommands::apply(double tau) {
 void FieldCommands::execute(const Command& c, double tau) {
   FieldEntry* field = fields_.find(c.field);
   RigidBody* b = objects_.body(c.body);
-  held_.windUp(tau);
+  held_.accumulate(tau);
   switch (c.kind) {
   case Command::Kind::Switch:
   case Command::Kind::Expire:
@@ -73,8 +73,8 @@ void FieldCommands::execute(const Command& c, double tau) {
     if (c.on) {
       ++field->activation;
       if (field->field.duration > 0)
-        insert({c.when + field->field.duration, 0, Command::Kind::Expire, c.field, 0, false,
-                field->activation});
+        insert(
+            {c.when + field->field.duration, 0, Command::Kind::Expire, c.field, 0, false, field->activation});
     }
     if (field->on == c.on) return;
     field->on = c.on;

@@ -16,7 +16,7 @@ void HeldBodies::add(RigidBody& b) {
   b.grip.nextArcs.clear();
   b.grip.held.set(b.pose, b.pose, time_.now(), 0);
   b.grip.carried.clear();
-  b.grip.wound.setZero();
+  b.grip.accumulated.setZero();
 }
 
 void HeldBodies::dropReleased() {
@@ -24,22 +24,22 @@ void HeldBodies::dropReleased() {
 }
 
 void HeldBodies::carryFields(RigidBody& b, std::vector<FieldId> fields) const {
-  if (b.grip.carried.empty()) b.grip.woundTo = time_.instantAt(time_.now());
+  if (b.grip.carried.empty()) b.grip.accumulatedTo = time_.instantAt(time_.now());
   b.grip.carried = std::move(fields);
 }
 
-void HeldBodies::windUp(double tau) {
+void HeldBodies::accumulate(double tau) {
   for (RigidBody* b : list_) {
     if (b->mode != BodyMode::Held || b->grip.carried.empty()) continue;
     // A push acts evenly and keeps its direction in the hand: its mean is that of the middle.
-    const double span = time_.instantAt(tau).since(b->grip.woundTo), middle = tau - 0.5 * span;
+    const double span = time_.instantAt(tau).since(b->grip.accumulatedTo), middle = tau - 0.5 * span;
     if (!(span > 0)) continue;
-    b->grip.woundTo = time_.instantAt(tau);
+    b->grip.accumulatedTo = time_.instantAt(tau);
     const Quat q_NW = b->grip.held.at(middle).pose.q.conjugate();
     for (const FieldId id : b->grip.carried) {
       const FieldEntry* f = fields_.find(id);
       if (!f || !f->on || !isHooked(*b, id) || !std::holds_alternative<LinearField>(f->field.law)) continue;
-      b->grip.wound +=
+      b->grip.accumulated +=
           span * (q_NW * accelerationOf(f->field, {b->mass, b->dragArea}, time_.shareAt(middle)));
     }
   }

@@ -25,7 +25,7 @@ public:
 
   void carryFields(RigidBody& b, std::vector<FieldId> fields) const;
   /// Adds up what carried fields do to held bodies up to tau. Expects that no field is switched meanwhile.
-  void windUp(double tau);
+  void accumulate(double tau);
   /// Pairs that only external motion moves touch until they are apart at the end of a frame.
   void endTouches();
 

@@ -183,7 +183,6 @@ Nanoseconds Foresight::nextWindow() const {
   return std::min(2 * time_.window(), WorldTime::kLongestWindow);
 }
 
-/// How many balls move around this one within its own size: they will lean on each other before long.
 std::size_t Foresight::ballsAround(const RigidBody& b, double tau) {
   if (!b.isBall()) return 0;
   std::size_t many = 0;

@@ -37,9 +37,13 @@ public:
   /// Calls f(body) for the bodies near `box`, with their arcs at tau.
   template <class F>
   void eachBodyNear(const Aabb& box, double tau, F f) {
-    boxes_.eachBody(box, [&](RigidBody& o) { catchUp(o, tau), f(o); });
+    boxes_.eachBody(box, [&](RigidBody& o) {
+      catchUp(o, tau);
+      f(o);
+    });
   }
-  /// Returns the number of balls that move within this ball's size of it: they will soon lean on each other.
+  /// Returns the number of moving balls whose gap to this ball is less than its radius. They will soon lean
+  /// on each other.
   std::size_t ballsAround(const RigidBody& b, double tau);
 
   /// Returns the length of the next window; it grows while nothing is near.

@@ -135,7 +135,7 @@ bool Piles::noteNeighbours(const PileStep& step, std::size_t i, std::span<const 
     note(b.contact.touching, other);
     if (c.gap < kTouching || (c.gap < kParted && in(b.contact.leaning, other))) note(near, other);
     if (!(c.pressed > 0)) continue;
-    const Vec3 force = (c.pressed * c.n + c.held) / pile.h;
+    const Vec3 force = (c.pressed * c.n + c.tangential) / pile.h;
     const std::uint64_t key = first ? step.notes[k].key : step.notes[k].reverse;
     b.contact.warmStarts.push_back({key, first ? force : Vec3(-force), pile.h});
   }

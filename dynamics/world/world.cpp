@@ -304,7 +304,7 @@ bool World::carryFields(BodyId id, std::vector<FieldId> fields_) {
 
 Vec3 World::accumulatedVelocity(BodyId id) const {
   const RigidBody* b = core_->objects_.body(id);
-  return b && b->mode == BodyMode::Held ? Vec3(b->pose.q * b->grip.wound) : Vec3::Zero();
+  return b && b->mode == BodyMode::Held ? Vec3(b->pose.q * b->grip.accumulated) : Vec3::Zero();
 }
 
 bool World::moveHeld(BodyId id, const Pose& end, bool teleport) {

@@ -149,7 +149,8 @@ public:
   /// recorded.
   const ArcTrack& arcsOf(BodyId id) const;
 
-  /// The bodies whose state may have changed in the last frame, in order of id. No other body's has.
+  /// The bodies whose state may have changed in the last frame, in order of id. The state of all other bodies
+  /// is unchanged.
   const std::vector<BodyId>& changed() const;
 
   /// X_WN at the end of the last frame; identity if there is no such body.

@@ -6,8 +6,8 @@
 namespace stadion {
 namespace {
 
-constexpr std::uint64_t kMostEvents =
-    3000;  ///< in one frame for each body: a last resort against endless chatter
+/// Events between two windows, for each body: a last resort against endless chatter.
+constexpr std::uint64_t kMostEvents = 3000;
 
 /// Returns false also if the pose is not a number.
 bool inBounds(const Pose& X) {
@@ -57,7 +57,7 @@ void World::Core::pause(Nanoseconds to, bool continues) {
   if (gap == 0) return;
   for (RigidBody& b : objects_.bodies()) {
     b.since.ns += gap;
-    b.grip.woundTo.ns += gap;
+    b.grip.accumulatedTo.ns += gap;
   }
   for (ContactMemory::Waiting& w : memory_.waiting()) {
     w.look += gap;
@@ -133,12 +133,12 @@ void World::Core::runEvents(double until) {
   while (!queue_.empty()) {
     const EventQueue::Event e = queue_.first();
     if (e.tau > until) break;
-    queue_.pop();
-    fetchNext();
     if (++done > kMostEvents * (active_.size() + 1)) {
       ++counters_.limited;
       break;
     }
+    queue_.pop();
+    fetchNext();
     boxes_.sortBodiesIfCrowded();
     switch (e.kind) {
     case EventQueue::Event::Kind::Command:
@@ -202,7 +202,7 @@ void World::Core::sample(RigidBody& b) {
 
 void World::Core::endFrame() {
   if (!held_.list().empty()) {
-    held_.windUp(time_.now());
+    held_.accumulate(time_.now());
     recoveries_.noteFreePlaces();
   }
   if (!memory_.waiting().empty())

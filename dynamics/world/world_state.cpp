@@ -148,8 +148,9 @@ static void fieldsOf(RigidBody& b, StateFields& f) {
       f("restless", b.contact.unsolved);
   f("drowsy", b.contact.sleepsNext), f("heaped", b.contact.restsInPile), f("drift", b.contact.drift),
       f("twist", b.contact.twist);
-  f("slot", b.contact.slot), f("held", b.grip.held), f("carried", b.grip.carried), f("wound", b.grip.wound);
-  f("wound to", b.grip.woundTo), f("free place", b.grip.freePlace), f("let go", b.grip.letGo),
+  f("slot", b.contact.slot), f("held", b.grip.held), f("carried", b.grip.carried),
+      f("accumulated", b.grip.accumulated);
+  f("accumulated to", b.grip.accumulatedTo), f("free place", b.grip.freePlace), f("let go", b.grip.letGo),
       f("ways out", b.grip.recoveries);
   f("impacts", b.impacts), f("impact span", b.impactSpan), f("quiet", b.contact.quietTime),
       f("calm", b.contact.sleepCandidate);

@@ -158,7 +158,8 @@ public:
 
   /// Returns true if a node's visit is told as its spans. False: visited() alone tells it. Asked once in App.
   virtual bool wantsSpansOfVisits() const { return true; }
-  /// The visit of this node is over. It began when the visit before it was over, or when all mail was delivered.
+  /// The visit of this node is over. It began when the visit before it was over, or when all mail was
+  /// delivered.
   virtual void visited(NodeRef) {}
 
   /// Returns true if `shared` is wanted for this frame of that wall.

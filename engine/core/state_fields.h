@@ -290,8 +290,8 @@ private:
   std::vector<std::uint8_t> bytes_;
 };
 
-/// A hash of all that SavedState would write. Unlike the state hash it includes unhashed() fields. Numbers are gathered and hashed many at a
-/// time, which takes half as long.
+/// A hash of all that SavedState would write. Unlike the state hash it includes unhashed() fields. Numbers
+/// are gathered and hashed many at a time, which takes half as long.
 class StateDigest final : public StateFields {
 public:
   std::uint64_t value();

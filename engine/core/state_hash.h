@@ -1,9 +1,10 @@
 #pragma once
 /// The state hash: equal on two runs if and only if (up to chance) every field that it covers is equal.
 ///
-/// It covers named fields, never memory layout or addresses. Scene::stateHash() lists what it covers, and what
-/// only a snapshot compares. The fields of a node have a fixed order. The hashes of nodes are added up, so nodes need none (node_hashes.h).
-/// Doubles count by their bits; -0 and +0 differ, and no NaN is ever in a scene.
+/// It covers named fields, never memory layout or addresses. Scene::stateHash() lists what it covers, and
+/// what only a snapshot compares. The fields of a node have a fixed order. The hashes of nodes are added up,
+/// so nodes need none (node_hashes.h). Doubles count by their bits; -0 and +0 differ, and no NaN is ever in a
+/// scene.
 
 #include "engine/core/message.h"
 #include "engine/maths/maths.h"

@@ -2,8 +2,8 @@
 /// Which walls of a room face away from it.
 ///
 /// A point in front of every wall shows that all walls face the room: the standing visitor's eye, or a point
-/// between the walls' corners. The mean of the walls' centres shows nothing: one wall can stand before another.
-/// Without such a point, each group of walls that meet at their edges is a room of its own.
+/// between the walls' corners. The mean of the walls' centres shows nothing: one wall can stand before
+/// another. Without such a point, each group of walls that meet at their edges is a room of its own.
 ///
 /// Frames   rig space (+X right, +Y forward, +Z up).
 /// Units    metres.

@@ -49,7 +49,8 @@ struct WallEntry {
 };
 
 struct WallFile {
-  /// Each wall takes two threads and an OpenGL context, or a process. A larger count is a mistake in the file.
+  /// Each wall takes two threads and an OpenGL context, or a process. A larger count is a mistake in the
+  /// file.
   static constexpr std::size_t kMaxWalls = 256;
 
   std::string file;              ///< as the user named it

@@ -1,6 +1,7 @@
 #pragma once
-/// Leaps: moves between two records of a tracker that no hand or foot can make. The device was lost meanwhile,
-/// or taken for another. A leap is a jump; docs/language.md ("A tracker's jump") has the whole rule.
+/// Leaps: moves between two records of a tracker that no hand or foot can make. The device was lost
+/// meanwhile, or taken for another. A leap is a jump; docs/language.md ("A tracker's jump") has the whole
+/// rule.
 ///
 /// Threads  pure functions.
 
@@ -13,8 +14,8 @@ constexpr Nanoseconds kLongestLeap =
     50'000'000;                    ///< between two records that are farther apart none is seen [ns]
 constexpr double kLeapSpeed = 15;  ///< more than this, and so much faster than its neighbours [m/s]
 
-/// `v`: velocity from the record before, `took` later; `neighbour`: velocity of the move before or after, zero
-/// if it is not known.
+/// `v`: velocity from the record before, `took` later; `neighbour`: velocity of the move before or after,
+/// zero if it is not known.
 inline bool leapsBeside(const Vec3& v, const Vec3& neighbour, Nanoseconds took) {
   return took <= kLongestLeap && v.norm() > kLeapSpeed && (v - neighbour).norm() > kLeapSpeed;
 }

@@ -1,7 +1,6 @@
 #include "engine/plain_text/number_text.h"
 
 #include <charconv>
-#include <cmath>
 
 namespace stadion {
 namespace {
@@ -15,11 +14,6 @@ std::optional<Number> numberIn(const char* begin, const char* end) {
 }
 
 }  // namespace
-
-std::optional<double> parseNumber(const std::string& text) {
-  const auto value = numberIn<double>(text.data(), text.data() + text.size());
-  return value && std::isfinite(*value) ? value : std::nullopt;
-}
 
 std::optional<std::pair<std::uint32_t, std::uint32_t>> parseSize(const std::string& text) {
   const std::size_t by = text.find('x');

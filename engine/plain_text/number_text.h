@@ -8,9 +8,6 @@
 
 namespace stadion {
 
-/// A finite decimal number and nothing else; nothing if it is not that.
-std::optional<double> parseNumber(const std::string& text);
-
 /// "800x600": two whole numbers and nothing else; nothing if it is not that.
 std::optional<std::pair<std::uint32_t, std::uint32_t>> parseSize(const std::string& text);
 

@@ -29,11 +29,6 @@ InstanceId Instances::add(PlacementId placement, MeshId mesh, bool drawn, NodeRe
   return id;
 }
 
-void Instances::setDrawn(InstanceId id, bool drawn) {
-  all_[id].drawn = drawn;
-  mark(id);
-}
-
 void Instances::remove(InstanceId id) {
   Instance& i = all_[id];
   InstanceId* at = &first_[i.placement];

@@ -35,7 +35,6 @@ public:
 
   InstanceId add(PlacementId placement, MeshId mesh, bool drawn, NodeRef owner);
   void remove(InstanceId id);
-  void setDrawn(InstanceId id, bool drawn);
   /// Sets what the instance shows; kNoMesh = nothing.
   void setMesh(InstanceId id, MeshId mesh);
   /// Returns true if the instance exists and belongs to `owner`; nodes ask this when they are restored.

@@ -128,7 +128,8 @@ public:
   /// Returns the watched placements that have moved since the last call. Valid until the next call.
   const std::vector<PlacementId>& takeMovedWatched();
 
-  /// Every other placement whose World matrix or visibility may have changed since the last call, each once.
+  /// Every placement that takeMovedFleets() leaves out and whose World matrix or visibility may have changed
+  /// since the last call, each once.
   /// Valid until the next one.
   const std::vector<PlacementId>& takeChanged();
 

@@ -65,7 +65,8 @@ PoseTrack PoseTracks::within(PlacementId id, const Pose& before, Nanoseconds sta
   if (carried) {
     const PoseTrack& way = carrier->track;
     const bool itself = carrier->id == id;
-    // A node that has not looked for some frames does not know the way before this one: it takes it as straight.
+    // A node that has not looked for some frames does not know the way before this one: it takes it as
+    // straight.
     const bool late = way.front().time > start;
     const Pose X_CN1 = itself ? Pose{} : way.back().X.inverse() * now;
     const Pose X_CN0 = itself ? Pose{} : late ? X_CN1 : way.front().X.inverse() * before;

@@ -85,8 +85,8 @@ public:
   bool command(const std::string& target, CommandId command, std::vector<std::string> arguments,
                Nanoseconds when);
   /// Hash of the scene after the last frame. It covers:
-  ///   - of each node, the fields on which its future depends. `dynamics` and `collision` nodes add what their
-  ///     bodies, colliders and fields do not: switch, pairs, grips, free places, recoveries
+  ///   - of each node, the fields on which its future depends. `dynamics` and `collision` nodes add what
+  ///     their bodies, colliders and fields do not: switch, pairs, grips, free places, recoveries
   ///   - show time, the free rig, the numbers of the loaded files
   ///   - pending messages, alarms, loads and unloads; degradation
   /// It does not cover parameters that never change, kept fields (state_fields.h), and the rest of a world:

@@ -213,10 +213,6 @@ const Glyph* findGlyph(char32_t character) {
   return at != std::end(kGlyphs) && at->character == character ? at : nullptr;
 }
 
-const Glyph& missingGlyph() {
-  return kMissing;
-}
-
 std::string_view pathOfMark(char32_t mark) {
   switch (mark) {
   case kGrave: return "M-8 104L6 80";

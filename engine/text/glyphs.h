@@ -33,8 +33,6 @@ struct Glyph {
 
 /// Null if the font has no such character.
 const Glyph* findGlyph(char32_t character);
-/// Returns the glyph for a character that is not in the font: a box.
-const Glyph& missingGlyph();
 
 /// An accent, drawn about x = 0, for small letters; above capitals it is moved up by kMarkRise.
 std::string_view pathOfMark(char32_t mark);

@@ -21,7 +21,8 @@ BodyId addCrate(World& world, ShapeId shape, FieldId gravity, int n) {
   def.pose.p = {0.01 * (n % 2), 0, 0.5 * kSide + n * (kSide + 0.05)};
   def.mass.mass = kMass;
   def.mass.inertia = Vec3::Constant(kMass * kSide * kSide / 6);  // of a cube, about its centre
-  def.surface.friction = 0.6, def.surface.restitution = 0.1;
+  def.surface.friction = 0.6;
+  def.surface.restitution = 0.1;
   const BodyId id = world.addBody(def);
   world.hook(id, gravity, 0);
   return id;

@@ -1,7 +1,8 @@
 #pragma once
 /// Colours of a band: the triangles that the samples of a pixel show, each shaded once.
 ///
-/// Places   of colours: first the pixels of all rows, then the fragments of pixels that several triangles share.
+/// Places   of colours: first the pixels of all rows, then the fragments of pixels that several triangles
+///          share.
 /// Threads  one at a time. Keeps its memory from band to band.
 
 #include "pipeline/cpu_draw/fragment_shading.h"

@@ -88,7 +88,8 @@ private:
   void count(const DrawList& list, Eye eye, FrameProbe* probe);
   void sample(const DrawList& list, const SceneParameters& scene, const ShadowParameters* shadow,
               FrameProbe& probe);
-  /// Calls work(picture, piece) for each of the pieces of all pictures, on the pool. Asks `giveUp` before each.
+  /// Calls work(picture, piece) for each of the pieces of all pictures, on the pool. Asks `giveUp` before
+  /// each.
   void forAll(std::size_t (*pieces)(const Picture&), const std::function<void(Picture&, std::size_t)>& work,
               const std::function<bool()>& giveUp);
   void report(std::string what);

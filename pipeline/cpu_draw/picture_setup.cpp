@@ -112,11 +112,16 @@ void PictureSetup::place(std::size_t piece) {
 SetupParameters PictureSetup::parametersOf(std::uint32_t number) const {
   const TriangleStretch& stretch = stretches_[number];
   SetupParameters s{};
-  s.width = geometry_.width, s.height = geometry_.height, s.samples = samples_;
+  s.width = geometry_.width;
+  s.height = geometry_.height;
+  s.samples = samples_;
   s.mirrored = instances_[stretch.instance].mirrored ? -1.0f : 1.0f;
   s.facing = stretch.part->bothSides ? 0 : s.mirrored;
-  s.leastDepth = geometry_.leastDepth, s.mostDepth = geometry_.mostDepth;
-  s.slopeOffset = slopeOffset_, s.stepOffset = stepOffset_, s.source = number;
+  s.leastDepth = geometry_.leastDepth;
+  s.mostDepth = geometry_.mostDepth;
+  s.slopeOffset = slopeOffset_;
+  s.stepOffset = stepOffset_;
+  s.source = number;
   return s;
 }
 

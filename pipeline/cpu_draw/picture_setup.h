@@ -59,8 +59,8 @@ public:
   std::size_t setUpPieces() const { return chunksUsed_; }
   void setUp(std::size_t piece);
 
-  /// Calls work(records, numbers, masked) for the triangles that may cover a sample of a band: the records with
-  /// these numbers.
+  /// Calls work(records, numbers, masked) for the triangles that may cover a sample of a band: the records
+  /// with these numbers.
   template <class Work>
   void forEach(Transparency which, std::size_t band, const Work& work) const {
     for (const Chunk& chunk : std::span(chunks_.data(), chunksUsed_)) {
@@ -101,7 +101,6 @@ private:
 
   void addPart(std::uint32_t instance, const CpuPart& part, std::uint32_t material);
   std::uint32_t materialNumber(const MaterialParameters& material);
-  void divideStretches(Transparency which);
   SetupParameters parametersOf(std::uint32_t stretch) const;
   void setUpStretch(std::uint32_t stretch, std::vector<TriangleRecord>& records) const;
   void finish(const TriangleRecord& record, const TriangleStretch& stretch, const TriangleClipper& clipper,

@@ -2,7 +2,7 @@
 /// Transparent surfaces of a band, in the right order for every sample.
 ///
 /// Rule     The nearest kExactLayers fragments of a sample are blended one over the other. What lies behind
-///          them is one layer more, as draw/passes/glass_layers.h says.
+///          them is one layer more, as gl_draw/passes/glass_layers.h says.
 /// Ties     at the same depth the later triangle of the list lies in front.
 /// Threads  one at a time. Keeps its memory from band to band.
 

@@ -52,8 +52,8 @@ public:
       const double da = distance(a), db = distance(b);
       if (da >= 0) at_[size_++] = a;
       if ((da >= 0) == (db >= 0)) continue;
-      // From the end that lies nearer to the border: the other one may be so far away that rounding would lose the
-      // first. And neighbours that share the edge get the same point.
+      // From the end that lies nearer to the border: the other one may be so far away that rounding would
+      // lose the first. And neighbours that share the edge get the same point.
       const bool fromA = std::fabs(da) < std::fabs(db);
       const Corner &from = fromA ? a : b, &to = fromA ? b : a;
       const double t = fromA ? da / (da - db) : db / (db - da);

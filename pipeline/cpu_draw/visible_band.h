@@ -15,8 +15,8 @@ namespace stadion {
 class VisibleBand {
 public:
   void draw(const PictureShading& picture, std::size_t band, const SurfaceBlocks& blocks);
-  /// Calls work(first, count, present) for triangles of a list of this band that follow each other: those that
-  /// have no holes (present is null) or one that has.
+  /// Calls work(first, count, present) for triangles of a list of this band that follow each other: those
+  /// that have no holes (present is null) or one that has.
   template <class Work>
   void forRuns(const PictureShading& picture, BandTriangles& list, const SurfaceBlocks& blocks,
                const Work& work) {

@@ -1,8 +1,8 @@
 #pragma once
 /// Sorts what is drawn by what it is, so that its order does not depend on where records lie: opaque things
 /// by mesh, level and the views that see them, then near to far; transparent ones by owner, then by mesh, so
-/// that surfaces at the same depth keep their order wherever the visitor is. Ties are ordered by owner, then by
-/// place.
+/// that surfaces at the same depth keep their order wherever the visitor is. Ties are ordered by owner, then
+/// by place.
 ///
 /// Numbers are sorted, byte by byte from the lowest (radix sort; bytes that are the same in all are passed
 /// over), and each thing is moved once.

@@ -1,7 +1,7 @@
 #pragma once
 /// Which things cast shadows, for each ring of a wall's shadow maps.
 ///
-/// The rings are the same for all walls and both eyes (engine/scene/shadow_places.h says where they are),
+/// The rings are the same for all walls and both eyes (engine/published/shadow_places.h says where they are),
 /// and lie on a grid of their texels that is fixed in the world, so that shadows look the same everywhere.
 /// What has ever moved is kept apart from what has not, which need not be looked for (still_casters.h) nor
 /// drawn again while nothing changes.

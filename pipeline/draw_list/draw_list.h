@@ -97,8 +97,8 @@ struct DrawList {
   DrawSky sky;
   std::vector<DrawLight> lights;  ///< at most kMaxLights
   DrawShadows shadows;
-  /// Sorted by mesh and level, then by the sum of the first and the last view that see them, then near to far.
-  /// So what one of two views sees lies together.
+  /// Sorted by mesh and level, then by the sum of the first and the last view that see them, then near to
+  /// far. So what one of two views sees lies together.
   std::vector<DrawItem> opaque;
   /// Items with any transparent material, in an order that does not depend on the viewer. Where surfaces lie
   /// at the same depth, the later one is in front.

@@ -28,8 +28,8 @@ namespace stadion {
 /// The implementations.
 enum class RendererKind : std::uint32_t {
   Cpu,     ///< cpu_draw/cpu_renderer.h
-  OsMesa,  ///< draw/gl_renderer.h, with Mesa's software rasteriser
-  Egl,     ///< draw/gl_renderer.h, with what the system's EGL finds
+  OsMesa,  ///< gl_draw/gl_renderer.h, with Mesa's software rasteriser
+  Egl,     ///< gl_draw/gl_renderer.h, with what the system's EGL finds
 };
 
 /// "cpu", "osmesa" or "egl".
@@ -53,8 +53,8 @@ public:
 
   /// Draws all views of the list, which Cull may still be filling, and waits for the end of the drawing: the
   /// time around the call is the cost of the drawing. Returns a new problem, or nothing. Calls `giveUp` now
-  /// and then, if it is not empty, on any thread. Once it returns true, RunStopped is thrown and the pictures are void.
-  /// `probe` gets spans and counts; null = none.
+  /// and then, if it is not empty, on any thread. Once it returns true, RunStopped is thrown and the pictures
+  /// are void. `probe` gets spans and counts; null = none.
   virtual std::optional<Diagnostic> draw(const DrawList& list, const std::function<bool()>& giveUp,
                                          FrameProbe* probe) = 0;
 

@@ -3,7 +3,7 @@
 ///
 /// Passes      shadow maps, as far as they have changed; then for each view: small objects without OpenGL,
 ///             opaque objects, the sky where nothing was drawn, transparent objects, and the average of the
-///             samples. Each pass is a class in draw/passes; this one orders them. They share a GpuScene.
+///             samples. Each pass is a class in gl_draw/passes; this one orders them. They share a GpuScene.
 /// Light       computed in linear RGB; pictures are in sRGB (shaders.h).
 /// Beginning   with the first items of a list that Cull still fills, unless a pass must know all items first.
 /// Same pixels for the same list in every thread, context and provider of one Mesa version.

@@ -1,8 +1,8 @@
 #include "pipeline/loop/frame_loop.h"
 
 #include "engine/base/run_stopped.h"
+#include "pipeline/loop/barrier.h"
 #include "pipeline/loop/list_queue.h"
-#include "pipeline/loop/swap_barrier.h"
 
 #include <algorithm>
 #include <cmath>
@@ -96,10 +96,10 @@ private:
   const std::size_t walls_;
   FrameSlots slots_;
   std::deque<ListQueue> queues_;  ///< by wall
-  SwapBarrier swap_;
+  Barrier swap_;
   // All walls and App wait here. No wall draws before all are ready, since they may share a rasteriser.
   // Meanwhile show time stands still.
-  SwapBarrier opened_, warm_;
+  Barrier opened_, warm_;
   std::once_flag warming_;
   Clock::time_point warmUpBegan_{}, warmUpEnded_{};  ///< set before `warm_` opens
 };
@@ -143,7 +143,10 @@ void FrameLoop::runSequential() {
 
   while (well) {
     std::optional<FrameOrder> order;
-    well = attempt("App", kAllWalls, nextIndex_, [&]() -> Failure { return order = nextOrder(), Failure(); });
+    well = attempt("App", kAllWalls, nextIndex_, [&]() -> Failure {
+      order = nextOrder();
+      return Failure();
+    });
     if (!order) break;
     auto ticket = appStage(*order, 0);
     well = ticket.has_value();
@@ -259,7 +262,10 @@ void FrameLoop::Pipeline::run() {
   std::vector<std::thread> threads;
   const auto start = [&](const char* what, std::size_t wall, std::function<void()> work) {
     threads.emplace_back([this, what, wall, work = std::move(work)] {
-      loop_.attempt(what, wall, kNoFrame, [&]() -> Failure { return work(), Failure(); });
+      loop_.attempt(what, wall, kNoFrame, [&]() -> Failure {
+        work();
+        return Failure();
+      });
       stopIfBroken();
     });
   };
@@ -277,7 +283,10 @@ void FrameLoop::Pipeline::run() {
 }
 
 void FrameLoop::Pipeline::drawThenClose(std::size_t wall) {
-  loop_.attempt("Draw", wall, kNoFrame, [&]() -> Failure { return draw(wall), Failure(); });
+  loop_.attempt("Draw", wall, kNoFrame, [&]() -> Failure {
+    draw(wall);
+    return Failure();
+  });
   stopIfBroken();
   loop_.closeStage(wall);
 }
@@ -441,7 +450,10 @@ std::optional<FrameTicket> FrameLoop::appStage(const FrameOrder& order, std::siz
   FrameTicket ticket{now, Clock::now()};
   ticket.presentation = order.presentation;
   if (order.still != Standstill::None) {
-    const auto still = [&]() -> Failure { return stages_.still(now, slot), Failure(); };
+    const auto still = [&]() -> Failure {
+      stages_.still(now, slot);
+      return Failure();
+    };
     if (!attemptGuarded("App", kAllWalls, now.frame, still)) return std::nullopt;
     ticket.last = ended_ = options_.orders ? order.last : noneFollows();
     ticket.drawn = order.drawn;
@@ -450,7 +462,10 @@ std::optional<FrameTicket> FrameLoop::appStage(const FrameOrder& order, std::siz
   }
   {
     const StageSpan span(times_.app, probe_, Span::App, now.frame);
-    const auto app = [&]() -> Failure { return stages_.app(now, slot), Failure(); };
+    const auto app = [&]() -> Failure {
+      stages_.app(now, slot);
+      return Failure();
+    };
     if (!attemptGuarded("App", kAllWalls, now.frame, app)) return std::nullopt;
   }
   ++outcome_.framesSimulated;
@@ -466,7 +481,10 @@ bool FrameLoop::cullStage(std::size_t wall, std::size_t slot, const FrameTicket&
   list.ticket = ticket;
   if (ticket.drawn) {
     const StageSpan span(times_.cull[wall], probe_, Span::Cull, frame, numberOf(wall));
-    const auto cull = [&]() -> Failure { return stages_.cull(wall, slot, list), Failure(); };
+    const auto cull = [&]() -> Failure {
+      stages_.cull(wall, slot, list);
+      return Failure();
+    };
     well = attemptGuarded("Cull", wall, frame, cull);
   }
   return well;
@@ -498,7 +516,10 @@ void FrameLoop::warmedUp(Clock::duration took) {
 }
 
 void FrameLoop::closeStage(std::size_t wall) {
-  attempt("closing", wall, kNoFrame, [&]() -> Failure { return stages_.closeWall(wall), Failure(); });
+  attempt("closing", wall, kNoFrame, [&]() -> Failure {
+    stages_.closeWall(wall);
+    return Failure();
+  });
 }
 
 bool FrameLoop::drawStage(std::size_t wall, DrawList& list) {
@@ -550,7 +571,8 @@ void FrameLoop::noteShown(const FrameTicket& ticket) {
     times_.latency[wall].add(since(stages_.posed(wall).value_or(ticket.posed)));
 }
 
-/// The first frame waits until the driver is ready, and frames begun meanwhile wait for it.
+/// Counts the ticks since the frame shown before. Frames that began before the first one was shown do not
+/// count: the driver was not ready.
 void FrameLoop::countTicksWithoutFrame(const FrameTicket& ticket) {
   if (outcome_.framesShown == 1) ready_ = Clock::now();
   if (ticket.began < ready_) return;

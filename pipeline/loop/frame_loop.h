@@ -89,7 +89,7 @@ struct FrameLoopOutcome {
 class FrameLoop {
 public:
   /// `stopRequested` may be set by a signal handler and is read once a frame. The frame that reads it is the
-  /// last one, and is drawn as such.
+  /// last one, and is drawn as such. A stop before the first frame ends the run without one.
   FrameLoop(Stages& stages, const FrameLoopOptions& options, const std::atomic<bool>& stopRequested,
             FrameProbe* probe = nullptr);
 

@@ -2,8 +2,8 @@
 /// Draw lists on their way from a wall's Cull to its Draw. There are two: one is filled while the other is
 /// drawn.
 ///
-/// Threads  takeEmpty() and finish() on the wall's Cull thread, takeHanded() and giveEmpty() on its Draw thread;
-///          stop() on any.
+/// Threads  takeEmpty() and finish() on the wall's Cull thread, takeHanded() and giveEmpty() on its Draw
+///          thread; stop() on any.
 
 #include "pipeline/draw_list/draw_list.h"
 #include "pipeline/draw_list/list_filling.h"

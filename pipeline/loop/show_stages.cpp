@@ -223,7 +223,8 @@ void ShowStages::closeWall(std::size_t wall) {
   // After a failure, or a wait that was given up, no stage knew which frame would be the last.
   const bool wanted =
       drawn_[wall].views > 0 && !drawn_[wall].read && !(parts_.controls && parts_.controls->leaving());
-  if (wanted) readPictures(wall);
+  if (wanted)
+    if (const Failure lost = readPictures(wall); lost && parts_.tell) parts_.tell(lost->message);
   wallRenderer_->close(wall);
 }
 

@@ -70,7 +70,8 @@ struct ShowParts {
   WallContexts* contexts = nullptr;  ///< contexts that outlive the show; null: it makes its own
   bool drawUnseen = true;            ///< false: draws only frames that the sink wants, and the last one
   AppObserver observer;
-  /// Called in each App stage with the newest frame that all walls have shown. It frees what no later frame draws.
+  /// Called in each App stage with the newest frame that all walls have shown. It frees what no later frame
+  /// draws.
   std::function<void(std::uint64_t)> freeUnshown{};
   FrameProbe* probe = nullptr;
   /// Once it returns true, Draw stops and the run ends. Any thread; null = never.

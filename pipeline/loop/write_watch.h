@@ -2,7 +2,8 @@
 /// Finds stages that write what they may only read (`--guard`).
 ///
 /// Published slots and static objects are read-only pages, except for App while it publishes. Draw lists
-/// cannot be, since their parts lie in memory of all kinds. Each is copied before Draw and compared afterwards.
+/// cannot be, since their parts lie in memory of all kinds. Each is copied before Draw and compared
+/// afterwards.
 ///
 /// Threads  construction and destruction while no stage runs; keep() and inList() on a wall's Draw thread,
 ///          inScene() by a thread in its WriteGuard::Stage.

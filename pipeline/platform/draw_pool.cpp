@@ -106,8 +106,8 @@ bool DrawPool::canWork(const Waiter& waiter) {
   return (callers_ == Callers::Work || threads_.empty()) && waiter.job->hasMore();
 }
 
-// Only one thread is woken. It offers the next place, if there is one, when it takes its piece. So no thread is woken
-// for nothing: with many small pieces that cost 6 % of the time.
+// Only one thread is woken. It offers the next place, if there is one, when it takes its piece. So no thread
+// is woken for nothing: with many small pieces that cost 6 % of the time.
 void DrawPool::offerPlace() {
   if (working_ >= most_) return;
   const auto waiter = std::ranges::find_if(waiters_, [this](const Waiter* w) { return canWork(*w); });

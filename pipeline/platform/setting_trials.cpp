@@ -1,17 +1,11 @@
 #include "pipeline/platform/setting_trials.h"
 
+#include "engine/maths/median.h"
+
 #include <algorithm>
 
 namespace stadion {
-namespace {
-
-double median(std::vector<double> values) {
-  std::ranges::sort(values);
-  const std::size_t half = values.size() / 2;
-  return values.size() % 2 == 1 ? values[half] : (values[half - 1] + values[half]) / 2;
-}
-
-}  // namespace
+namespace {}  // namespace
 
 SettingTrials::SettingTrials(const std::vector<DrawSetting>& settings, bool pin) : pin_(pin) {
   for (const DrawSetting& setting : settings) tried_.push_back({setting});

@@ -118,27 +118,32 @@ bool PerWallProcessRenderer::await(Wall& wall, milliseconds atMost) {
     if (wall.process.receive(std::clamp(left, milliseconds(0), kLookEvery))) return true;
     if (wall.process.state() == State::Down || left <= milliseconds(0)) return false;
     if (parts_.giveUp && parts_.giveUp()) throw RunStopped();
+    noteProgress(wall);
     if (hangs(wall)) return false;
   }
 }
 
 /// How long one frame may take it; one that has to begin may take as long as where every frame counts.
-milliseconds PerWallProcessRenderer::mostOf(const Wall& wall) const {
+milliseconds PerWallProcessRenderer::longestFrameOf(const Wall& wall) const {
   const bool live = !parts_.everyFrame && wall.process.state() != State::Opening && wall.warm;
   if (!wall.longest) return kSpinsFirst;
   return std::max(live ? kSpinsLive : kSpins, kTooLong * *wall.longest);
 }
 
+/// Notes that the process uses the processor, or waits for one.
+void PerWallProcessRenderer::noteProgress(Wall& wall) {
+  const wall_process::ProcessStatus& status = wall.process.status();
+  if (status.state != 'R' && status.processorSeconds == wall.processor) return;
+  wall.processor = status.processorSeconds;
+  wall.since = Clock::now();
+}
+
 /// Returns true if it has not used the processor for long, while it had something to do and did not wait for
 /// one, or has used it for far too long. One that opens its context may wait for a disk.
-bool PerWallProcessRenderer::hangs(Wall& wall) {
+bool PerWallProcessRenderer::hangs(const Wall& wall) const {
   const wall_process::ProcessStatus& status = wall.process.status();
   const auto now = Clock::now();
-  if (now - wall.began > mostOf(wall)) return true;
-  if (status.state == 'R' || status.processorSeconds != wall.processor) {
-    wall.processor = status.processorSeconds;
-    wall.since = now;
-  }
+  if (now - wall.began > longestFrameOf(wall)) return true;
   const bool live = !parts_.everyFrame && wall.process.state() != State::Opening;
   return now - wall.since > (status.state == 'T' ? kStopped : live ? kHangsLive : kHangs);
 }
@@ -153,7 +158,7 @@ Failure PerWallProcessRenderer::answered(Wall& wall) {
   return {};
 }
 
-/// In time or not.
+/// Counts the picture, whether or not it came in time.
 void PerWallProcessRenderer::hasDrawn(Wall& wall, const ViewTotals& totals) {
   for (std::size_t view = 0; view < wall.totals.size(); ++view) {
     wall.totals[view] = totals[view];
@@ -235,8 +240,9 @@ Failure PerWallProcessRenderer::lookAfter(Wall& wall) {
         answered(wall);
     } else if (wall.process.state() == State::Down) {
       died(wall, wall.process.end());
-    } else if (hangs(wall)) {
-      died(wall, "hung");
+    } else {
+      noteProgress(wall);
+      if (hangs(wall)) died(wall, "hung");
     }
   }
   if (wall.process.state() == State::Down && wall.restarts.due(Clock::now()))
@@ -252,6 +258,7 @@ bool PerWallProcessRenderer::awaitInTime(Wall& wall) {
   for (;;) {
     if (await(wall, std::min(kLookEvery, limit))) return true;
     const char state = wall.process.status().state;
+    noteProgress(wall);
     if (wall.process.state() == State::Down || state == 'T' || hangs(wall)) return false;
     if (Clock::now() - began >= (state == 'R' ? 2 * limit : limit)) return false;
   }

@@ -70,8 +70,9 @@ private:
   void drewInTime(Wall& wall);
   bool await(Wall& wall, Milliseconds atMost);
   bool awaitInTime(Wall& wall);
-  bool hangs(Wall& wall);
-  std::chrono::milliseconds mostOf(const Wall& wall) const;
+  static void noteProgress(Wall& wall);
+  bool hangs(const Wall& wall) const;
+  std::chrono::milliseconds longestFrameOf(const Wall& wall) const;
   Failure start(Wall& wall);
   void died(Wall& wall, const std::string& how);
   Failure answered(Wall& wall);

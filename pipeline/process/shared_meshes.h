@@ -1,6 +1,6 @@
 #pragma once
-/// The meshes of a show as bytes, in memory that all wall processes map. A mesh is there once, while a process
-/// uses it.
+/// The meshes of a show as bytes, in memory that all wall processes map. A mesh is there once, while a
+/// process uses it.
 ///
 /// Layout   a mesh file (engine/asset/mesh_file.h), then its simplified levels.
 /// Threads  any, at once. Expects that a mesh stays in the store until take() returns.

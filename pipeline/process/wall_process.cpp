@@ -220,14 +220,14 @@ bool WallProcess::receive(std::chrono::milliseconds atMost) {
   const ssize_t got = ::recv(socket_.get(), bytes, sizeof bytes, MSG_DONTWAIT);
   if (got < 0 && (errno == EINTR || errno == EAGAIN)) return false;
   if (got <= 0) {  // it is ending; of what, is known when it has
-    if (const auto status = process_->wait(atMost)) isGone(sentenceOf(*status));
+    if (const auto status = process_->wait(atMost)) noteEnd(sentenceOf(*status));
     return false;
   }
   AnswerHead head;
   const bool whole = got >= static_cast<ssize_t>(sizeof head);
   if (whole) std::memcpy(&head, bytes, sizeof head);
   if (!whole || head.magic != kMagic || head.textBytes != static_cast<std::size_t>(got) - sizeof head) {
-    isGone("said what makes no sense");
+    noteEnd("said what makes no sense");
     return false;
   }
   answer_ = head;
@@ -237,15 +237,15 @@ bool WallProcess::receive(std::chrono::milliseconds atMost) {
   return true;
 }
 
-/// Returns true if it lives: the thread that draws is dead long before the last one, where processors are
-/// busy.
+/// Asks the system. A zombie has ended: its drawing thread is dead, although a thread of lowest priority may
+/// live on for seconds.
 void WallProcess::updateStatus() {
   status_ = statusOf(pid());
   if (status_.state != 'Z') return;
-  isGone(sentenceOf(WIFSIGNALED(status_.end) ? 128 + WTERMSIG(status_.end) : WEXITSTATUS(status_.end)));
+  noteEnd(sentenceOf(WIFSIGNALED(status_.end) ? 128 + WTERMSIG(status_.end) : WEXITSTATUS(status_.end)));
 }
 
-void WallProcess::isGone(const std::string& how) {
+void WallProcess::noteEnd(const std::string& how) {
   end_ = how;
   stop();
 }

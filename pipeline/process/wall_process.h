@@ -65,7 +65,7 @@ public:
   void stop();
 
   // For an idle one:
-  /// `read`: and then the pictures.
+  /// Draws the list. With `read` the process also sends the pictures.
   void draw(const DrawList& list, bool read);
   /// Draws the list as draw() does, but its totals do not count.
   void warmUp(const DrawList& list);
@@ -84,7 +84,7 @@ public:
   /// Returns true if picture() shows the list that was drawn last, even if the process has ended.
   bool holdsPictures() const { return holdsPictures_; }
 
-  /// When it was heard last and had nothing to say.
+  /// The state of the process when receive() last waited in vain.
   const ProcessStatus& status() const { return status_; }
   int pid() const { return process_->pid(); }
   int started() const { return started_; }
@@ -101,7 +101,7 @@ private:
   void add(MeshId id, ListNews& news);
   void forgetFreed(ListNews& news);
   void updateStatus();
-  void isGone(const std::string& how);
+  void noteEnd(const std::string& how);
 
   WallProcessSetting setting_;
   const MeshStore& meshes_;

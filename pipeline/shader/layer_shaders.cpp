@@ -51,8 +51,8 @@ void main() {
   uint mask = 1u;
   float opaque = texelFetch(depths, pixel, 0).r;
 #endif
-  // The depth test has been passed by one sample at least. What lies on an opaque surface is seen, however its
-  // depth was rounded.
+  // The depth test has been passed by one sample at least. What lies on an opaque surface is seen, however
+  // its depth was rounded.
   float least = opaque - 2e-6 * opaque;
   vec3 sum = vec3(0.0);
   float left = 1.0;

@@ -2,8 +2,9 @@
 /// Controls access to the slots of the scene state, and chooses the next frame for all walls.
 ///
 /// App asks for a slot to write. The Cull stages of all walls get the same frames in the same order, each as
-/// a lease on its slot. A leased slot is never written. The frame is chosen once, when the first wall asks.
-/// Walls should ask only when they can use a frame at once: then one slot always remains for App.
+/// a lease on its slot. App does not write a leased slot before the lease is older than its deadline. A
+/// reader that is later learns from release() that its work is void. The frame is chosen once, when the first
+/// wall asks. Walls should ask only when they can use a frame at once: then one slot always remains for App.
 ///
 /// Threads  every function from any thread; one thread per wall.
 

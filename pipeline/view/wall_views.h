@@ -1,8 +1,8 @@
 #pragma once
 /// Views: the pictures of a frame.
 ///
-/// A view is a frustum with a target. The frustum runs from an eye through the corners of a screen. The target
-/// is a picture of the wall that shows the view. A show has any number of views.
+/// A view is a frustum with a target. The frustum runs from an eye through the corners of a screen. The
+/// target is a picture of the wall that shows the view. A show has any number of views.
 ///
 /// A wall groups views that share work: Cull finds what all of them see in one pass and writes one draw list,
 /// and Draw draws them one after the other in one context. A flat wall has a view for each eye. A projector

@@ -1,10 +1,11 @@
 #pragma once
-/// The three stages of a frame, as the frame loop calls them.
+/// The stages App, Cull and Draw of a frame, with what goes before and after them, as the frame loop calls
+/// them.
 ///
 /// The loop decides on which thread they run, and when; the stages do not know whether they are overlapped.
 ///
-/// Threads  app() and wantsDrawn() on the App thread; cull(w) on wall w's Cull thread; openWall, latch, draw
-///          and closeWall(w) on wall w's Draw thread; swap() on the Draw thread that arrives last, while the
+/// Threads  app(), still() and wantsDrawn() on the App thread; cull(w) on wall w's Cull thread; openWall,
+///          warmUp, latch, draw and closeWall(w) on wall w's Draw thread; swap() on the Draw thread that arrives last, while the
 ///          others wait. In sequential mode all on one thread.
 /// Errors   a stage that cannot go on returns a reason; the loop stops every thread and hands the reason on.
 ///          What a stage throws (it should not: memory may run out) becomes such a reason, with the stage's

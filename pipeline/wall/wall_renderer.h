@@ -37,8 +37,8 @@ public:
   /// Draws the list, which is complete, so that shaders are compiled and meshes uploaded; it is not counted.
   /// Waits as long as that takes. May throw RunStopped.
   virtual Failure warmUp(std::size_t wall, const DrawList& list) = 0;
-  /// Draws all views of the list, which may still be filled, and waits until that is done. `read`: read() will
-  /// be called for all of them, and the list is not there any more then. May throw RunStopped.
+  /// Draws all views of the list, which may still be filled, and waits until that is done. `read`: read()
+  /// will be called for all of them, and the list is not there any more then. May throw RunStopped.
   virtual DrawOutcome draw(std::size_t wall, const DrawList& list, bool read) = 0;
   /// The view's picture of the list that was drawn last (see Renderer::read).
   virtual Failure read(std::size_t wall, std::uint32_t view, std::span<std::uint8_t> rgba) = 0;

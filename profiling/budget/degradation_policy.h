@@ -3,8 +3,8 @@
 ///
 /// It degrades at once on a clear overrun: of eight frames, two with more than three times the budget, or
 /// four that are a quarter over it; or a smoothed cost that is 5 % over the budget for at least 32 frames.
-/// A single such frame changes nothing. It goes to the first level of its ladder that is expected to fit. The expectation is the level's last cost, or else the usual savings of its
-/// degradations.
+/// A single such frame changes nothing. It goes to the first level of its ladder that is expected to fit. The
+/// expectation is the level's last cost, or else the usual savings of its degradations.
 ///
 /// It recovers one level after a second without overruns (`patience` frames), if the more expensive level is
 /// expected to leave a fifth of the budget free. If that is not expected or not known, the level is tried

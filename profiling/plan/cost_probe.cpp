@@ -1,5 +1,7 @@
 #include "profiling/plan/cost_probe.h"
 
+#include "engine/maths/median.h"
+
 #include <algorithm>
 #include <ctime>
 
@@ -10,13 +12,6 @@ double millisecondsOf(clockid_t clock) {
   timespec t{};
   clock_gettime(clock, &t);
   return 1e3 * static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_nsec);
-}
-
-double middleOf(std::vector<double> values) {
-  if (values.empty()) return 0;
-  std::ranges::sort(values);
-  const std::size_t half = values.size() / 2;
-  return values.size() % 2 == 1 ? values[half] : (values[half - 1] + values[half]) / 2;
 }
 
 /// The figures of a frame, in a fixed order, to be read or set.
@@ -44,7 +39,7 @@ FrameCost middleOf(const std::vector<FrameCost>& same) {
     std::vector<double> values;
     for (const auto& one : figures)
       if (i < one.size()) values.push_back(one[i]);
-    figure = middleOf(std::move(values));
+    figure = median(std::move(values));
     ++i;
   });
   return middle;
@@ -170,7 +165,7 @@ bool wasStarved(const std::vector<FrameCost>& frames) {
     for (const WallCost& wall : frame.walls)
       for (const PictureCost& picture : wall.pictures)
         if (picture.raster >= kWorth) atOnce.push_back(picture.atOnce);
-  return !atOnce.empty() && middleOf(atOnce) < kStarved;
+  return !atOnce.empty() && median(atOnce) < kStarved;
 }
 
 }  // namespace stadion::plan

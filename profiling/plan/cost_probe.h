@@ -15,8 +15,8 @@ namespace stadion::plan {
 
 class CostProbe final : public FrameProbe {
 public:
-  /// `from`: the first frame that counts, since first use of data is slow. `portion`: Draw begins early once a
-  /// list has so many items.
+  /// `from`: the first frame that counts, since first use of data is slow. `portion`: Draw begins early once
+  /// a list has so many items.
   CostProbe(std::size_t walls, std::uint64_t from, std::size_t portion)
       : walls_(walls), from_(from), portion_(portion) {}
 

@@ -8,8 +8,8 @@
 ///
 /// Costs are milliseconds of processor time. A picture has three numbers: the time of its calls in the
 /// drawing thread, the time of its rasterising in all threads of the rasteriser together, and how many of
-/// these work at a time. With the CPU renderer ("renderer": "cpu") these are the time of the drawing thread, that of
-/// the renderer's threads together, and how many of those work at a time.
+/// these work at a time. With the CPU renderer ("renderer": "cpu") these are the time of the drawing thread,
+/// that of the renderer's threads together, and how many of those work at a time.
 ///
 /// Threads  plain values, any thread.
 /// Errors   a message that says what is wrong and where.

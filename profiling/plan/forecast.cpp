@@ -1,5 +1,7 @@
 #include "profiling/plan/forecast.h"
 
+#include "engine/maths/median.h"
+
 #include <algorithm>
 #include <fmt/format.h>
 
@@ -9,13 +11,6 @@ namespace {
 constexpr std::size_t kFilling = 4, kEmptying = 3;
 /// A processor, or a rasteriser, with this load has no room for more work.
 constexpr double kFull = 0.93;
-
-double medianForecast(std::vector<double> values) {
-  if (values.empty()) return 0;
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::ranges::nth_element(values, middle);
-  return *middle;
-}
 
 /// The frames that count: [first, last) of those shown.
 struct Window {
@@ -90,8 +85,8 @@ Forecast forecastOf(const Schedule& schedule, const Plan& plan) {
     latencies.push_back(schedule.shown[i].shown - schedule.shown[i].began);
   }
   if (w.end > w.begin) f.perSecond = 1000 * static_cast<double>(w.last - w.first - 1) / (w.end - w.begin);
-  f.period = medianForecast(std::move(periods));
-  f.latency = medianForecast(std::move(latencies));
+  f.period = median(std::move(periods));
+  f.latency = median(std::move(latencies));
   f.uses = usesOf(schedule, w, plan);
   f.bottleneck = bottleneckOf(f.uses);
   return f;

@@ -87,7 +87,8 @@ private:
     return machines_ + (plan_.pipelined ? 2 * plan_.walls : 0) + index;
   }
 
-  /// As FrameSlots::mayBegin: the limit of frames in flight, and one more while few walls draw the oldest one.
+  /// As FrameSlots::mayBegin: the limit of frames in flight, and one more while few walls draw the oldest
+  /// one.
   bool mayBegin(std::size_t machine, std::uint64_t serial) const {
     const std::size_t walls = wallsOf(machine), arrived = arrivedOf_[machine];
     const auto processors = static_cast<std::size_t>(std::max(1.0, plan_.machine.cores));
@@ -146,12 +147,13 @@ private:
     Slots& slots = slots_[machineOf(wall)];
     Wall& my = walls_[wall];
     for (std::size_t serial = 0;; ++serial) {
+      // As in the frame loop, a wall leases a slot only once it has an empty list.
+      co_await simulation_.until([&my] { return my.emptyLists > 0; });
       co_await simulation_.until([this, wall, &slots, serial] {
         return slots.canRead(serial) && (!plan_.newest || mayBegin(machineOf(wall), serial));
       });
       const auto lease = slots.lease(serial);
       if (!lease) break;
-      co_await simulation_.until([&my] { return my.emptyLists > 0; });
       --my.emptyLists;
       const double begin = simulation_.now();
       const WallCost& cost = costOf(lease->ticket.frame, wall);

@@ -59,8 +59,8 @@ struct Plan {
   Pace pace = Pace::Free;
   double rate = 60;     ///< [1/s], unless free
   bool newest = false;  ///< the walls show the newest frame, as in a live show; else every frame
-  /// Limit of frames in flight, if pipelined; 0: as many as the stages hold. Counted from App, or if the newest
-  /// frame is shown from Cull.
+  /// Limit of frames in flight, if pipelined; 0: as many as the stages hold. Counted from App, or if the
+  /// newest frame is shown from Cull.
   std::size_t mostInFlight = 0;
   bool drawBeginsEarly = true;  ///< Draw begins with the first part of a list while Cull fills the rest
   std::size_t frames = 60;

@@ -1,5 +1,7 @@
 #include "profiling/record/frame_log.h"
 
+#include "engine/maths/median.h"
+
 #include <algorithm>
 #include <optional>
 #include <utility>
@@ -67,10 +69,6 @@ void FrameLog::measureOverhead() {
   nanosecondsATick_ = ns / static_cast<double>(std::max<std::uint64_t>(1, TickClock::now() - beganTicks));
   dearTicks_ =
       static_cast<std::uint64_t>(std::chrono::duration<double, std::nano>(kDear).count() / nanosecondsATick_);
-  const auto median = [](std::vector<double>& v) {
-    std::ranges::nth_element(v, v.begin() + kRounds / 2);
-    return v[kRounds / 2];
-  };
   overhead_ = {median(inside), median(outside)};
   measureLightOverhead();
   // A thread that comes later gets a track that includes the measurement.

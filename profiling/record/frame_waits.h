@@ -1,6 +1,6 @@
 #pragma once
-/// The waits of a thread between two frames. Which frame they were for is known when its stage ends: Cull waits
-/// for a list, then for a frame.
+/// The waits of a thread between two frames. Which frame they were for is known when its stage ends: Cull
+/// waits for a list, then for a frame.
 
 #include "profiling/record/span_track.h"
 

@@ -3,7 +3,8 @@
 namespace stadion::report {
 
 const char* const kTableScript = R"js(
-/// A table from columns {name, n (a number), cell(row), title(row), key(row)} and rows; the first column is the row's head.
+/// A table from columns {name, n (a number), cell(row), title(row), key(row)} and rows; the first column is
+/// the row's head.
 function table(caption, columns, rows, heads) {
   const cellOf = (c, r, i) => {
     const inside = c.cell(r), title = c.title ? c.title(r) : null;

@@ -1,5 +1,7 @@
 #include "profiling/soak/growth.h"
 
+#include "engine/maths/median.h"
+
 #include <algorithm>
 #include <map>
 #include <utility>
@@ -40,13 +42,6 @@ void addSlopes(const std::vector<Point>& points, std::vector<double>& slopes) {
         slopes.push_back((points[j].y - points[i].y) / (points[j].x - points[i].x));
 }
 
-std::optional<double> middleOf(std::vector<double> slopes) {
-  if (slopes.empty()) return {};
-  const auto middle = slopes.begin() + static_cast<std::ptrdiff_t>(slopes.size() / 2);
-  std::nth_element(slopes.begin(), middle, slopes.end());
-  return *middle;
-}
-
 }  // namespace
 
 std::vector<SoakSample> afterWarmUp(std::span<const SoakSample> samples, std::uint64_t frames) {
@@ -65,7 +60,8 @@ std::optional<double> slopeOf(std::span<const SoakSample> samples, std::uint64_t
       points.push_back({static_cast<double>(s.frame), static_cast<double>(s.*figure)});
     addSlopes(points, slopes);
   }
-  return middleOf(std::move(slopes));
+  if (slopes.empty()) return {};
+  return median(std::move(slopes));
 }
 
 std::optional<double> slopeOfVisits(std::span<const SoakSample> samples, std::uint64_t SoakSample::*figure) {
@@ -77,7 +73,8 @@ std::optional<double> slopeOfVisits(std::span<const SoakSample> samples, std::ui
   std::vector<double> slopes;
   for (const auto& [process, points] : visits)
     if (points.size() >= kFewestVisits) addSlopes(points, slopes);
-  return middleOf(std::move(slopes));
+  if (slopes.empty()) return {};
+  return median(std::move(slopes));
 }
 
 std::int64_t growthOf(std::span<const SoakSample> samples, std::uint64_t SoakSample::*figure) {

@@ -1,8 +1,8 @@
 #pragma once
 /// Merges the traces of the hosts of a cluster into one, in which each host is a process.
 ///
-/// The hosts' clocks differ. All hosts show a frame together, so their clocks are aligned by the ends of their
-/// swaps: by the median over all common frames. A constant lag of one host's swap is thus not visible.
+/// The hosts' clocks differ. All hosts show a frame together, so their clocks are aligned by the ends of
+/// their swaps: by the median over all common frames. A constant lag of one host's swap is thus not visible.
 ///
 /// Memory   the time of each frame of each host; the files are read line by line.
 /// Threads  plain functions.

@@ -68,7 +68,8 @@ struct DoctorProbes {
 /// They hold a connection to the X server: a server without clients resets, and may refuse the next one.
 DoctorProbes probesOfThisMachine();
 
-/// Says that `ulimit -v` leaves a show too little address space. Probing drivers could then crash the process.
+/// Says that `ulimit -v` leaves a show too little address space. Probing drivers could then crash the
+/// process.
 std::optional<Diagnostic> lackOfAddressSpace();
 
 /// The requirements of a show.

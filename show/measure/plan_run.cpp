@@ -1,5 +1,6 @@
 #include "show/measure/plan_run.h"
 
+#include "engine/maths/median.h"
 #include "pipeline/draw_list/draw_list.h"
 #include "show/base/stop_signal.h"
 
@@ -9,17 +10,10 @@
 namespace stadion {
 namespace {
 
-double middleOf(std::vector<double> values) {
-  if (values.empty()) return 0;
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::ranges::nth_element(values, middle);
-  return *middle;
-}
-
 /// The last ones: those before are not looked at.
 double middleOfLast(const std::vector<double>& values, std::size_t count) {
   const std::size_t from = values.size() > count ? values.size() - count : 0;
-  return middleOf({values.begin() + static_cast<std::ptrdiff_t>(from), values.end()});
+  return median({values.begin() + static_cast<std::ptrdiff_t>(from), values.end()});
 }
 
 /// Plays it once; false, with the findings, if that cannot be.

@@ -1,8 +1,8 @@
 #pragma once
 /// Hashes of the pictures that walls show, as lines, while a run plays.
 ///
-/// A thread of its own computes and writes them. A live show never waits for it: if it falls behind, frames are
-/// left out and counted. A run in which every frame counts waits.
+/// A thread of its own computes and writes them. A live show never waits for it: if it falls behind, frames
+/// are left out and counted. A run in which every frame counts waits.
 ///
 /// Threads  PictureSink's; finish() after the run.
 

@@ -163,7 +163,6 @@ void RunOutput::writeFile(const std::string& name, const Picture& picture) {
   auto wrong = options_.folder.note(name);
   if (!wrong) wrong = writePng(options_.folder.pathOf(name), picture);
   if (wrong) return fail(Reason(*wrong, FailureKind::Refusal));
-  ++written_;
 }
 
 void RunOutput::writeLast(const Job& last) {

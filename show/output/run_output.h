@@ -57,7 +57,6 @@ public:
   const std::vector<std::string>& remarks() const { return remarks_; }  ///< things that did not work as asked
   /// Why pictures could not be written, if so. After finish().
   const Failure& failure() const { return failure_; }
-  std::size_t picturesWritten() const { return written_; }
 
 private:
   struct Job {
@@ -91,7 +90,6 @@ private:
   std::atomic<bool> videoFailed_ = false;  ///< then no frame is drawn for its sake
   Failure failure_;                        ///< the first one
   std::vector<std::string> files_, remarks_;
-  std::size_t written_ = 0;
   std::uint64_t lastWritten_ = ~std::uint64_t{0};
   std::thread writer_;
 };

@@ -1,8 +1,8 @@
 #pragma once
 /// How a run draws its walls on processors, and why.
 ///
-/// OpenGL  as the settings say, else as `stadion calibrate` found to be fastest on this machine, else by a rule
-///         (unmeasuredSetting).
+/// OpenGL  as the settings say, else as `stadion calibrate` found to be fastest on this machine, else by a
+///         rule (unmeasuredSetting).
 /// CPU     one pool of threads draws all walls of this process; processes only if they are asked for. The
 ///         calibration measures OpenGL, so it decides nothing here.
 ///

@@ -32,8 +32,8 @@ public:
   /// Compares the scene with the state. If the frames differ, they are the difference. If scripts or models
   /// differ, fields are compared by name.
   std::optional<SavedStateDifference> differenceFrom(Scene& scene) const;
-  /// The fields by name: "@NODE<tab>FILE:LINE", and below it "FIELD<tab>VALUE" a line; fields that are zero are
-  /// left out. Empty if the file has none.
+  /// The fields by name: "@NODE<tab>FILE:LINE", and below it "FIELD<tab>VALUE" a line; fields that are zero
+  /// are left out. Empty if the file has none.
   const std::string& fields() const { return fields_; }
 
 private:

@@ -40,12 +40,13 @@ struct KeptStates {
   const std::string& hashes;                           ///< keptStates()
   const std::map<std::uint64_t, std::string>& fields;  ///< keptFields()
 };
-/// "first in frames 33 to 40; after frame 49: ball (kick.evs:27), velocity is 0 1 2 now, 0 1 3 before". Without
-/// node and field if none were kept; empty if no kept frame differs.
+/// "first in frames 33 to 40; after frame 49: ball (kick.evs:27), velocity is 0 1 2 now, 0 1 3 before".
+/// Without node and field if none were kept; empty if no kept frame differs.
 std::string stateLocation(const regression::SuiteCase& c, const StatePlay& now, const KeptStates& before,
                           std::chrono::seconds limit, const std::atomic<bool>& stop);
 
-/// The first field that differs between two texts of StateFile::fields(), as in stateLocation(); empty if none does.
+/// The first field that differs between two texts of StateFile::fields(), as in stateLocation(); empty if
+/// none does.
 std::string firstDifference(const std::string& now, const std::string& before);
 
 }  // namespace stadion

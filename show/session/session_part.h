@@ -23,8 +23,7 @@
 namespace stadion {
 
 /// The state that the parts of a session share: a field for each of them, which is why it has more than 20.
-/// A pointer is null if the session has no such thing, or not
-/// yet.
+/// A pointer is null if the session has no such thing, or not yet.
 struct SessionState {
   SessionSettings settings;  ///< as asked for; the cluster file completes them
   Reporter& reporter;        ///< the journal receives its lines, too

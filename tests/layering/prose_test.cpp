@@ -15,8 +15,8 @@ namespace fs = std::filesystem;
 
 const fs::path kHouse = STADION_SOURCE_DIR;
 
-/// Returns the word that hides an actor: "nobody" or "whoever", also as a part of a name, or "who" without a person
-/// before it. Empty if there is none.
+/// Returns the word that hides an actor: "nobody" or "whoever", also as a part of a name, or "who" without a
+/// person before it. Empty if there is none.
 std::string hiddenActor(const std::string& line) {
   if (line.find("who") == line.npos && line.find("Who") == line.npos && line.find("obody") == line.npos)
     return "";
@@ -44,8 +44,8 @@ TEST(Prose, AnActorThatIsHiddenIsFound) {
   EXPECT_EQ(hiddenActor("bool isWhole(const NoBody& body);"), "");
 }
 
-/// Returns a word of the line that another word has replaced: "restarts" stands for "begins anew", an actor for "it is
-/// told", and a type's new name for its old one. Empty if there is none.
+/// Returns a word of the line that another word has replaced: "restarts" stands for "begins anew", an actor
+/// for "it is told", and a type's new name for its old one. Empty if there is none.
 std::string replacedWord(const std::string& line) {
   static constexpr std::string_view kReplaced[] = {
       "anew",           "Anew",          "begin again",   "begins again",    "began again",

@@ -22,9 +22,11 @@ public:
 
   /// What it has written to its standard output and error so far.
   std::string out() const, err() const;
-  /// Waits until its standard error contains the text `times` times; false if it ends before, or does not in good time.
+  /// Waits until its standard error contains the text `times` times; false if it ends before, or does not in
+  /// good time.
   bool says(const std::string& text, int times = 1) const;
-  /// Waits for anything else; false if it is not so when the program has ended, or does not come in good time.
+  /// Waits for anything else; false if it is not so when the program has ended, or does not come in good
+  /// time.
   bool waitUntil(const std::function<bool()>& condition) const;
   bool runs() const;
   /// Of the program, and of its process group.

@@ -141,8 +141,8 @@ struct FragmentSearch {
 ///  12, 24, 36 the corners: normal (3), position (3), texture coordinates (2), vertex colour (3), alpha with
 ///             that of the material (1)
 ///
-/// In the plain look the vertex colour is the colour of the lit corner, and its normal's x is the clearness of
-/// the air.
+/// In the plain look the vertex colour is the colour of the lit corner, and its normal's x is the clearness
+/// of the air.
 struct SurfaceBlock {
   float at[kSurfaceFloats];
 };

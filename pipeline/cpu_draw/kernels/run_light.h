@@ -1,8 +1,9 @@
 #pragma once
-/// Light along runs: it is computed at both ends of a run and interpolated between them, where it changes evenly.
+/// Light along runs: it is computed at both ends of a run and interpolated between them, where it changes
+/// evenly.
 ///
-/// Evenly   the distance changes by at most an eighth, the normal by at most 0.06 rad, highlights are wide, and
-///          both ends lie in light, or both in shadow. A pixel between them is shaded by itself if a border of
+/// Evenly   the distance changes by at most an eighth, the normal by at most 0.06 rad, highlights are wide,
+///          and both ends lie in light, or both in shadow. A pixel between them is shaded by itself if a border of
 ///          the shadow may be there. No result depends on the other runs that are computed at the same time.
 ///
 /// Linkage  internal.

@@ -19,8 +19,8 @@ struct SurfaceResponse : DrawLanes<By> {
   T by, with;   ///< the light is by * base colour + with
   F clearness;  ///< of the air: the part of a further light, as of a glow, that reaches the eye
 
-  /// `arriving(placed, n, reached)`: the part of the light of the lamp that casts shadows. It is called only if its light
-  /// would reach a fragment.
+  /// `arriving(placed, n, reached)`: the part of the light of the lamp that casts shadows. It is called only
+  /// if its light would reach a fragment.
   template <class Arriving>
   [[gnu::always_inline]] inline SurfaceResponse(const FragmentJob& job, const T& placed, const T& n,
                                                 const Arriving& arriving) {

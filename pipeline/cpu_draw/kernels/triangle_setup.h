@@ -64,8 +64,8 @@ struct TriangleSetup : DrawLanes<By> {
     return made;
   }
 
-  /// Numbers of the first and the last pixel with a sample in a stretch, and whether there is one. Samples lie
-  /// at (i + 1/2) / samples.
+  /// Numbers of the first and the last pixel with a sample in a stretch, and whether there is one. Samples
+  /// lie at (i + 1/2) / samples.
   [[gnu::always_inline]] static inline I span(F from, F to, float samples, int size, F& first, F& last) {
     const F low = L::ceiling(from * samples - 0.5f), high = L::floor(to * samples - 0.5f);
     first = L::most(L::floor(low * (1.0f / samples)), F{});
@@ -83,7 +83,8 @@ struct TriangleSetup : DrawLanes<By> {
           longIsLeft((c.x - a.x) * (b.y - a.y) - (c.y - a.y) * (b.x - a.x) < 0.0f) {}
   };
 
-  /// Whether triangles cover a sample of the two by two pixels at (left, low). Computes what Coverage computes.
+  /// Whether triangles cover a sample of the two by two pixels at (left, low). Computes what Coverage
+  /// computes.
   [[gnu::always_inline]] static inline I covers(const Corner& a, const Corner& b, const Corner& c,
                                                 const Edges& edges, F left, F low, int samples) {
     const int(*places)[2] = samples == 1   ? kOneSample

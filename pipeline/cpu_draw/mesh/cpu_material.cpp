@@ -12,10 +12,13 @@ void copyFirst(const Float4& from, float (&to)[kCount]) {
 
 LightParameters lightParameters(const LightBlock& from) {
   LightParameters to{};
-  copyFirst(from.position, to.position), copyFirst(from.direction, to.towards),
-      copyFirst(from.colour, to.colour);
-  to.perRangeSquared = from.position[3], to.kind = static_cast<int>(from.direction[3]);
-  to.coneOuter = from.cone[0], to.perCone = from.cone[1];
+  copyFirst(from.position, to.position);
+  copyFirst(from.direction, to.towards);
+  copyFirst(from.colour, to.colour);
+  to.perRangeSquared = from.position[3];
+  to.kind = static_cast<int>(from.direction[3]);
+  to.coneOuter = from.cone[0];
+  to.perCone = from.cone[1];
   return to;
 }
 
@@ -24,8 +27,10 @@ LightParameters lightParameters(const LightBlock& from) {
 MaterialParameters materialParameters(const Material& material, Look look) {
   const MaterialBlock block = fillMaterial(material, look);
   MaterialParameters to{};
-  copyFirst(block.baseColour, to.baseColour), copyFirst(block.emissive, to.emissive);
-  to.roughness = block.emissive[3], to.metallic = block.finish[0];
+  copyFirst(block.baseColour, to.baseColour);
+  copyFirst(block.emissive, to.emissive);
+  to.roughness = block.emissive[3];
+  to.metallic = block.finish[0];
   to.alphaCutoff = material.masked() ? block.finish[1] : 0;
   to.normalScale = to.occlusionStrength = 1;
   to.doubleSided = material.doubleSided;
@@ -34,11 +39,16 @@ MaterialParameters materialParameters(const Material& material, Look look) {
 
 SceneParameters sceneParameters(const SceneBlock& block) {
   SceneParameters to{};
-  copyFirst(block.zenith, to.zenith), copyFirst(block.horizon, to.horizon);
-  copyFirst(block.ground, to.ground), copyFirst(block.ambient, to.ambient);
-  copyFirst(block.sunDirection, to.sunDirection), copyFirst(block.sunColour, to.sunColour);
-  to.perHaze = block.ambient[3], to.sunShare = block.sunDirection[3];
-  to.lights = block.lightCount[0], to.shadowed = block.lightCount[1];
+  copyFirst(block.zenith, to.zenith);
+  copyFirst(block.horizon, to.horizon);
+  copyFirst(block.ground, to.ground);
+  copyFirst(block.ambient, to.ambient);
+  copyFirst(block.sunDirection, to.sunDirection);
+  copyFirst(block.sunColour, to.sunColour);
+  to.perHaze = block.ambient[3];
+  to.sunShare = block.sunDirection[3];
+  to.lights = block.lightCount[0];
+  to.shadowed = block.lightCount[1];
   std::ranges::transform(block.lights, to.light, lightParameters);
   return to;
 }

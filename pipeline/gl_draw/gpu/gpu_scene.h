@@ -32,8 +32,8 @@ public:
   GpuScene(const GlTable& gl, const MeshStore& store, RenderQuality quality, bool sortsObjects,
            ProblemLog& problems);
 
-  /// Returns true if triangles are removed before OpenGL sees them (TriangleCuller). It pays where a processor
-  /// rasterises with one sample a pixel: most triangles of distant objects cover no pixel.
+  /// Returns true if triangles are removed before OpenGL sees them (TriangleCuller). It pays where a
+  /// processor rasterises with one sample a pixel: most triangles of distant objects cover no pixel.
   bool cullsTriangles() const { return cullsTriangles_; }
 
   /// Starts a draw list: frees meshes that the store has freed, and takes up the first items. `probe` gets

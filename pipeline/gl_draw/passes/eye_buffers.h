@@ -1,7 +1,7 @@
 #pragma once
 /// Where one wall's pictures arise: one multisampled buffer, drawn into by one view after the other, and a
-/// resolved picture for each view. With one sample a pixel the pictures are drawn into themselves, and drawing may
-/// go on with what has been drawn elsewhere.
+/// resolved picture for each view. With one sample a pixel the pictures are drawn into themselves, and
+/// drawing may go on with what has been drawn elsewhere.
 ///
 /// Ownership  owns the GL objects. Threads: the thread on which the context is current.
 
@@ -45,8 +45,8 @@ public:
   GLuint depthsSoFar(std::uint32_t view);
   std::uint32_t samples() const { return samples_; }  ///< a pixel
 
-  /// The depths of what has been drawn of `view`, 1 at the near plane and 0 at the far one or where nothing is
-  /// (height x width), rows from the bottom; with one sample a pixel. Waits for the drawing to end.
+  /// The depths of what has been drawn of `view`, 1 at the near plane and 0 at the far one or where nothing
+  /// is (height x width), rows from the bottom; with one sample a pixel. Waits for the drawing to end.
   void readDepths(std::uint32_t view, std::span<float> depths);
 
 private:

@@ -25,8 +25,8 @@ public:
   DrawPieces(const GlTable& gl, GpuScene& scene, std::uint32_t mostAtOnce)
       : gl_(gl), scene_(scene), mostAtOnce_(mostAtOnce) {}
 
-  /// Decides what of a list is timed; before anything of it is drawn. `drawNothing` draws something that costs
-  /// next to nothing. Call the functions below in this order.
+  /// Decides what of a list is timed; before anything of it is drawn. `drawNothing` draws something that
+  /// costs next to nothing. Call the functions below in this order.
   void beginFrame(const DrawList& list, FrameProbe* probe, const std::function<void()>& drawNothing);
   /// The scene has begun the list. If pieces are timed, waits for the whole list.
   void beginList();

@@ -1,7 +1,7 @@
 #include "profiling/regression/spans/span_times.h"
 
+#include "engine/maths/median.h"
 #include "profiling/regression/spans/callgrind_request.h"
-#include "profiling/regression/spans/median.h"
 
 #include <algorithm>
 #include <chrono>

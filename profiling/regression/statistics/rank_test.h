@@ -7,7 +7,7 @@
 /// Threads  free functions, any thread.
 /// Errors   none; figures that are not finite are left out.
 
-#include "profiling/regression/spans/median.h"
+#include "engine/maths/median.h"
 
 #include <cstddef>
 #include <vector>

@@ -68,8 +68,8 @@ TEST(ProgramCluster, AHostLeftOutAsTheShowEndsReportsItsMissingPictures) {
   const std::string missing =
       "--out: the show ended before this machine had caught up with it: its last pictures are missing";
   std::string told;
-  // The leader waits a second for the answer to its last order. On a busy machine the follower may wake before
-  // or after that second, and end otherwise: then the next try.
+  // The leader waits a second for the answer to its last order. On a busy machine the follower may wake
+  // before or after that second, and end otherwise: then the next try.
   for (int tries = 0; tries < 10 && !has(told, missing); ++tries) {
     // The leader does not lose sight of a machine that stands still before two deadlines are over.
     const TwoLive two("", "deadline 2\n");

@@ -1,6 +1,6 @@
-/// A picture follows from its frame alone. A show that was restored from a snapshot, or has not drawn the frames
-/// before, draws the same to the bit as one that has drawn them all. In the full look, with shadows, levels
-/// of detail and haze.
+/// A picture follows from its frame alone. A show that was restored from a snapshot, or has not drawn the
+/// frames before, draws the same to the bit as one that has drawn them all. In the full look, with shadows,
+/// levels of detail and haze.
 
 #include "engine/core/state_fields.h"
 #include "engine/scene/scene_snapshot.h"

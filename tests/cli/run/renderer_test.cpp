@@ -1,5 +1,5 @@
-/// --renderer: the CPU renderer draws the same pixels however its work is divided, nearly those of OpenGL, and
-/// loads no OpenGL.
+/// --renderer: the CPU renderer draws the same pixels however its work is divided, nearly those of OpenGL,
+/// and loads no OpenGL.
 
 #include "pipeline/picture/picture.h"
 #include "pipeline/target/graphics_card.h"
@@ -141,8 +141,9 @@ std::map<std::string, Picture> picturesDrawnBy(const Options& renderer, const st
   return pictures;
 }
 
-/// The mean is that of all walls. A single picture may have more: on the floor of the kick most texels are one
-/// step off, since the filters round differently. Larger differences lie at edges: corners are not moved to a grid.
+/// The mean is that of all walls. A single picture may have more: on the floor of the kick most texels are
+/// one step off, since the filters round differently. Larger differences lie at edges: corners are not moved
+/// to a grid.
 void expectNearOpenGl(const std::string& show) {
   constexpr double kMeanLimit = 0.3, kAlikePart = 0.995;
   constexpr int kAlike = 8;

@@ -1,5 +1,5 @@
-/// Displays in memory whose screen saver or DPMS is due after a second: both wait while a show is shown, and no
-/// longer.
+/// Displays in memory whose screen saver or DPMS is due after a second: both wait while a show is shown, and
+/// no longer.
 
 #include "pipeline/platform/shared_library.h"
 #include "tests/programs/becomes.h"
@@ -13,7 +13,8 @@
 namespace stadion {
 namespace {
 
-/// A client of an X server that asks about its screen saver and DPMS, through the libraries that the program uses.
+/// A client of an X server that asks about its screen saver and DPMS, through the libraries that the program
+/// uses.
 class SaverClient {
 public:
   /// Null if the libraries are not there.

@@ -1,4 +1,5 @@
-/// Pairs part at their exact time: the same at every frame rate, and as the closed form of a free flight says.
+/// Pairs part at their exact time: the same at every frame rate, and as the closed form of a free flight
+/// says.
 
 #include "tests/dynamics/world/watch.h"
 
@@ -41,8 +42,8 @@ std::vector<Nanoseconds> releasesOf(World& w, BodyId body, double seconds, doubl
   return times;
 }
 
-/// When a body whose underside begins at height `h` has bounced to kReleaseDistance for the first and the second time.
-/// Expects that it does not turn. [ns]
+/// When a body whose underside begins at height `h` has bounced to kReleaseDistance for the first and the
+/// second time. Expects that it does not turn. [ns]
 std::vector<double> closedForm(double h, double restitution) {
   const double fall = std::sqrt(2 * h / kG);
   double speed = kG * fall * restitution, start = fall;
@@ -100,8 +101,8 @@ TEST(Release, OfEverySolidIsTheSameAtEveryFrameRate) {
       }
 }
 
-/// A box that lies and sleeps, waiting for its release, is struck from below and flies off within a frame. `far`:
-/// the release distance of the ball that strikes it.
+/// A box that lies and sleeps, waiting for its release, is struck from below and flies off within a frame.
+/// `far`: the release distance of the ball that strikes it.
 std::vector<Nanoseconds> releasesOfAStruckSleeper(double rate, double far) {
   World w;
   const FieldId g = addGravity(w);

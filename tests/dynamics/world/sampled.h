@@ -1,6 +1,6 @@
 #pragma once
-/// Scenes that are many and long: `--full` plays all of them, and another run two of five. With a sanitizer each takes
-/// fifty times as long, so that only some are played.
+/// Scenes that are many and long: `--full` plays all of them, and another run two of five. With a sanitizer
+/// each takes fifty times as long, so that only some are played.
 
 #include <cstdlib>
 

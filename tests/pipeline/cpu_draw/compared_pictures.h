@@ -21,7 +21,8 @@ Picture drawnByCpu(const MeshStore& meshes, const DrawList& list, std::uint32_t 
 Picture drawnByOpenGl(const MeshStore& meshes, const DrawList& list, std::uint32_t width,
                       std::uint32_t height, const RenderQuality& quality = {}, std::uint32_t view = 0);
 
-/// The mean of side x side pictures with one sample a pixel, each moved by a part of a pixel, in linear light.
+/// The mean of side x side pictures with one sample a pixel, each moved by a part of a pixel, in linear
+/// light.
 Picture referencePicture(const MeshStore& meshes, DrawList list, std::uint32_t width, std::uint32_t height,
                          int side = 8, std::uint32_t view = 0);
 

@@ -80,7 +80,8 @@ std::string describe(const HomogeneousTriangle& t) {
 
 enum class Seen { No, Yes, Unclear };
 
-/// Whether a sample lies inside, before the eye and behind the near plane. Close to a border rounding decides.
+/// Whether a sample lies inside, before the eye and behind the near plane. Close to a border rounding
+/// decides.
 Seen sampleSeen(const HomogeneousTriangle& t, double x, double y, double mostDepth, double& depth) {
   Row3 plane{};
   bool inside = true;

@@ -16,8 +16,8 @@ public:
   explicit AppProgress(std::uint64_t frames) : last_(frames - 1) {}
 
   void reached(std::uint64_t frame) { newest_ = frame; }
-  /// For the Cull of a slow wall: waits until App has begun `more` further frames, or the last one. False: App
-  /// has waited for a slot all the while, for nearly a second. A busy machine alone is no reason.
+  /// For the Cull of a slow wall: waits until App has begun `more` further frames, or the last one. False:
+  /// App has waited for a slot all the while, for nearly a second. A busy machine alone is no reason.
   bool goesOn(std::uint64_t more) const {
     const std::uint64_t wanted = std::min(newest_ + more, last_);
     std::uint64_t wait = 0;

@@ -1,4 +1,5 @@
-/// With --guard, a stage that writes what it may only read ends the run, and is named with the node and field.
+/// With --guard, a stage that writes what it may only read ends the run, and is named with the node and
+/// field.
 
 #include "engine/base/worker_pool.h"
 #include "engine/core/state_hash.h"

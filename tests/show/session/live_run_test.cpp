@@ -116,7 +116,8 @@ TEST(ProgramLiveRun, ThatIsStoppedReplaysToItsLastFrame) {
 
 // As timeout(1) does: it signals the process and then its whole group.
 TEST(ProgramLiveRun, ThatIsToldTwiceAtOnceToStopEndsInOrder) {
-  // The two are one within a tenth of a second. On a busy machine this test may take longer between them: then it tries again.
+  // The two are one within a tenth of a second. On a busy machine this test may take longer between them:
+  // then it tries again.
   bool inOrder = false;
   std::string told;
   for (int tries = 0; tries < 20 && !inOrder; ++tries) {

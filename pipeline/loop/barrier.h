@@ -1,5 +1,5 @@
 #pragma once
-/// Lets all walls show the same frame together: each waits until all have drawn.
+/// Lets several threads go on together: each waits until all have arrived.
 ///
 /// Threads  any. The last one to arrive runs the action while the others wait.
 
@@ -11,18 +11,18 @@
 
 namespace stadion {
 
-class SwapBarrier {
+class Barrier {
 public:
-  explicit SwapBarrier(std::size_t walls) : walls_(walls) {}
+  explicit Barrier(std::size_t parties) : parties_(parties) {}
 
-  /// Waits for the other walls. The last one to arrive runs `show`, then all go on. Returns false if the run
-  /// was stopped.
-  template <class Show>
-  bool arrive(const Show& show) {
+  /// Waits for the others. The last one to arrive runs `action`, then all go on. Returns false if the run was
+  /// stopped.
+  template <class Action>
+  bool arrive(const Action& action) {
     std::unique_lock lock(mutex_);
     if (stopped_) return false;
-    if (++arrived_ < walls_) return wait(lock);
-    show();
+    if (++arrived_ < parties_) return wait(lock);
+    action();
     arrived_ = 0;
     ++epoch_;
     changed_.notify_all();
@@ -35,7 +35,7 @@ private:
 
   std::mutex mutex_;
   std::condition_variable changed_;
-  std::size_t walls_, arrived_ = 0;
+  std::size_t parties_, arrived_ = 0;
   std::uint64_t epoch_ = 0;
   bool stopped_ = false;
 };

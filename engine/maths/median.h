@@ -8,7 +8,7 @@
 #include <cstddef>
 #include <vector>
 
-namespace stadion::regression {
+namespace stadion {
 
 /// The middle value, or the mean of the two middle ones; 0 if there is none. Leaves out what is not finite.
 inline double median(std::vector<double> values) {
@@ -19,4 +19,4 @@ inline double median(std::vector<double> values) {
   return values.size() % 2 ? values[middle] : (values[middle - 1] + values[middle]) / 2;
 }
 
-}  // namespace stadion::regression
+}  // namespace stadion
