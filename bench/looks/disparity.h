@@ -2,7 +2,8 @@
 /// How far a picture's details lie from their places to the left or right, and what that does to depth.
 ///
 /// Method     The picture is divided into blocks. Each is compared with the reference at whole-pixel shifts,
-///            then a least-squares fit on the brightness finds the fraction. Blocks without contrast are left out.
+///            then a least-squares fit on the brightness finds the fraction. Blocks without contrast are left
+///            out.
 /// Units      pixels, positive to the right.
 /// Threads    plain functions.
 

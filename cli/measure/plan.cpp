@@ -195,10 +195,11 @@ Draw is measured; of Draw, what its calls take and what the software rasteriser'
 loop is played through without it, event by event: threads that share the processors alike, three slots of scene state, two
 draw lists a wall, walls that take turns with their calls, one rasteriser for all of them, a swap for all walls together.
 
-`--wall-count 4` means the first four walls of cave6; beyond six, those again. With --walls all of its walls are measured; beside
---from it says how many are planned for. `what
-would change it` plays the same frames on other machines: the rasteriser then has a thread for each core (32 at most) and keeps
-the same part of them busy. A rasteriser for each wall is what walls as processes would have.
+--wall-count 4 means the first four walls of cave6; beyond six, those again. With --walls, all walls of the file are measured.
+Beside --from, --walls says how many walls are planned for.
+
+The part "what would change it" plays the same frames on other machines: there the rasteriser has a thread for each core (32
+at most) and keeps the same part of them busy. Walls as processes have a rasteriser each.
 
   ./stadion plan scripts/kick.evs --wall-count 6
   ./stadion plan scripts/olympia.evs --walls cave4 --cores 16 --out plan    # plan/plan.svg, a timing diagram; plan/plan.json

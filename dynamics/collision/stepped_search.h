@@ -9,7 +9,8 @@
 ///          here FCL builds them (mesh_distance.h). A mesh is its surface and has no inside. Other shapes are
 ///          their own boxes: they overlap if their exact distance is negative.
 /// Limits   by design. What is apart at both ends of a step is not seen: thin and fast things pass each
-///          other. Touches come early, by up to the tolerance. What has got inside of a mesh leaves it freely.
+///          other. Touches come early, by up to the tolerance. What has got inside of a mesh leaves it
+///          freely.
 /// Sides    that overlap at the start touch as soon as they approach each other; else they come apart first.
 
 #include "dynamics/collision/impact_scheme.h"

@@ -2,9 +2,9 @@
 /// What contacts may do to the energy of an island that nothing moves from outside: lower it.
 ///
 /// Method   impulses that are `a` times as strong do the work a b + a^2 c on the members. If the work would
-///          be positive, all impulses are weakened by one factor until it is not. So the total momentum stays.
-///          Overlap is pushed out at a speed of its own. Bodies that do not move as fast already may receive
-///          the work that this takes.
+///          be positive, all impulses are weakened by one factor until it is not. So the total momentum
+///          stays. Overlap is pushed out at a speed of its own. Bodies that do not move as fast already may
+///          receive the work that this takes.
 
 #include "dynamics/body/impulse.h"
 

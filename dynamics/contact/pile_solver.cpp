@@ -23,7 +23,7 @@ constexpr double kShare = 0.3;             ///< of deeper overlap that a step ta
 constexpr double kMostShift = 2e-3;        ///< in a step [m]
 constexpr double kBounceSpeed = 0.5;       ///< slower approaches do not bounce [m/s]
 
-/// Three numbers and the one behind them.
+/// Reads the three numbers and the double behind them, which PileBody and PileContact provide, in one load.
 inline void load(const Vec3& v, Double4& to) {
   __builtin_memcpy(&to, v.data(), sizeof to);
 }

@@ -7,8 +7,8 @@
 /// Commands  enable (starts an activation that `duration` bounds), disable, toggle, reset, and those of a
 ///           placed node.
 /// Frames    the law is in the field's own coordinates; its scale multiplies a linear field's strength and
-///           the lengths of the others. The place of a field that is attached to a body counts from the body's
-///           centre of mass if `centredOnMass`.
+///           the lengths of the others. The place of a field that is attached to a body counts from the
+///           body's centre of mass if `centredOnMass`.
 /// Times     a command takes effect inside dynamics at its exact time; a device's axis scales the strength
 ///           evenly between the times at which it changed.
 

@@ -9,7 +9,7 @@ namespace stadion {
 
 namespace {
 
-constexpr double kParted = 1e-3;          ///< and those farther than this no longer [m]
+constexpr double kParted = 1e-3;          ///< a pair that touched counts as touching up to this gap [m]
 constexpr std::size_t kContactsEach = 6;  ///< space for so many of each member is made at once
 constexpr std::size_t kLeast = 4;         ///< a smaller pile dissolves
 constexpr double kLeaving = 0.1;          ///< least speed of a body that may leave a pile for good [m/s]

@@ -68,7 +68,6 @@ BodyId World::addBody(const BodyDef& d) {
   b.aligned = b.X_NC.p.isZero(0) && b.X_NC.q.coeffs() == Quat::Identity().coeffs();
   b.centred = b.isBall() && b.eccentricity() <= 1e-9 * b.radius();
   b.reach = (b.bound.centre - b.X_NC.p).norm() + b.bound.radius;
-  b.centred = b.isBall() && b.eccentricity() <= 1e-9 * b.radius();
   b.damping = d.damping;
   b.dragArea = d.dragArea;
   b.releaseDistance = d.releaseDistance;

@@ -12,7 +12,8 @@
 /// of the target's own state only when this node leaves the target there.
 ///
 /// Commands  enable (continues from its last t), disable (the targets keep their poses at the command's
-///           time), toggle, reset (back to t = 0), and the commands of a placed node if it moves its children.
+///           time), toggle, reset (back to t = 0), and the commands of a placed node if it moves its
+///           children.
 /// Times     nodes that watch a target receive its path inside the frame, as chords of 2 ms on a grid of show
 ///           time.
 /// Degraded  while it rests, t stands still. If it runs in one of several frames, its targets are then where

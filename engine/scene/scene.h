@@ -89,7 +89,7 @@ public:
   ///     their bodies, colliders and fields do not: switch, pairs, grips, free places, recoveries
   ///   - show time, the free rig, the numbers of the loaded files
   ///   - pending messages, alarms, loads and unloads; degradation
-  /// It does not cover parameters that never change, kept fields (state_fields.h), and the rest of a world:
+  /// It does not cover parameters that never change, unhashed() fields (state_fields.h), and the rest of a world:
   /// predicted events, search structures, the solver's memory. SceneSnapshot::digest() covers what a snapshot
   /// saves of these.
   std::uint64_t stateHash() const;

@@ -64,7 +64,9 @@ int main(int argc, char** argv) {
   if (outcome.failure) return fail(outcome.failure->message);
 
   const Scene& scene = player->scene();
-  const NodeRef ref = scene.tree().resolve(argv[2], {1, 0});
+  // Names are looked up from the first node of the show's own script: load 1, node 0.
+  constexpr NodeRef kFirst{1, 0};
+  const NodeRef ref = scene.tree().resolve(argv[2], kFirst);
   const LoadedScene* load = scene.tree().load(ref.load);
   const auto* node = load ? dynamic_cast<const PlacedNode*>(load->nodes[ref.position].get()) : nullptr;
   if (!node) return fail(std::string("there is no node \"") + argv[2] + "\" with a place");

@@ -3,8 +3,8 @@
 ///
 /// Method     Visibility first: triangles are placed, set up and drawn into bands of rows as depth and number
 ///            for each sample. Then each triangle that a pixel shows is shaded once, several at a time, and
-///            the samples are averaged in linear light. So the cost follows what is seen, not what is drawn over.
-///            README.md has the steps.
+///            the samples are averaged in linear light. So the cost follows what is seen, not what is drawn
+///            over. README.md has the steps.
 /// Light      the model of the shaders (pipeline/shader/shaders.h).
 /// Same pixels  for the same list on every processor, for any number of threads and walls.
 /// Ownership  CpuRoom: what all walls of a show share. It must outlive the renderers.
@@ -96,8 +96,8 @@ private:
 
   CpuRoom& room_;
   std::uint32_t width_, height_;
-  PictureRung rung_;     ///< without stress
-  PictureRung drawing_;  ///< of the current list
+  PictureRung rung_;               ///< without stress
+  PictureRung drawing_;            ///< of the current list
   std::vector<Picture> pictures_;  ///< by view
   PieceCosts costs_;
   std::size_t views_ = 0;  ///< number of views in the current list

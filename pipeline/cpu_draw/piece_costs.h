@@ -2,9 +2,9 @@
 /// Measures what drawing costs by node, where a probe asks for it (engine/core/frame_probe.h).
 ///
 /// Method   after a frame is drawn, some objects are drawn once more, alone, without the sky. What the same
-///          bands cost without them is taken off. Nothing lies in front of them then: what they cost in the frame is less if they
-///          are hidden, and the reader scales the costs of all nodes to the whole view's. The sky is drawn in every
-///          fourth band.
+///          bands cost without them is taken off. Nothing lies in front of them then: what they cost in the
+///          frame is less if they are hidden, and the reader scales the costs of all nodes to the whole
+///          view's. The sky is drawn in every fourth band.
 /// Units    milliseconds of processor time; work is an estimate of cost [pixels].
 /// Threads  the calling thread does everything, so that its processor time is the cost.
 

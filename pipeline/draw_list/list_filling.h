@@ -3,8 +3,8 @@
 /// filled the whole list (CULLoDRAW in OpenGL Performer). The picture is that of a complete list.
 ///
 /// Order    Cull sets everything but the items and calls begin(). Then it fills the items in the list's
-///          order, the opaque ones first, and calls reach() on the way. At the end it calls finish(). Before Draw
-///          reads an item, it calls await().
+///          order, the opaque ones first, and calls reach() on the way. At the end it calls finish(). Before
+///          Draw reads an item, it calls await().
 /// Threads  restart(), begin(), reach(), finish(): the Cull thread that fills the list. await(), isVoid(),
 ///          isCutShort(): the Draw thread that draws it. stop(): any thread.
 

@@ -4,7 +4,8 @@
 ///
 /// Threads   one loader thread; request, take, dispose and shown are App's.
 /// Errors    Errors in a file go to the report function, on the loader's thread, or on App's when the show is
-///           opened; the show goes on. take() throws the loader thread's exceptions again, with the file's name.
+///           opened; the show goes on. take() throws the loader thread's exceptions again, with the file's
+///           name.
 ///
 /// A load takes effect when it is due, and take() waits for it. In a live show, a load that is not ready
 /// takes effect in the first frame in which it is ready. That decision is reported, so that it can be

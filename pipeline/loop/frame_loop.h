@@ -7,7 +7,8 @@
 /// by frame.
 ///
 /// Threads  run() returns when all threads have ended, and times() is read after that. App may call
-///          endAfterThisFrame() and catchesUp(), from within its stage. The fields are grouped by their thread.
+///          endAfterThisFrame() and catchesUp(), from within its stage. The fields are grouped by their
+///          thread.
 /// Errors   run() lets no exception out. The first failure of any thread is in the outcome.
 /// Size     FrameLoop has more than 20 fields: the state of a frame that App, Cull, Draw and the swap share.
 

@@ -49,8 +49,8 @@ using AppObserver = std::function<void(const TimeSignature&, const InputSample&,
 /// Wall processes draw the walls (process/per_wall_process_renderer.h).
 struct WallProcesses {
   RendererKind renderer = RendererKind::OsMesa;
-  std::uint32_t rasteriserThreads =
-      0;  ///< rasteriser threads of each process; at least one for the CPU renderer
+  /// Rasteriser threads of each process; at least one for the CPU renderer.
+  std::uint32_t rasteriserThreads = 0;
   /// True: every frame counts. False: the newest frame counts, and no wall waits for a late one.
   bool everyFrame = true;
   double rate = 60;                                ///< [1/s]

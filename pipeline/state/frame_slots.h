@@ -21,8 +21,8 @@ namespace stadion {
 
 enum class Delivery {
   Every,   ///< every frame is shown; App waits for slow readers (recording, regression)
-  Latest,  ///< the newest frame is shown (live). App waits only if the walls hold all
-           ///< slots. Walls that ask as above never do.
+  Latest,  ///< the newest frame is shown (live). App waits only if all slots are
+           ///< leased. That cannot happen if each wall asks only with an empty list.
 };
 
 struct Lease {

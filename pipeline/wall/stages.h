@@ -5,8 +5,8 @@
 /// The loop decides on which thread they run, and when; the stages do not know whether they are overlapped.
 ///
 /// Threads  app(), still() and wantsDrawn() on the App thread; cull(w) on wall w's Cull thread; openWall,
-///          warmUp, latch, draw and closeWall(w) on wall w's Draw thread; swap() on the Draw thread that arrives last, while the
-///          others wait. In sequential mode all on one thread.
+///          warmUp, latch, draw and closeWall(w) on wall w's Draw thread; swap() on the Draw thread that
+///          arrives last, while the others wait. In sequential mode all on one thread.
 /// Errors   a stage that cannot go on returns a reason; the loop stops every thread and hands the reason on.
 ///          What a stage throws (it should not: memory may run out) becomes such a reason, with the stage's
 ///          name and frame. RunStopped ends the run: from App before this frame, from Draw at once.

@@ -2,8 +2,8 @@
 /// Plays shows for very many frames, for `stadion soak`, and counts what must not change.
 ///
 /// Method   visits of three kinds take turns: pipelined and long, sequential and short, and short ones whose
-///          wall processes are killed. The visitor does the same in all of them, so the same frame of a show must
-///          have the same history of states.
+///          wall processes are killed. The visitor does the same in all of them, so the same frame of a show
+///          must have the same history of states.
 /// Threads  App's; play() returns after the last frame.
 /// Errors   play() returns false if a show could not be played; the reporter has received the reason.
 

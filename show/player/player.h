@@ -61,7 +61,7 @@ struct ShowOptions {
 
 /// Everything of a show but its drawing.
 ///
-/// Ownership  owns all parts; nothing outlives it.
+/// Ownership  owns its parts, but not the `kept` models and not a live input device: these must outlive it.
 class Player {
 public:
   /// Reads, checks and loads everything. Null if a file or an option is wrong; the findings say what.
