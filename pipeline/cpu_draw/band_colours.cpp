@@ -13,18 +13,27 @@ bool showsOne(const unsigned* shown, int samples) {
 
 void BandColours::find(const PictureShading& picture, const VisibleBand& band) {
   const int samples = picture.rung.samples, rows = band.end() - band.low();
-  width_ = picture.paddedWidth(), firstPart_ = static_cast<unsigned>(rows * width_);
+  width_ = picture.paddedWidth();
+  firstPart_ = static_cast<unsigned>(rows * width_);
   const auto pixels = static_cast<std::size_t>(firstPart_), most = pixels * static_cast<std::size_t>(samples);
   const unsigned sky = band.triangles().size();
-  runs_.begin(sky, pixels), ones_.begin(sky, most), copies_.clear();
+  runs_.begin(sky, pixels);
+  ones_.begin(sky, most);
+  copies_.clear();
   if (shared_.size() < pixels) shared_.resize(pixels);
   if (weights_.size() < most) weights_.resize(most);
   FragmentSearch search{};
-  search.samples = samples, search.width = picture.width(), search.sky = sky;
-  search.runs = &runs_.list(), search.ones = &ones_.list(), search.shared = shared_.data();
-  search.weight = weights_.data(), search.firstPart = firstPart_;
+  search.samples = samples;
+  search.width = picture.width();
+  search.sky = sky;
+  search.runs = &runs_.list();
+  search.ones = &ones_.list();
+  search.shared = shared_.data();
+  search.weight = weights_.data();
+  search.firstPart = firstPart_;
   for (int row = 0; row < rows; ++row) {
-    search.shown = band.row(band.low() + row), search.y = band.low() + row;
+    search.shown = band.row(band.low() + row);
+    search.y = band.low() + row;
     search.place = static_cast<unsigned>(placeOf(row, 0));
     picture.rung.coarse ? findCoarse(*picture.kernels, search) : picture.kernels->findFragments(search);
   }
@@ -46,7 +55,8 @@ void BandColours::findCoarse(const DrawKernels& kernels, FragmentSearch& row) {
       ones_.add(std::min(row.shown[0], row.sky),
                 static_cast<unsigned>(row.x) | static_cast<unsigned>(row.y) << 16, row.place);
   }
-  row.x = whole.x, row.width = whole.width;
+  row.x = whole.x;
+  row.width = whole.width;
 }
 
 /// The place whose colour serves for a pixel that shows one triangle.

@@ -3,7 +3,9 @@
 namespace stadion {
 
 void BandTriangles::collect(const PictureSetup& setup, Transparency which, std::size_t band) {
-  runs_.clear(), records_.clear(), blocksUsed_ = 0;
+  runs_.clear();
+  records_.clear();
+  blocksUsed_ = 0;
   setup.forEach(which, band,
                 [this](const TriangleRecord* records, std::span<const std::uint32_t> numbers, bool masked) {
                   const unsigned first = size();

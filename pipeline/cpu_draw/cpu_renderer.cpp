@@ -1,8 +1,8 @@
 #include "pipeline/cpu_draw/cpu_renderer.h"
 
 #include "engine/base/run_stopped.h"
-#include "pipeline/cpu_draw/mesh/cpu_material.h"
 #include "pipeline/cpu_draw/kernels/choose_kernels.h"
+#include "pipeline/cpu_draw/mesh/cpu_material.h"
 #include "pipeline/draw_list/list_filling.h"
 #include "pipeline/gl/picture_size.h"
 #include "pipeline/gl/problem.h"
@@ -30,7 +30,8 @@ bool isFilled(const DrawList& list, FrameProbe* probe) {
 ViewParameters viewParameters(const ViewBlock& block, std::uint32_t width, std::uint32_t height) {
   ViewParameters to{};
   for (std::size_t k = 0; k < 3; ++k) {
-    to.eye[k] = block.eye[k], to.ray[k] = block.rays[0][k];
+    to.eye[k] = block.eye[k];
+    to.ray[k] = block.rays[0][k];
     to.rayX[k] = (block.rays[1][k] - block.rays[0][k]) / (2 * static_cast<float>(width));
     to.rayY[k] = (block.rays[2][k] - block.rays[0][k]) / (2 * static_cast<float>(height));
   }
@@ -153,7 +154,8 @@ void CpuRenderer::begin(const DrawList& list, std::uint32_t view) {
       if (mesh && !picture.setup.add(mesh, item.level, item.model, which)) ++picture.refused;
     }
   };
-  addAll(list.opaque, Transparency::Opaque), addAll(list.transparent, Transparency::Opaque);
+  addAll(list.opaque, Transparency::Opaque);
+  addAll(list.transparent, Transparency::Opaque);
   addAll(list.transparent, Transparency::Transparent);
   picture.setup.divide();
 }

@@ -13,8 +13,12 @@ void Cutouts::find(const DrawKernels& kernels, const TriangleRecord& record, Fra
       pixels_.push_back(static_cast<unsigned>(x) | static_cast<unsigned>(y) << 16);
   job.count = static_cast<unsigned>(pixels_.size());
   const std::size_t padded = pixels_.size() + kKernelPadding;
-  pixels_.resize(padded), surfaces_.assign(padded, 0), found_.resize(padded);
-  job.pixel = pixels_.data(), job.surface = surfaces_.data(), job.place = surfaces_.data();
+  pixels_.resize(padded);
+  surfaces_.assign(padded, 0);
+  found_.resize(padded);
+  job.pixel = pixels_.data();
+  job.surface = surfaces_.data();
+  job.place = surfaces_.data();
   kernels.cutOut(job, found_.data());
 }
 

@@ -29,7 +29,8 @@ void FragmentShading::sort(const PictureShading& picture, const BandTriangles& t
   next_[triangles.size()] = ends_[sky];
   for (const unsigned number : visible_) {
     unsigned& end = ends_[materialOf(number)];
-    next_[number] = end, end += fragments.times[number];
+    next_[number] = end;
+    end += fragments.times[number];
   }
   ends_[sky] = fragments.size;
   const std::size_t size = fragments.size + std::size_t{kKernelPadding};
@@ -39,7 +40,8 @@ void FragmentShading::sort(const PictureShading& picture, const BandTriangles& t
   }
   for (unsigned i = 0; i < fragments.size; ++i) {
     const unsigned number = fragments.number[i], to = next_[number]++;
-    pixel_[to] = fragments.pixel[i], place_[to] = fragments.place[i];
+    pixel_[to] = fragments.pixel[i];
+    place_[to] = fragments.place[i];
     surface_[to] = number < triangles.size() ? triangles.block(number) : 0;
   }
 }
@@ -51,16 +53,22 @@ void FragmentShading::shade(const PictureShading& picture, BandTriangles& triang
   triangles.makeBlocks(blocks, visible_);
   sort(picture, triangles, fragments);
   FragmentJob job{};
-  job.surfaces = triangles.blocks(), job.runs = runs, job.colours = colours;
-  job.scene = picture.scene, job.shadow = picture.shadow, job.view = picture.view;
+  job.surfaces = triangles.blocks();
+  job.runs = runs;
+  job.colours = colours;
+  job.scene = picture.scene;
+  job.shadow = picture.shadow;
+  job.view = picture.view;
   job.nearestLevel = picture.rung.nearestLevel;
   const DrawKernels& k = *picture.kernels;
   const bool plain = picture.rung.look == Look::Plain;
   const auto materials = picture.setup->materials();
   const std::size_t sky = materials.size();
   for (std::size_t m = 0, first = 0; m <= sky; first = ends_[m++]) {
-    job.pixel = pixel_.data() + first, job.surface = surface_.data() + first;
-    job.place = place_.data() + first, job.count = ends_[m] - static_cast<unsigned>(first);
+    job.pixel = pixel_.data() + first;
+    job.surface = surface_.data() + first;
+    job.place = place_.data() + first;
+    job.count = ends_[m] - static_cast<unsigned>(first);
     if (job.count == 0 || (m == sky && picture.surfacesOnly)) continue;
     job.material = m < sky ? materials[m] : nullptr;
     if (m == sky && plain)

@@ -18,7 +18,9 @@ public:
   FragmentList& list() { return list_; }
   const FragmentList& list() const { return list_; }
   void add(unsigned number, unsigned pixel, unsigned place) {
-    list_.number[list_.size] = number, list_.pixel[list_.size] = pixel, list_.place[list_.size++] = place;
+    list_.number[list_.size] = number;
+    list_.pixel[list_.size] = pixel;
+    list_.place[list_.size++] = place;
     ++list_.times[number];
   }
 

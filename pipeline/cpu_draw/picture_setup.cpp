@@ -38,10 +38,18 @@ bool turnsLeftIntoRight(const std::array<float, 12>& m) {
 }  // namespace
 
 void PictureSetup::begin(const ViewGeometry& geometry, int samples, float slopeOffset, float stepOffset) {
-  geometry_ = geometry, samples_ = samples, slopeOffset_ = slopeOffset, stepOffset_ = stepOffset;
+  geometry_ = geometry;
+  samples_ = samples;
+  slopeOffset_ = slopeOffset;
+  stepOffset_ = stepOffset;
   bands_ = static_cast<std::size_t>((geometry.height + kBandRows - 1) / kBandRows);
-  instances_.clear(), stretches_.clear(), materials_.clear(), placements_.clear();
-  vertices_ = 0, partsAdded_ = 0, trianglesAdded_ = 0;
+  instances_.clear();
+  stretches_.clear();
+  materials_.clear();
+  placements_.clear();
+  vertices_ = 0;
+  partsAdded_ = 0;
+  trianglesAdded_ = 0;
 }
 
 bool PictureSetup::add(const std::shared_ptr<const CpuMesh>& mesh, std::uint32_t level,
@@ -95,9 +103,13 @@ void PictureSetup::divide() {
         chunk->triangles + s.count > kTrianglesAPiece) {
       if (chunksUsed_ == chunks_.size()) chunks_.emplace_back();
       chunk = &chunks_[chunksUsed_++];
-      chunk->which = which, chunk->masked = s.part->masked, chunk->firstStretch = i, chunk->triangles = 0;
+      chunk->which = which;
+      chunk->masked = s.part->masked;
+      chunk->firstStretch = i;
+      chunk->triangles = 0;
     }
-    chunk->endStretch = i + 1, chunk->triangles += s.count;
+    chunk->endStretch = i + 1;
+    chunk->triangles += s.count;
   }
 }
 

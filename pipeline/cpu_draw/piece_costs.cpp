@@ -18,9 +18,11 @@ double threadMilliseconds() {
 
 IsolatedDrawTime aloneIn(const PieceCosts::View& view, Span what, double ms) {
   IsolatedDrawTime alone;
-  alone.frame = view.list.ticket.signature.frame, alone.wall = view.list.wall;
+  alone.frame = view.list.ticket.signature.frame;
+  alone.wall = view.list.wall;
   alone.eye = static_cast<std::uint32_t>(view.list.views[view.number].eye);
-  alone.what = what, alone.ms = std::max(ms, 0.0);
+  alone.what = what;
+  alone.ms = std::max(ms, 0.0);
   return alone;
 }
 
@@ -38,7 +40,8 @@ float PieceCosts::workOf(const DrawItem& item, const DrawItem* before) {
 }
 
 void PieceCosts::findSeen(const View& view) {
-  seen_.clear(), work_.clear();
+  seen_.clear();
+  work_.clear();
   const auto addAll = [&](const std::vector<DrawItem>& items) {
     for (const DrawItem& item : items)
       if (item.views >> view.number & 1) {
@@ -55,10 +58,12 @@ void PieceCosts::findSeen(const View& view) {
 void PieceCosts::findPieces(FrameProbe& probe) {
   const float most = all_ / kMostJoined;
   float joined = 0;
-  pieces_.clear(), wanted_.clear();
+  pieces_.clear();
+  wanted_.clear();
   for (std::size_t i = 0; i < seen_.size(); ++i) {
     if (pieces_.empty() || joined + work_[i] > most) pieces_.push_back({i, 0}), joined = 0;
-    joined += work_[i], ++pieces_.back().count;
+    joined += work_[i];
+    ++pieces_.back().count;
   }
   for (std::size_t p = 0; p < pieces_.size(); ++p) {
     owners_.clear();
@@ -94,7 +99,9 @@ void PieceCosts::setUp(const View& view, const Piece& piece) {
 void PieceCosts::drawBand(const View& view, std::size_t band, bool surfacesOnly) {
   PictureShading shading = view.shading;
   rgba_.resize(shading.rgba.size());
-  shading.setup = &setup_, shading.rgba = rgba_, shading.surfacesOnly = surfacesOnly;
+  shading.setup = &setup_;
+  shading.rgba = rgba_;
+  shading.surfacesOnly = surfacesOnly;
   bands_.draw(shading, band);
 }
 
@@ -177,7 +184,8 @@ void PieceCosts::reportLargest(const DrawList& list, FrameProbe& probe) {
   for (const std::vector<DrawItem>* items : {&list.opaque, &list.transparent})
     for (const DrawItem& item : *items) {
       const float work = workOf(item, before);
-      before = &item, all += work;
+      before = &item;
+      all += work;
       if (work > most) most = work, owner = item.owner;
     }
   if (most < kMuch * all) owner = {};

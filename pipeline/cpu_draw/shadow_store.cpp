@@ -144,7 +144,9 @@ ShadowParameters ShadowSet::parameters(const DrawShadows& shadows, int taps) con
     std::ranges::copy(ring, out.rings[i]);
     out.lift[i] = 2 * reach / kRingSide;
   }
-  out.depths = depths_.data(), out.bounds = bounds_.data(), out.taps = taps;
+  out.depths = depths_.data();
+  out.bounds = bounds_.data();
+  out.taps = taps;
   return out;
 }
 
@@ -206,7 +208,8 @@ const ShadowStore::Still& ShadowStore::still(const DrawShadows& shadows, std::si
   still.drawn = false;
   still.depths.assign(std::size_t{kShadowTexels} * kShadowTexels, 0.0f);
   if (now.still) drawCasters(shadows, ring, *now.still, meshes, pool, still.depths.data(), kRingSide);
-  still.key = now.stillKey, still.drawn = true;
+  still.key = now.stillKey;
+  still.drawn = true;
   return still;
 }
 

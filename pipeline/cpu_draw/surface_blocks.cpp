@@ -24,7 +24,8 @@ void SurfaceBlocks::fill(std::span<const TriangleRecord* const> triangles, Surfa
     std::size_t same = 1;
     while (same < triangles.size() && &picture_.stretchOf(*triangles[same]) == stretch) ++same;
     fillStretch(triangles.first(same), out);
-    triangles = triangles.subspan(same), out += same;
+    triangles = triangles.subspan(same);
+    out += same;
   }
 }
 
@@ -34,11 +35,16 @@ void SurfaceBlocks::fillStretch(std::span<const TriangleRecord* const> triangles
   const PictureInstance& instance = picture_.instance(stretch.instance);
   const MaterialParameters& material = *picture_.materials()[stretch.material];
   SurfaceJob job{};
-  job.triangles = triangles.data(), job.count = static_cast<unsigned>(triangles.size());
-  job.corners = instance.mesh->corners(), job.vertices = instance.mesh->vertices();
-  job.placed = picture_.placed(instance), job.parallel = picture_.geometry().parallel;
-  job.model = instance.model.data(), job.normals = instance.normals.data();
-  job.alpha = material.baseColour[3], job.out = out;
+  job.triangles = triangles.data();
+  job.count = static_cast<unsigned>(triangles.size());
+  job.corners = instance.mesh->corners();
+  job.vertices = instance.mesh->vertices();
+  job.placed = picture_.placed(instance);
+  job.parallel = picture_.geometry().parallel;
+  job.model = instance.model.data();
+  job.normals = instance.normals.data();
+  job.alpha = material.baseColour[3];
+  job.out = out;
   kernels_.makeSurfaces(job);
   for (std::size_t i = 0; i < triangles.size(); ++i) {
     if (triangles[i]->sourceAndFlags & kClipped) weighClipped(*triangles[i], out[i]);

@@ -11,7 +11,8 @@ void TransparentLayers::collect(const PictureShading& picture, std::size_t band,
                                 const SurfaceBlocks& blocks) {
   const DrawKernels& kernels = *picture.kernels;
   const int samples = picture.rung.samples;
-  fragments_.clear(), triangles_.collect(*picture.setup, Transparency::Transparent, band);
+  fragments_.clear();
+  triangles_.collect(*picture.setup, Transparency::Transparent, band);
   room_.resize(static_cast<std::size_t>(picture.paddedWidth()) * kBandRows);
   visible.forRuns(picture, triangles_, blocks, [&](unsigned first, unsigned count, const int* present) {
     for (unsigned number = first; number < first + count; ++number) {
@@ -85,7 +86,8 @@ Colour3 TransparentLayers::blended(Colour3 behind) const {
     const float by = alpha(layers_[i].fragment);
     const Colour3 c = colourOf(layers_[i]);
     for (std::size_t k = 0; k < 3; ++k) mean[k] += by * c[k];
-    weight += by, passed *= 1 - by;
+    weight += by;
+    passed *= 1 - by;
   }
   if (weight > 0) {
     for (float& c : mean) c /= weight;

@@ -23,7 +23,8 @@ bool pixelSpan(double from, double to, int samples, int size, short& first, shor
   const double a = std::max(std::floor(low / samples), 0.0),
                b = std::min(std::floor(high / samples), size - 1.0);
   if (!(low <= high && a <= b)) return false;
-  first = static_cast<short>(a), last = static_cast<short>(b);
+  first = static_cast<short>(a);
+  last = static_cast<short>(b);
   return true;
 }
 
@@ -104,14 +105,16 @@ std::optional<TriangleClipper::Plane> TriangleClipper::planeOf(const std::array<
     const double bx = p[1][0] - p[0][0], by = p[1][1] - p[0][1], cx = p[2][0] - p[0][0],
                  cy = p[2][1] - p[0][1];
     const double bz = p[1][2] - p[0][2], cz = p[2][2] - p[0][2], area = bx * cy - by * cx;
-    plane.right = (bz * cy - cz * by) / area, plane.up = (cz * bx - bz * cx) / area;
+    plane.right = (bz * cy - cz * by) / area;
+    plane.up = (cz * bx - bz * cx) / area;
     plane.at = p[0][2] - plane.right * p[0][0] - plane.up * p[0][1];
   } else {
     // 1 / w is the sum of the planes that are 1 / w at one corner and 0 at the others.
     const double whole = planeProduct(p[0], p[1], p[2]);
     for (std::size_t k = 0; k < 3; ++k) {
       const Corner &b = p[(k + 1) % 3], &c = p[(k + 2) % 3];
-      plane.right += (b[1] * c[2] - b[2] * c[1]) / whole, plane.up += (b[2] * c[0] - b[0] * c[2]) / whole;
+      plane.right += (b[1] * c[2] - b[2] * c[1]) / whole;
+      plane.up += (b[2] * c[0] - b[0] * c[2]) / whole;
       plane.at += (b[0] * c[1] - b[1] * c[0]) / whole;
     }
   }
@@ -168,18 +171,25 @@ void TriangleClipper::emit(const std::array<std::array<double, 2>, 3>& at, const
     return;
   const auto x = [&](std::size_t k) { return static_cast<float>(p[k][0]); };
   const auto y = [&](std::size_t k) { return static_cast<float>(p[k][1]); };
-  r.x0 = x(0), r.y0 = y(0), r.x1 = x(1), r.y1 = y(1), r.y2 = y(2);
-  r.slopeLong = (x(2) - x(0)) / (y(2) - y(0)), r.slopeLow = (x(1) - x(0)) / (y(1) - y(0));
+  r.x0 = x(0);
+  r.y0 = y(0);
+  r.x1 = x(1);
+  r.y1 = y(1);
+  r.y2 = y(2);
+  r.slopeLong = (x(2) - x(0)) / (y(2) - y(0));
+  r.slopeLow = (x(1) - x(0)) / (y(1) - y(0));
   r.slopeHigh = (x(2) - x(1)) / (y(2) - y(1));
   if ((x(2) - x(0)) * (y(1) - y(0)) - (y(2) - y(0)) * (x(1) - x(0)) < 0) flags |= kLongEdgeIsLeft;
   const float step = std::bit_cast<float>(std::bit_cast<std::uint32_t>(most) & 0x7f800000U) * 1.1920929e-7f;
   const double steep = std::max(std::fabs(plane.right), std::fabs(plane.up));
   const double offset =
       static_cast<double>(by_.slopeOffset) * steep + static_cast<double>(by_.stepOffset * step);
-  r.depthX = static_cast<float>(plane.right), r.depthY = static_cast<float>(plane.up);
+  r.depthX = static_cast<float>(plane.right);
+  r.depthY = static_cast<float>(plane.up);
   r.depth = static_cast<float>(plane.at + plane.right * r.left + plane.up * r.low + offset);
   r.mostDepth = most + static_cast<float>(offset);
-  r.triangle = triangle, r.sourceAndFlags = by_.source << kFlagBits | flags;
+  r.triangle = triangle;
+  r.sourceAndFlags = by_.source << kFlagBits | flags;
   out.push_back(r);
 }
 

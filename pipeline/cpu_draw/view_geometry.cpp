@@ -27,8 +27,10 @@ std::optional<ViewGeometry> ViewGeometry::of(const Mat4& projection, const Mat4&
   const Mat4 clip = p * view;
   if (!clip.allFinite()) return {};
   ViewGeometry g;
-  g.width = static_cast<int>(width), g.height = static_cast<int>(height);
-  g.rows[0] = pixelRow(clip, 0, width), g.rows[1] = pixelRow(clip, 1, height);
+  g.width = static_cast<int>(width);
+  g.height = static_cast<int>(height);
+  g.rows[0] = pixelRow(clip, 0, width);
+  g.rows[1] = pixelRow(clip, 1, height);
   const bool level = p(3, 0) == 0 && p(3, 1) == 0;
   if (level && p(2, 0) == 0 && p(2, 1) == 0 && p(3, 2) == -1 && p(3, 3) == 0 && p(2, 3) > 0) {
     g.rows[2] = rowOf(clip, 3);
@@ -37,8 +39,11 @@ std::optional<ViewGeometry> ViewGeometry::of(const Mat4& projection, const Mat4&
     return g;
   }
   if (!level || p(3, 2) != 0 || p(3, 3) != 1) return {};
-  g.parallel = true, g.rows[2] = rowOf(clip, 2);
-  g.leastDepth = kBeforeEverything, g.mostDepth = 1, g.farDepth = 0;
+  g.parallel = true;
+  g.rows[2] = rowOf(clip, 2);
+  g.leastDepth = kBeforeEverything;
+  g.mostDepth = 1;
+  g.farDepth = 0;
   return g;
 }
 

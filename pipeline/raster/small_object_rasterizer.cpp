@@ -25,7 +25,9 @@ void normalsBy(const InstanceMatrix& m, float (&out)[9]) {
     row[0] = u[1] * v[2] - u[2] * v[1], row[1] = u[2] * v[0] - u[0] * v[2],
     row[2] = u[0] * v[1] - u[1] * v[0];
   };
-  cross(1, 2, out), cross(2, 0, out + 3), cross(0, 1, out + 6);
+  cross(1, 2, out);
+  cross(2, 0, out + 3);
+  cross(0, 1, out + 6);
   if (m[0] * out[0] + m[1] * out[1] + m[2] * out[2] < 0)
     for (float& x : out) x = -x;
 }
@@ -44,7 +46,8 @@ MeshShading::MeshShading(const Mesh& mesh) {
     nz[i] = finite(mesh.normals[i][2]);
     constexpr std::array<std::uint8_t, 4> kWhite{255, 255, 255, 255};
     const auto& c = mesh.colours.empty() ? kWhite : mesh.colours[i];
-    r[i] = static_cast<float>(c[0]) / 255, g[i] = static_cast<float>(c[1]) / 255;
+    r[i] = static_cast<float>(c[0]) / 255;
+    g[i] = static_cast<float>(c[1]) / 255;
     b[i] = static_cast<float>(c[2]) / 255;
   }
   for (const Material& material : mesh.materials) materials.push_back(fillMaterial(material, Look::Plain));
@@ -79,7 +82,8 @@ void SmallObjectRasterizer::begin(const DrawView& eye, const SceneBlock& scene,
     lights_.push_back(
         {{l.direction[0], l.direction[1], l.direction[2]}, {l.colour[0], l.colour[1], l.colour[2]}});
   }
-  by_.lights = lights_.data(), by_.lightCount = static_cast<unsigned>(lights_.size());
+  by_.lights = lights_.data();
+  by_.lightCount = static_cast<unsigned>(lights_.size());
   std::copy_n(scene.ambient.begin(), 3, by_.ambient);
   culler_.setView(eye);
 }

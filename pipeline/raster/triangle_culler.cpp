@@ -25,7 +25,9 @@ CullerMesh::CullerMesh(const Mesh& mesh, std::span<const std::uint32_t> indices)
   for (auto* axis : {&x, &y, &z}) axis->resize(vertices);
   for (std::size_t i = 0; i < vertices; ++i) {  // vertices past the last one repeat it
     const auto& p = mesh.positions[std::min(i, mesh.positions.size() - 1)];
-    x[i] = finite(p[0]), y[i] = finite(p[1]), z[i] = finite(p[2]);
+    x[i] = finite(p[0]);
+    y[i] = finite(p[1]);
+    z[i] = finite(p[2]);
   }
   std::size_t corner = 0;
   for (auto* corners : {&a, &b, &c}) {

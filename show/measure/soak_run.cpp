@@ -89,12 +89,20 @@ bool Soak::play() {
 }
 
 bool Soak::visit(const std::string& show, Way way, std::uint64_t frames) try {
-  show_ = show, way_ = way, before_ = 0, loadsVersion_ = 0;
+  show_ = show;
+  way_ = way;
+  before_ = 0;
+  loadsVersion_ = 0;
   ShowOptions o;
-  o.script = show, o.walls = "desktop", o.size = "32x24", o.look = plan_.look;
-  o.input = "none", o.frames = frames;
+  o.script = show;
+  o.walls = "desktop";
+  o.size = "32x24";
+  o.look = plan_.look;
+  o.input = "none";
+  o.frames = frames;
   o.mode = way == Way::Sequential ? Mode::Sequential : Mode::Pipelined;
-  o.assetRoots = {shareFolder() + "/assets"}, o.types = plan_.types;
+  o.assetRoots = {shareFolder() + "/assets"};
+  o.types = plan_.types;
   Diagnostics findings;
   ReusableResources& kept = kept_[show];
   kept.models.store().collect(~std::uint64_t{0});  // no frame shows it any more
@@ -106,7 +114,8 @@ bool Soak::visit(const std::string& show, Way way, std::uint64_t frames) try {
   reporter_.report(findings);
   if (!watch) return false;
   RecordingOptions recording;
-  recording.profile = false, recording.log.shares = true;
+  recording.profile = false;
+  recording.log.shares = true;
   const auto recorded = ShowRecording::create(std::move(recording), findings);
   SoakVisitor visitor;
   ShowParts parts = player->parts(StereoLayout::Off, &visitor);
@@ -127,7 +136,8 @@ bool Soak::visit(const std::string& show, Way way, std::uint64_t frames) try {
     FrameLoop loop(stages, player->loopOptions(), stop_, &recorded->probe());
     outcome = loop.run();
   }
-  record_.counts.throws += visitor.throws(), record_.counts.refused += visitor.refused();
+  record_.counts.throws += visitor.throws();
+  record_.counts.refused += visitor.refused();
   ++record_.counts.visits;
   keepCounts();
   if (outcome.failure) reporter_.fault(outcome.failure->message);

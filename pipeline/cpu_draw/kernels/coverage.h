@@ -76,13 +76,15 @@ struct Coverage : DrawLanes<By> {
   /// The pixels of a row that may be covered. Narrow triangles are not worth it.
   [[gnu::always_inline]] static inline bool narrow(const TriangleRecord& t, const Row& row, int& from,
                                                    int& to) {
-    from = t.left / kPixels * kPixels, to = t.right;
+    from = t.left / kPixels * kPixels;
+    to = t.right;
     if (to - from <= 16) return true;
     float least = row.from[0][0], most = row.to[0][0];
     for (int part = 0; part < kParts; ++part)
       for (int lane = 0; lane < (kSamples < kLanes ? kSamples : kLanes); ++lane) {
         const float a = row.from[part][lane], b = row.to[part][lane];
-        least = a < least ? a : least, most = b > most ? b : most;
+        least = a < least ? a : least;
+        most = b > most ? b : most;
       }
     if (!(least < most)) return false;
     if (least > static_cast<float>(from))

@@ -29,10 +29,13 @@ struct FragmentBatch : DrawLanes<By> {
   /// Single fragments of a job.
   [[gnu::always_inline]] static inline FragmentBatch ones(const FragmentJob& job, unsigned first) {
     FragmentBatch b;
-    b.surface = job.surface + first, b.place = job.place + first, b.shift = b.within = 0;
+    b.surface = job.surface + first;
+    b.place = job.place + first;
+    b.shift = b.within = 0;
     b.count = job.count - first < kLanes ? job.count - first : kLanes;
     const I pixel = L::loadInts(job.pixel + first), surface = L::loadInts(b.surface);
-    b.x = L::whole(pixel & 0xffff) + 0.5f, b.y = L::whole((pixel >> 16) & 0xffff) + 0.5f;
+    b.x = L::whole(pixel & 0xffff) + 0.5f;
+    b.y = L::whole((pixel >> 16) & 0xffff) + 0.5f;
     const I differs = surface != I{} + static_cast<int>(b.surface[0]);
     b.uniform = (L::bits(differs) & (L::kAll >> (kLanes - b.count))) == 0;
     return b;
@@ -41,13 +44,16 @@ struct FragmentBatch : DrawLanes<By> {
   [[gnu::always_inline]] static inline FragmentBatch runs(const FragmentJob& job, unsigned first) {
     FragmentBatch b;
     const unsigned run = first / kRunPixels, left = kRunPixels * job.count - first;
-    b.surface = job.surface + run, b.place = job.place + run;
-    b.shift = kRunShift, b.within = static_cast<int>(first % kRunPixels);
+    b.surface = job.surface + run;
+    b.place = job.place + run;
+    b.shift = kRunShift;
+    b.within = static_cast<int>(first % kRunPixels);
     b.count = left < kLanes ? left : kLanes;
     b.uniform = kLanes <= kRunPixels || b.count < kLanes || b.surface[0] == b.surface[1];
     const I offset = (L::lanes() & (kRunPixels - 1)) + b.within;
     const I pixel = perRun(job.pixel + run);
-    b.x = L::whole((pixel & 0xffff) + offset) + 0.5f, b.y = L::whole((pixel >> 16) & 0xffff) + 0.5f;
+    b.x = L::whole((pixel & 0xffff) + offset) + 0.5f;
+    b.y = L::whole((pixel >> 16) & 0xffff) + 0.5f;
     return b;
   }
 

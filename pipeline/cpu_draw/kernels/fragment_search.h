@@ -38,7 +38,8 @@ struct FragmentFinder : DrawLanes<By> {
   [[gnu::always_inline]] static inline void add(FragmentSearch& row, FragmentList& to, unsigned shown, int x,
                                                 unsigned place) {
     const unsigned number = shown < row.sky ? shown : row.sky;
-    to.number[to.size] = number, to.place[to.size] = place;
+    to.number[to.size] = number;
+    to.place[to.size] = place;
     to.pixel[to.size++] = static_cast<unsigned>(row.x + x) | static_cast<unsigned>(row.y) << 16;
     ++to.times[number];
   }
@@ -52,7 +53,8 @@ struct FragmentFinder : DrawLanes<By> {
       unsigned same = 0, count = 0;
       for (int s = 0; s < kSamples; ++s) {
         const unsigned is = shown[s] == triangle;
-        same |= is << s, count += is;
+        same |= is << s;
+        count += is;
       }
       row.weight[row.parts] = kShare * static_cast<float>(count);
       add(row, *row.ones, triangle, x, row.firstPart + row.parts++);

@@ -76,7 +76,8 @@ struct DrawFour {
   }
   /// The numbers at each place, and those that follow them.
   [[gnu::always_inline]] static inline void pairs(const int* from, Ints at, Ints& first, Ints& second) {
-    first = pick(from, at), second = pick(from + 1, at);
+    first = pick(from, at);
+    second = pick(from + 1, at);
   }
   /// Likewise, from a table of sixteen.
   [[gnu::always_inline]] static inline Ints entry(const int* table, Ints at) {
@@ -130,7 +131,8 @@ struct DrawEight {
     const auto* base = reinterpret_cast<const long long*>(from);
     const __m256 low = __m256(_mm256_i32gather_epi64(base, _mm256_castsi256_si128(order), 4));
     const __m256 high = __m256(_mm256_i32gather_epi64(base, _mm256_extracti128_si256(order, 1), 4));
-    first = Ints(_mm256_shuffle_ps(low, high, 0x88)), second = Ints(_mm256_shuffle_ps(low, high, 0xdd));
+    first = Ints(_mm256_shuffle_ps(low, high, 0x88));
+    second = Ints(_mm256_shuffle_ps(low, high, 0xdd));
   }
   [[gnu::always_inline]] static inline Ints entry(const int* table, Ints at) {
     Ints low, high;
@@ -145,8 +147,10 @@ struct DrawEight {
       r[k] = _mm256_insertf128_ps(_mm256_castps128_ps256(_mm_loadu_ps(row(k))), _mm_loadu_ps(row(k + 4)), 1);
     const __m256 a = _mm256_unpacklo_ps(r[0], r[1]), b = _mm256_unpackhi_ps(r[0], r[1]);
     const __m256 c = _mm256_unpacklo_ps(r[2], r[3]), d = _mm256_unpackhi_ps(r[2], r[3]);
-    out[0] = Floats(_mm256_shuffle_ps(a, c, 0x44)), out[1] = Floats(_mm256_shuffle_ps(a, c, 0xee));
-    out[2] = Floats(_mm256_shuffle_ps(b, d, 0x44)), out[3] = Floats(_mm256_shuffle_ps(b, d, 0xee));
+    out[0] = Floats(_mm256_shuffle_ps(a, c, 0x44));
+    out[1] = Floats(_mm256_shuffle_ps(a, c, 0xee));
+    out[2] = Floats(_mm256_shuffle_ps(b, d, 0x44));
+    out[3] = Floats(_mm256_shuffle_ps(b, d, 0xee));
   }
   template <class Row>
   [[gnu::always_inline]] static inline void rows(const Floats* columns, const Row& row) {
@@ -212,8 +216,10 @@ struct DrawSixteen {
     }
     const __m512 a = _mm512_unpacklo_ps(r[0], r[1]), b = _mm512_unpackhi_ps(r[0], r[1]);
     const __m512 c = _mm512_unpacklo_ps(r[2], r[3]), d = _mm512_unpackhi_ps(r[2], r[3]);
-    out[0] = Floats(_mm512_shuffle_ps(a, c, 0x44)), out[1] = Floats(_mm512_shuffle_ps(a, c, 0xee));
-    out[2] = Floats(_mm512_shuffle_ps(b, d, 0x44)), out[3] = Floats(_mm512_shuffle_ps(b, d, 0xee));
+    out[0] = Floats(_mm512_shuffle_ps(a, c, 0x44));
+    out[1] = Floats(_mm512_shuffle_ps(a, c, 0xee));
+    out[2] = Floats(_mm512_shuffle_ps(b, d, 0x44));
+    out[3] = Floats(_mm512_shuffle_ps(b, d, 0xee));
   }
   template <class Row>
   [[gnu::always_inline]] static inline void rows(const Floats* columns, const Row& row) {

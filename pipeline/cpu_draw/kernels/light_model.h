@@ -86,11 +86,15 @@ struct LightModel : DrawLanes<By> {
     for (int i = 2; i >= 0; --i) {
       const float* r = s.rings[i];
       const I in = outside(x, y, r, kMiddle[i][0], kMiddle[i][1]) < 0.245f;
-      ringX = L::select(in, L::all(r[0]), ringX), ringY = L::select(in, L::all(r[1]), ringY);
-      ringZ = L::select(in, L::all(r[2]), ringZ), scale = L::select(in, L::all(r[3]), scale);
+      ringX = L::select(in, L::all(r[0]), ringX);
+      ringY = L::select(in, L::all(r[1]), ringY);
+      ringZ = L::select(in, L::all(r[2]), ringZ);
+      scale = L::select(in, L::all(r[3]), scale);
       lift = L::select(in, L::all(s.lift[i]), lift);
     }
-    x += lift * T::dot(right, n), y += lift * T::dot(up, n), z += lift * T::dot(towards, n);
+    x += lift * T::dot(right, n);
+    y += lift * T::dot(up, n);
+    z += lift * T::dot(towards, n);
     constexpr float kSide = kShadowSide;
     const auto texel = [](F at) { return L::most(L::least(at * kSide - 0.5f, L::all(kSide)), L::all(-1)); };
     return {texel(x * scale + ringX), texel(y * scale + ringY), L::clamp(z * s.depthScale + ringZ), edge};
@@ -118,7 +122,8 @@ struct LightModel : DrawLanes<By> {
     I least, most;
     By::pairs(reinterpret_cast<const int*>(s.bounds), (tile.y * (kShadowSide / kShadowTile) + tile.x) * 2,
               least, most);
-    tile.light = depth >= F(most), tile.dark = depth < F(least);
+    tile.light = depth >= F(most);
+    tile.dark = depth < F(least);
     return tile;
   }
   /// The first of four texels in a row.
@@ -131,7 +136,9 @@ struct LightModel : DrawLanes<By> {
     const F low = at - 0.75f, high = at + 0.75f, first = L::floor(low), second = L::floor(high);
     const F f = low - first, g = high - second;
     const I apart = second - first > 1.5f;
-    w[0] = 1.0f - f, w[1] = L::select(apart, f, f + 1.0f - g), w[2] = L::select(apart, 1.0f - g, g);
+    w[0] = 1.0f - f;
+    w[1] = L::select(apart, f, f + 1.0f - g);
+    w[2] = L::select(apart, 1.0f - g, g);
     w[3] = L::where(apart, g);
     return first;
   }

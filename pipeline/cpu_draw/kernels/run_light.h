@@ -73,16 +73,21 @@ private:
   [[gnu::always_inline]] static inline Batch ends(const FragmentJob& job, unsigned first) {
     alignas(64) int pixel[kLanes];
     Batch b;
-    b.surface = job.surface + first, b.place = nullptr, b.shift = 1, b.within = 0;
+    b.surface = job.surface + first;
+    b.place = nullptr;
+    b.shift = 1;
+    b.within = 0;
     const unsigned left = 2 * (job.count - first);
-    b.count = left < kLanes ? left : kLanes, b.uniform = true;
+    b.count = left < kLanes ? left : kLanes;
+    b.uniform = true;
     for (int lane = 0; lane < kLanes; ++lane) {
       pixel[lane] =
           static_cast<int>(job.pixel[first + static_cast<unsigned>(lane / 2)]) + lane % 2 * (kRunPixels - 1);
       b.uniform &= lane >= static_cast<int>(b.count) || b.surfaceOf(lane) == b.surface[0];
     }
     const I at = L::loadInts(pixel);
-    b.x = L::whole(at & 0xffff) + 0.5f, b.y = L::whole((at >> 16) & 0xffff) + 0.5f;
+    b.x = L::whole(at & 0xffff) + 0.5f;
+    b.y = L::whole((at >> 16) & 0xffff) + 0.5f;
     return b;
   }
 

@@ -44,10 +44,13 @@ struct SurfaceInterpolation : DrawLanes<By> {
       : of(job, b) {
     const F x = b.x - of[3], y = b.y - of[7];
     // The middle of a pixel may lie beside the triangle that covers one of its samples.
-    first = L::most(of[0] * x + of[1] * y + of[2], F{}), second = L::most(of[4] * x + of[5] * y + of[6], F{});
+    first = L::most(of[0] * x + of[1] * y + of[2], F{});
+    second = L::most(of[4] * x + of[5] * y + of[6], F{});
     third = L::most(of[8] * x + of[9] * y + of[10], F{});
     per = 1.0f / L::most(first + second + third, L::all(1e-30f));
-    first *= per, second *= per, third *= per;
+    first *= per;
+    second *= per;
+    third *= per;
   }
   [[gnu::always_inline]] inline F operator()(int k) const {
     return first * of[12 + k] + second * of[24 + k] + third * of[36 + k];

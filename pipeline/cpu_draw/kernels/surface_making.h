@@ -31,9 +31,11 @@ struct SurfaceMaking : DrawLanes<By> {
     for (int lane = 0; lane < kLanes; ++lane) {
       const TriangleRecord& t =
           *job.triangles[first + static_cast<unsigned>(lane < b.count ? lane : b.count - 1)];
-      b.corner[0][lane] = job.corners.a[t.triangle], b.corner[1][lane] = job.corners.b[t.triangle];
+      b.corner[0][lane] = job.corners.a[t.triangle];
+      b.corner[1][lane] = job.corners.b[t.triangle];
       b.corner[2][lane] = job.corners.c[t.triangle];
-      b.left[lane] = t.left, b.low[lane] = t.low;
+      b.left[lane] = t.left;
+      b.low[lane] = t.low;
       b.facing[lane] = (t.sourceAndFlags & kFacesAway) != 0 ? -1.0f : 1.0f;
     }
     return b;
@@ -57,7 +59,9 @@ struct SurfaceMaking : DrawLanes<By> {
     const T place{from[0], from[1], from[2]}, normal{from[3], from[4], from[5]};
     T n{row<3>(job.normals, 0, normal), row<3>(job.normals, 1, normal), row<3>(job.normals, 2, normal)};
     n = n * L::perRoot(L::most(T::dot(n, n), L::all(1e-30f)));
-    out[0] = n.x, out[1] = n.y, out[2] = n.z;
+    out[0] = n.x;
+    out[1] = n.y;
+    out[2] = n.z;
     for (int k = 0; k < 3; ++k) out[3 + k] = row<4>(job.model, k, place);
     for (int k = 6; k < 11; ++k) out[k] = from[k];
     out[11] = from[11] * job.alpha;
@@ -92,7 +96,9 @@ struct SurfaceMaking : DrawLanes<By> {
       out[4 * k] = L::where(serves, out[4 * k]), out[4 * k + 1] = L::where(serves, out[4 * k + 1]);
       out[4 * k + 2] = L::select(serves, out[4 * k + 2], L::all(1));
     }
-    out[3] = left, out[7] = low, out[11] = L::load(b.facing);
+    out[3] = left;
+    out[7] = low;
+    out[11] = L::load(b.facing);
   }
 
   static void make(const SurfaceJob& job) {

@@ -29,12 +29,14 @@ struct SurfaceResponse : DrawLanes<By> {
     const T away = T::of(job.view->eye) - placed;
     const F squared = L::most(T::dot(away, away), L::all(1e-12f)), perDistance = L::perRoot(squared);
     const T v = away * perDistance;
-    fromAround(m, scene, v, n), with = with + T::of(m.emissive) * L::all(m.glow.texels ? 0.0f : 1.0f);
+    fromAround(m, scene, v, n);
+    with = with + T::of(m.emissive) * L::all(m.glow.texels ? 0.0f : 1.0f);
     for (int i = 0; i < scene.lights; ++i) addLamp(i, m, scene, placed, v, n, arriving);
     clearness = L::all(1);
     if (!(scene.perHaze > 0)) return;
     clearness = L::exp2(squared * perDistance * (Light::kPerE * scene.perHaze));
-    by = by * clearness, with = T::mix(Light::air(v * L::all(-1), scene), with, clearness);
+    by = by * clearness;
+    with = T::mix(Light::air(v * L::all(-1), scene), with, clearness);
   }
 
 private:

@@ -38,7 +38,8 @@ struct SurfaceShading : DrawLanes<By> {
     F alpha = at(11);
     if (m.base.texels) {
       const typename Filter::Texel t = Filter::at(m.base, at.place(m.base), job.nearestLevel != 0, true);
-      colour = colour * t.colour, alpha *= t.alpha;
+      colour = colour * t.colour;
+      alpha *= t.alpha;
     }
     if (m.glow.texels) {
       const T glow = Filter::at(m.glow, at.place(m.glow), job.nearestLevel != 0, true).colour;
@@ -56,7 +57,8 @@ struct SurfaceShading : DrawLanes<By> {
     if (base.texels) {
       const auto at = b.uniform ? coordinates<true>(job, b) : coordinates<false>(job, b);
       const typename Filter::Texel t = Filter::at(base, {at, pixels.level}, job.nearestLevel != 0, true);
-      light = light * t.colour, alpha *= t.alpha;
+      light = light * t.colour;
+      alpha *= t.alpha;
     }
     return encodable(light + pixels.with, alpha);
   }
@@ -102,7 +104,8 @@ struct SurfaceShading : DrawLanes<By> {
     F alpha = at(11);
     if (m.base.texels) {
       const typename Filter::Texel t = Filter::at(m.base, at.place(m.base), job.nearestLevel != 0, false);
-      colour = colour * t.colour, alpha *= t.alpha;
+      colour = colour * t.colour;
+      alpha *= t.alpha;
     }
     if (m.glow.texels) {
       const T glow = Filter::at(m.glow, at.place(m.glow), job.nearestLevel != 0, false).colour;

@@ -83,7 +83,8 @@ struct TextureFilter : DrawLanes<By> {
   [[gnu::always_inline]] static inline void neighbours(I& first, I& second, I count, TextureWrap wrap) {
     if (wrap == TextureWrap::Repeat) {
       first += I(first < 0) & count;
-      first &= ~I(first >= count), second &= ~I(second >= count);
+      first &= ~I(first >= count);
+      second &= ~I(second >= count);
     } else {
       second = second < count ? second : count - 1;
       first &= ~I(first < 0);
@@ -117,9 +118,11 @@ struct TextureFilter : DrawLanes<By> {
     const I row = level.width + 1, column = level.first + x0;
     I here, next;
     By::pairs(from, y0 * row + column, here, next);
-    sum.add(linear, here, rest - lowLeft), sum.add(linear, next, right - lowRight);
+    sum.add(linear, here, rest - lowLeft);
+    sum.add(linear, next, right - lowRight);
     By::pairs(from, y1 * row + column, here, next);
-    sum.add(linear, here, lowLeft), sum.add(linear, next, lowRight);
+    sum.add(linear, here, lowLeft);
+    sum.add(linear, next, lowRight);
   }
 
   [[gnu::always_inline]] static inline F levelOf(const TextureParameters& t, const Slopes& p) {

@@ -134,7 +134,9 @@ struct TriangleSetup : DrawLanes<By> {
     if (wanted == 0) return 0;
 
     const I away = s.mirrored > 0 ? I(area < 0.0f) : I(area > 0.0f);
-    order(a, b), order(b, c), order(a, b);
+    order(a, b);
+    order(b, c);
+    order(a, b);
     const Edges edges(a, b, c);
     const I small = whole & (right - left < 2.0f) & (high - low < 2.0f);
     if (L::bits(small) & lanes) wanted &= ~L::bits(small & ~covers(a, b, c, edges, left, low, s.samples));
@@ -142,7 +144,10 @@ struct TriangleSetup : DrawLanes<By> {
     Fields f;
     fill(a, b, c, edges, left, low, s, f);
     const auto number = [&](int k, F x) { L::storeInts(f.box[k], L::truncated(L::where(whole, x))); };
-    number(0, left), number(1, low), number(2, right), number(3, high);
+    number(0, left);
+    number(1, low);
+    number(2, right);
+    number(3, high);
     L::storeInts(f.flags, (edges.longIsLeft & static_cast<int>(kLongEdgeIsLeft)) |
                               (away & static_cast<int>(kFacesAway)) |
                               (unfinished & static_cast<int>(kUnfinished)));
@@ -152,9 +157,12 @@ struct TriangleSetup : DrawLanes<By> {
       TriangleRecord& r = out[made++];
       float* to = &r.x0;
       for (int k = 0; k < 12; ++k) to[k] = f.at[k][lane];
-      r.left = static_cast<short>(f.box[0][lane]), r.low = static_cast<short>(f.box[1][lane]);
-      r.right = static_cast<short>(f.box[2][lane]), r.high = static_cast<short>(f.box[3][lane]);
-      r.triangle = t + lane, r.sourceAndFlags = s.source << kFlagBits | static_cast<unsigned>(f.flags[lane]);
+      r.left = static_cast<short>(f.box[0][lane]);
+      r.low = static_cast<short>(f.box[1][lane]);
+      r.right = static_cast<short>(f.box[2][lane]);
+      r.high = static_cast<short>(f.box[3][lane]);
+      r.triangle = t + lane;
+      r.sourceAndFlags = s.source << kFlagBits | static_cast<unsigned>(f.flags[lane]);
     }
     return made;
   }

@@ -42,7 +42,9 @@ void CpuMesh::copyVertices(const Mesh& mesh, Look look) {
     const auto& p = mesh.positions[i];
     float* v = vertices_.data() + i * kVertexFloats;
     for (std::size_t k = 0; k < 3; ++k) v[k] = finite(p[k]), v[3 + k] = finite(mesh.normals[i][k]);
-    x_[i] = v[0], y_[i] = v[1], z_[i] = v[2];
+    x_[i] = v[0];
+    y_[i] = v[1];
+    z_[i] = v[2];
     if (!mesh.uvs.empty()) v[6] = mesh.uvs[i][0], v[7] = mesh.uvs[i][1];
     for (std::size_t k = 0; k < 4; ++k) {
       const double c = mesh.colours.empty() ? 1 : mesh.colours[i][k] / 255.0;

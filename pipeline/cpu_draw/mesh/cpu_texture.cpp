@@ -74,7 +74,8 @@ void CpuTexture::addLevel(const Linear& level, Look look) {
 
 TextureParameters CpuTexture::parameters() const {
   TextureParameters p{};
-  p.texels = texels_.data(), p.levels = static_cast<int>(levels_.size());
+  p.texels = texels_.data();
+  p.levels = static_cast<int>(levels_.size());
   for (std::size_t i = 0; i < levels_.size(); ++i)
     p.width[i] = static_cast<int>(levels_[i].width), p.height[i] = static_cast<int>(levels_[i].height),
     p.first[i] = static_cast<int>(levels_[i].first);
