@@ -2,6 +2,8 @@
 
 #include "bench/dynamics/cases.h"
 
+#include "engine/maths/angles.h"
+
 #include <algorithm>
 #include <array>
 #include <limits>
@@ -21,7 +23,7 @@ BodySpec slidingBox() {
 
 /// Starts at 3 m/s, 30 degrees from the box's axes.
 void slideToAStop(Outcome& out) {
-  const double v0 = 3, way = M_PI / 6;
+  const double v0 = 3, way = kPi / 6;
   Scene s(out);
   s.engine().addGround(0, kMu);
   BodySpec b = slidingBox();
@@ -40,7 +42,7 @@ void slideToAStop(Outcome& out) {
   const V3 p = s.state().p;
   out.m["err"] = worst;
   out.m["stop_dist_relerr"] = std::hypot(p.x, p.z) / (v0 * v0 / (2 * kMu * kG)) - 1;
-  out.m["dir_err_deg"] = (std::atan2(p.z, p.x) - way) * 180 / M_PI;
+  out.m["dir_err_deg"] = (std::atan2(p.z, p.x) - way) * 180 / kPi;
 }
 
 void onASlope(Outcome& out, bool slips) {

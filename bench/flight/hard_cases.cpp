@@ -2,6 +2,7 @@
 
 #include "bench/flight/exact_table.h"
 #include "dynamics/flight/bias.h"
+#include "engine/maths/angles.h"
 #include "engine/maths/functions.h"
 
 #include <algorithm>
@@ -99,7 +100,7 @@ Check fromRest() {
 /// A javelin that flies exactly backwards turns round by bias; by air it stays balanced or turns, and stays
 /// finite.
 Check backwards() {
-  Quat q(Eigen::AngleAxisd(3.14159265358979324, Vec3::UnitZ()));
+  Quat q(Eigen::AngleAxisd(kPi, Vec3::UnitZ()));
   const Vec3 v(30, 0, 0);
   const Bias bias{BiasForm::Flow, 2, Vec3(1, 0.001, 0.001)};
   for (int i = 0; i < 600; ++i) q = biased(bias, q, v, 1.0 / 60);

@@ -2,10 +2,10 @@
 
 #include "bench/walls/wall_room.h"
 #include "engine/base/atomic_file.h"
+#include "engine/maths/angles.h"
 
 #include <cmath>
 #include <fmt/format.h>
-#include <numbers>
 
 namespace stadion::bench {
 namespace {
@@ -30,12 +30,12 @@ std::string objText(const WallMesh& mesh) {
 }
 
 double degrees(double radians) {
-  return radians * 180 / std::numbers::pi;
+  return radians * 180 / kPi;
 }
 
 /// Returns an angle of any number of turns as less than one turn.
 double phaseOf(double radians) {
-  return degrees(std::remainder(radians, 2 * std::numbers::pi));
+  return degrees(std::remainder(radians, 2 * kPi));
 }
 
 std::string number(const Vec3& p) {
@@ -81,8 +81,8 @@ std::string movingNodes(const WallScene& scene, std::size_t first, std::size_t e
   const Vec3 phaseStep(phaseOf(step), phaseOf(step), phaseOf(0.37 * step));
   return fmt::format("sway( amplitude=\"2, 2, 0.5\", frequency=\"{}\", phase=\"{}\", phasestep=\"{}\", "
                      "angularvelocity=\"0, 0, {:.17g}\"{} )\n",
-                     number(Vec3(1.1, 1.1, 1.9) / (2 * std::numbers::pi)), number(phase), number(phaseStep),
-                     degrees(0.8), targets);
+                     number(Vec3(1.1, 1.1, 1.9) / (2 * kPi)), number(phase), number(phaseStep), degrees(0.8),
+                     targets);
 }
 
 /// Returns the script without the nodes.

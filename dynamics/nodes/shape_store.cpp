@@ -1,5 +1,7 @@
 #include "dynamics/nodes/shape_store.h"
 
+#include "engine/maths/angles.h"
+
 #include <algorithm>
 
 namespace stadion {
@@ -18,9 +20,9 @@ ShapeKind shapeKindOf(const std::string& word) {
 }
 
 double dragAreaOf(const Shape& shape, const Mesh& mesh) {
-  constexpr double pi = 3.14159265358979323846, ballCoefficient = 0.47;
+  constexpr double ballCoefficient = 0.47;
   if (const auto* ball = std::get_if<BallShape>(&shape))
-    return ballCoefficient * pi * ball->radius * ball->radius;
+    return ballCoefficient * kPi * ball->radius * ball->radius;
   double surface = 0;
   const auto corner = [&](std::size_t i) {
     const auto& p = mesh.positions[mesh.indices[i]];

@@ -1,6 +1,7 @@
 #include "engine/display/wall_lint.h"
 
 #include "engine/display/wall_facing.h"
+#include "engine/maths/angles.h"
 #include "engine/maths/functions.h"
 
 #include <fmt/format.h>
@@ -97,7 +98,7 @@ private:
     const Vec3 left = e.wall.upperLeft - e.wall.lowerLeft;
     const double sine = left.dot(b.right) / left.norm();
     if (std::fabs(sine) <= kSquareWarning) return true;
-    const double degrees = 90 - det::asin(sine) * (180 / 3.14159265358979323846);
+    const double degrees = 90 - det::asin(sine) * (180 / kPi);
     const Vec3 mended = e.wall.lowerLeft + left.norm() * b.up;
     const std::string message = fmt::format(
         "wall \"{}\" is no rectangle: the angle at lower-left is {:.2f} degrees; a square corner has "

@@ -2,6 +2,7 @@
 
 #include "engine/base/plain_file.h"
 #include "engine/input/input_log.h"
+#include "engine/maths/angles.h"
 #include "engine/maths/functions.h"
 #include "engine/plain_text/statement_reader.h"
 
@@ -25,7 +26,6 @@ constexpr std::uint64_t kMostFrames = 1'000'000'000'000;
 constexpr double kFarthestLogged = 1e6;  ///< of a position [m]
 constexpr double kExactlyUnit = 1e-12;   ///< squared norms this near 1 are kept to the bit
 constexpr double kNearlyUnit = 2e-3;     ///< nearer than this they are normalised, else it is an error
-constexpr double kRadiansPerDegree = 3.14159265358979323846 / 180;
 
 class LogParser {
 public:
@@ -196,7 +196,7 @@ private:
         in_.error(in_.last(), "an angle must be within ten turns (3600 degrees)");
         return false;
       }
-      angle[k] = *value * kRadiansPerDegree;
+      angle[k] = *value * kDegree;
     }
     stamp_.X_RT.q = det::fromEuler(angle[0], angle[1], angle[2]);
     return true;

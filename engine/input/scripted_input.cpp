@@ -1,5 +1,6 @@
 #include "engine/input/scripted_input.h"
 
+#include "engine/maths/angles.h"
 #include "engine/maths/functions.h"
 
 #include <algorithm>
@@ -20,7 +21,7 @@ bool ScriptedInput::add(const std::string& tracker, const InputStamp& stamp) {
 
 ScriptedInput& ScriptedInput::key(const std::string& tracker, double seconds, const Vec3& p_RT,
                                   const Vec3& turn, bool smooth, std::uint32_t buttons) {
-  const Vec3 angle = turn * (3.14159265358979323846 / 180);
+  const Vec3 angle = turn * kDegree;
   InputStamp stamp;
   stamp.time = fromSeconds(seconds);
   stamp.X_RT = {p_RT, det::fromEuler(angle.x(), angle.y(), angle.z())};

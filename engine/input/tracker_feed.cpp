@@ -2,6 +2,7 @@
 
 #include "engine/input/head_forecast.h"
 #include "engine/input/tracker_leap.h"
+#include "engine/maths/angles.h"
 #include "engine/maths/functions.h"
 
 #include <algorithm>
@@ -39,8 +40,7 @@ Vec3 speedTo(const InputTrack& track, std::size_t i) {
 
 /// By how much the filter (one_euro_filter.h) lags behind what goes evenly: a low pass by 1 / (2 pi cutoff).
 double lagAt(const RigFile& rig, double speed) {
-  constexpr double kTwoPi = 2 * 3.14159265358979323846;
-  return rig.cutoff > 0 ? 1 / (kTwoPi * (rig.cutoff + rig.beta * speed)) : 0;
+  return rig.cutoff > 0 ? 1 / (2 * kPi * (rig.cutoff + rig.beta * speed)) : 0;
 }
 
 /// Returns true if the way from the last stamp to X at `time` may count as a leap when the log is read.

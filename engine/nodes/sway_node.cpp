@@ -16,7 +16,7 @@
 namespace stadion {
 namespace {
 
-constexpr double kTurn = 2 * 3.14159265358979323846;
+constexpr double kTurn = 2 * kPi;
 
 /// Turned about +Z alone, and as wide as deep.
 Mat3 uprightAxes(double along, double across, double up) {

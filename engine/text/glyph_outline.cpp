@@ -1,5 +1,6 @@
 #include "engine/text/glyph_outline.h"
 
+#include "engine/maths/angles.h"
 #include "engine/maths/functions.h"
 #include "engine/text/glyphs.h"
 
@@ -14,7 +15,6 @@ constexpr double kHalfDot = 8.5;
 constexpr double kChord = 10;        // [degrees]
 constexpr double kSteep = 0.65;      // straight ends that rise by less of their length are cut square
 constexpr double kLeastMitre = 0.4;  // sharper corners are cut short
-constexpr double kRadian = 3.14159265358979323846 / 180;
 
 /// The middle of a stroke.
 struct Line {
@@ -117,7 +117,7 @@ private:
     const double from = number(), turn = number() - from;
     const int chords = static_cast<int>(std::ceil(std::fabs(turn) / kChord));
     for (int i = 0; i <= chords; ++i) {
-      const double angle = (from + turn * i / chords) * kRadian;
+      const double angle = (from + turn * i / chords) * kDegree;
       line_.add({centre.x + radius.x * det::cos(angle), centre.y + radius.y * det::sin(angle)}, true);
     }
   }

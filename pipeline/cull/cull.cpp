@@ -1,5 +1,6 @@
 #include "pipeline/cull/cull.h"
 
+#include "engine/maths/angles.h"
 #include "pipeline/cull/eye_test.h"
 #include "pipeline/cull/shadow_cull.h"
 #include "pipeline/draw_list/list_filling.h"
@@ -21,10 +22,9 @@ struct PixelScale {
     most = width * height;
   }
   float of(float radius, float distance) const {
-    constexpr float kHalfTurn = 3.14159265f;
-    return distance > radius
-               ? std::min(most, kHalfTurn * ofSteradian * radius * radius / (distance * distance))
-               : most;
+    return distance > radius ? std::min(most, static_cast<float>(kPi) * ofSteradian * radius * radius /
+                                                  (distance * distance))
+                             : most;
   }
 };
 

@@ -1,6 +1,7 @@
 #include "pipeline/device/desk_visitor.h"
 
 #include "engine/input/tracker_names.h"
+#include "engine/maths/angles.h"
 #include "engine/maths/functions.h"
 
 #include <algorithm>
@@ -49,7 +50,7 @@ DeskVisitor::DeskVisitor(double eyeHeight)
 
 void DeskVisitor::turn(double right, double up) {
   const std::lock_guard lock(mutex_);
-  constexpr double kWhole = 2 * 3.14159265358979323846;
+  constexpr double kWhole = 2 * kPi;
   yaw_ -= std::clamp(orZero(right), -kWhole, kWhole);
   if (std::fabs(yaw_) > kWhole) yaw_ -= std::copysign(kWhole, yaw_);
   pitch_ = std::clamp(pitch_ + orZero(up), -kSteepest, kSteepest);
@@ -163,7 +164,8 @@ void DeskVisitor::sampleAt(Nanoseconds showTime, InputSample& sample) {
 
 void DeskVisitor::fill(Nanoseconds showTime, InputSample& sample) const {
   sample.time = showTime;
-  sample.trackers = {tracker(kHeadTracker, headTold(), showTime), tracker(kWandTracker, {hand_, head().q}, showTime)};
+  sample.trackers = {tracker(kHeadTracker, headTold(), showTime),
+                     tracker(kWandTracker, {hand_, head().q}, showTime)};
   TrackerSample& wand = sample.trackers[1];
   wand.buttons = (buttons_ | padButtons_ | pressed_) & ~newlyPressed();
   for (std::size_t i = 0; i < axes_.size(); ++i)

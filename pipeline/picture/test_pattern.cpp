@@ -1,6 +1,7 @@
 #include "pipeline/picture/test_pattern.h"
 
 #include "engine/display/wall_lint.h"
+#include "engine/maths/angles.h"
 #include "pipeline/picture/lettering.h"
 
 #include <algorithm>
@@ -87,7 +88,7 @@ void drawCircle(Sketch& sketch, const WallBasis& wall) {
   constexpr int kParts = 180;
   const double radius = 0.45 * std::min(wall.width, wall.height);
   const auto at = [&](int i) {
-    const double angle = 2 * 3.14159265358979323846 * i / kParts;
+    const double angle = 2 * kPi * i / kParts;
     return Vec2(sketch.width() * (0.5 + radius * std::cos(angle) / wall.width),
                 sketch.height() * (0.5 + radius * std::sin(angle) / wall.height));
   };

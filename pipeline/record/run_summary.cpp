@@ -1,5 +1,7 @@
 #include "pipeline/record/run_summary.h"
 
+#include "engine/maths/angles.h"
+
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
@@ -13,7 +15,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr double kDegrees = 180 / 3.14159265358979323846;
+constexpr double kDegrees = 180 / kPi;
 
 void keepFinite(std::vector<double>& values) {
   std::erase_if(values, [](double v) { return !std::isfinite(v); });

@@ -1,5 +1,7 @@
 #include "show/measure/fidelity.h"
 
+#include "engine/maths/angles.h"
+
 #include <algorithm>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -7,7 +9,7 @@
 namespace stadion {
 namespace {
 
-constexpr double kDegrees = 180 / 3.14159265358979323846;
+constexpr double kDegrees = 180 / kPi;
 constexpr const char* kModes[] = {"flight", "slide", "roll", "contact", "rest", "held", "quarantined"};
 constexpr const char* kFlights[] = {"exact", "order 16", "order 5"};
 constexpr const char* kFlightHelp[] = {"in closed form", "by a series of order 16", "by steps of order 5"};

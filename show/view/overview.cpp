@@ -2,6 +2,7 @@
 
 #include "engine/asset/mesh_checks.h"
 #include "engine/input/tracker_names.h"
+#include "engine/maths/angles.h"
 #include "engine/maths/functions.h"
 
 #include <algorithm>
@@ -127,7 +128,7 @@ Pose upright(const Pose& X) {
 }  // namespace
 
 void OverviewPlace::turn(double right, double up) {
-  around = std::remainder(around + right, 2 * 3.14159265358979323846);
+  around = std::remainder(around + right, 2 * kPi);
   above = std::clamp(above + up, -0.2, kSteepest);
 }
 
