@@ -9,7 +9,7 @@ namespace stadion {
 namespace {
 
 constexpr std::uint32_t kVerticesAPiece = 8192, kTrianglesAPiece = 4096;
-constexpr std::size_t kPlacedRounding = 16;  ///< vertices of an instance begin at a multiple
+constexpr std::uint32_t kPlacedRounding = 16;  ///< vertices of an instance and of a piece begin at a multiple
 
 /// The cofactors of the model matrix, with the sign of its determinant.
 std::array<float, 9> normalsBy(const std::array<float, 12>& m) {
@@ -65,20 +65,40 @@ bool PictureSetup::add(const std::shared_ptr<const CpuMesh>& mesh, std::uint32_t
     any = true;
     addPart(number, part, materialNumber(mesh->material(part.material)));
   }
-  if (any) {
-    const std::uint32_t count = mesh->vertexCount();
-    for (std::uint32_t first = 0; first < count; first += kVerticesAPiece)
-      placements_.push_back({number, first, std::min(count - first, kVerticesAPiece)});
-    vertices_ += (count + kPlacedRounding - 1) / kPlacedRounding * kPlacedRounding;
-  }
+  if (any) addPlacements(number);
   return true;
 }
 
 void PictureSetup::addPart(std::uint32_t instance, const CpuPart& part, std::uint32_t material) {
-  for (std::uint32_t first = 0; first < part.triangles; first += kTrianglesAPiece)
-    stretches_.push_back({instance, part.firstTriangle + first,
-                          std::min(part.triangles - first, kTrianglesAPiece), &part, material});
-  ++partsAdded_, trianglesAdded_ += part.triangles;
+  const PixelMatrix& by = instances_[instance].matrix;
+  const std::size_t before = stretches_.size();
+  for (const MeshSection& s : part.sections) {
+    if (!mayBeSeen(s, by, geometry_.parallel, geometry_.width, geometry_.height)) continue;
+    wanted_.push_back({s.firstVertex / kPlacedRounding * kPlacedRounding,
+                       (s.endVertex + kPlacedRounding - 1) / kPlacedRounding * kPlacedRounding});
+    TriangleStretch* last = stretches_.size() > before ? &stretches_.back() : nullptr;
+    if (last && last->first + last->count == s.firstTriangle && last->count + s.triangles <= kTrianglesAPiece)
+      last->count += s.triangles;
+    else
+      stretches_.push_back({instance, s.firstTriangle, s.triangles, &part, material});
+  }
+  ++partsAdded_;
+  trianglesAdded_ += part.triangles;
+}
+
+/// Places the vertices of the sections that may be seen, each once.
+void PictureSetup::addPlacements(std::uint32_t instance) {
+  std::ranges::sort(wanted_, {}, &VertexRange::first);
+  std::uint32_t placed = 0;  // all before it
+  for (const VertexRange& range : wanted_)
+    for (placed = std::max(placed, range.first); placed < range.end;) {
+      const std::uint32_t count = std::min(range.end - placed, kVerticesAPiece);
+      placements_.push_back({instance, placed, count});
+      placed += count;
+    }
+  wanted_.clear();
+  const std::uint32_t count = instances_[instance].mesh->vertexCount();
+  vertices_ += (count + kPlacedRounding - 1) / kPlacedRounding * kPlacedRounding;
 }
 
 std::uint32_t PictureSetup::materialNumber(const MaterialParameters& material) {

@@ -1,8 +1,8 @@
 #pragma once
 /// The triangles of one picture: instances are placed, and their triangles set up and sorted into bands.
 ///
-/// Work     in pieces of a few thousand vertices or triangles. How the work is divided depends on the list
-///          alone; so do the results.
+/// Work     in pieces of a few thousand vertices or triangles. Sections of a mesh that the picture cannot see
+///          are left out (mesh_section.h). How the work is divided depends on the list alone; so do the results.
 /// Order    records of a band are in the order in which instances were added.
 /// Threads  add() on one thread. Then all pieces of place(), on any; then all pieces of setUp(), on any.
 
@@ -99,7 +99,12 @@ private:
     std::vector<std::uint32_t> binEnds;  ///< where a band's begin; one more than there are bands
   };
 
+  /// The vertices [first, end) of an instance, in multiples of kPlacedRounding.
+  struct VertexRange {
+    std::uint32_t first, end;
+  };
   void addPart(std::uint32_t instance, const CpuPart& part, std::uint32_t material);
+  void addPlacements(std::uint32_t instance);
   std::uint32_t materialNumber(const MaterialParameters& material);
   SetupParameters parametersOf(std::uint32_t stretch) const;
   void setUpStretch(std::uint32_t stretch, std::vector<TriangleRecord>& records) const;
@@ -116,7 +121,8 @@ private:
   std::vector<TriangleStretch> stretches_;
   std::vector<const MaterialParameters*> materials_;
   std::vector<Placement> placements_;
-  std::vector<Chunk> chunks_;  ///< keep their memory
+  std::vector<VertexRange> wanted_;  ///< of the instance that is being added
+  std::vector<Chunk> chunks_;        ///< keep their memory
   std::size_t chunksUsed_ = 0;
   std::size_t vertices_ = 0, partsAdded_ = 0;
   std::uint64_t trianglesAdded_ = 0;

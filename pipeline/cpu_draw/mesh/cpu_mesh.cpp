@@ -7,6 +7,7 @@
 #include "pipeline/gl_draw/gpu/surface_check.h"
 
 #include <algorithm>
+#include <limits>
 #include <utility>
 
 namespace stadion {
@@ -67,13 +68,37 @@ void CpuMesh::addLevel(const Mesh& mesh, std::span<const std::uint32_t> indices,
   std::vector<CpuPart>& level = levels_.emplace_back();
   for (const Submesh& part : parts) {
     const Material& m = mesh.materials[part.material];
-    level.push_back({static_cast<std::uint32_t>(a_.size()), part.indexCount / 3, part.material,
-                     m.transparent(), m.masked(), m.doubleSided || open});
+    const auto first = static_cast<std::uint32_t>(a_.size());
     const auto own = indices.subspan(part.firstIndex, part.indexCount / 3 * 3);
     for (std::size_t i = 0; i < own.size(); i += 3)
       a_.push_back(static_cast<int>(own[i])), b_.push_back(static_cast<int>(own[i + 1])),
           c_.push_back(static_cast<int>(own[i + 2]));
+    level.push_back({first, part.indexCount / 3, part.material, m.transparent(), m.masked(),
+                     m.doubleSided || open, sectionsOf(first, part.indexCount / 3)});
   }
+}
+
+std::vector<MeshSection> CpuMesh::sectionsOf(std::uint32_t firstTriangle, std::uint32_t triangles) const {
+  constexpr std::uint32_t kTrianglesASection = 256;
+  std::vector<MeshSection> sections;
+  for (std::uint32_t done = 0; done < triangles; done += kTrianglesASection) {
+    MeshSection s;
+    s.firstTriangle = firstTriangle + done;
+    s.triangles = std::min(triangles - done, kTrianglesASection);
+    s.firstVertex = vertexCount_;
+    s.low.fill(std::numeric_limits<float>::max());
+    s.high.fill(std::numeric_limits<float>::lowest());
+    for (std::uint32_t t = 0; t < s.triangles; ++t)
+      for (const int corner : triangle(s.firstTriangle + t)) {
+        const std::array<float, 3> p = position(corner);
+        s.firstVertex = std::min(s.firstVertex, static_cast<std::uint32_t>(corner));
+        s.endVertex = std::max(s.endVertex, static_cast<std::uint32_t>(corner) + 1);
+        for (std::size_t k = 0; k < 3; ++k)
+          s.low[k] = std::min(s.low[k], p[k]), s.high[k] = std::max(s.high[k], p[k]);
+      }
+    sections.push_back(s);
+  }
+  return sections;
 }
 
 const std::vector<CpuPart>& CpuMesh::partsAt(std::uint32_t level) const {

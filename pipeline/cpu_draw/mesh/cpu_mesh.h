@@ -10,6 +10,7 @@
 #include "engine/base/diagnostic.h"
 #include "pipeline/cpu_draw/kernels/kernel_data.h"
 #include "pipeline/cpu_draw/mesh/cpu_texture.h"
+#include "pipeline/cpu_draw/mesh/mesh_section.h"
 
 #include <array>
 #include <memory>
@@ -27,7 +28,8 @@ struct CpuPart {
   std::uint32_t firstTriangle, triangles;
   std::uint32_t material;
   bool transparent, masked;
-  bool bothSides;  ///< double-sided, or the mesh is open
+  bool bothSides;                     ///< double-sided, or the mesh is open
+  std::vector<MeshSection> sections;  ///< all its triangles, in their order
 };
 
 class CpuMesh {
@@ -55,6 +57,7 @@ private:
   void addLevel(const Mesh& mesh, std::span<const std::uint32_t> indices, std::span<const Submesh> parts,
                 bool open);
   void makeMaterials(const Mesh& mesh, Look look);
+  std::vector<MeshSection> sectionsOf(std::uint32_t firstTriangle, std::uint32_t triangles) const;
 
   std::uint32_t vertexCount_;
   std::vector<float> x_, y_, z_, vertices_;
