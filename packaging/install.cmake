@@ -6,11 +6,20 @@ include(CMakePackageConfigHelpers)
 install(TARGETS stadion RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT runtime)
 install(TARGETS stadion-import stadion-wall RUNTIME DESTINATION lib/stadion COMPONENT runtime)
 # Where they have been built.
-install(TARGETS stadion-measure stadion-bench stadion-dyn-stadion RUNTIME DESTINATION lib/stadion COMPONENT runtime OPTIONAL)
+install(TARGETS stadion-measure stadion-bench stadion-dyn-stadion RUNTIME DESTINATION lib/stadion COMPONENT runtime
+  OPTIONAL)
 install(DIRECTORY scripts walls DESTINATION ${CMAKE_INSTALL_DATADIR}/stadion COMPONENT runtime)
 install(DIRECTORY assets DESTINATION ${CMAKE_INSTALL_DATADIR}/stadion COMPONENT runtime PATTERN generator EXCLUDE)
-install(DIRECTORY docs/ DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT runtime)
-install(FILES README.md CHANGELOG.md packaging/copyright DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT runtime)
+# Pages keep their places, so that the links between them lead somewhere.
+install(DIRECTORY docs DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT runtime)
+install(FILES README.md CHANGELOG.md CONTRIBUTING.md SECURITY.md packaging/copyright DESTINATION ${CMAKE_INSTALL_DOCDIR}
+  COMPONENT runtime)
+file(GLOB_RECURSE pages RELATIVE ${PROJECT_SOURCE_DIR} CONFIGURE_DEPENDS bench/*.md cli/*.md dynamics/*.md engine/*.md
+  examples/*.md pipeline/*.md profiling/*.md scripts/*.md show/*.md tests/*.md walls/*.md)
+foreach(page IN LISTS pages)
+  get_filename_component(folder ${page} DIRECTORY)
+  install(FILES ${page} DESTINATION ${CMAKE_INSTALL_DOCDIR}/${folder} COMPONENT runtime)
+endforeach()
 
 # The programs write their man pages when they are installed.
 install(CODE "

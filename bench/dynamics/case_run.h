@@ -15,7 +15,7 @@ struct Outcome {
   std::string variant;  ///< variant of the engine
   int n = 1;            ///< steps a frame
   std::map<std::string, double> m;
-  double cpu = 0, worst = 0;  ///< [s] of processor time, in all and in the dearest frame
+  double cpu = 0, worst = 0;  ///< [s] of processor time, in all and in the most expensive frame
   long bodyFrames = 0;
   bool unsupported = false;
 

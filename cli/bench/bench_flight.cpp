@@ -111,7 +111,7 @@ int benchFlight(const BenchFlightOptions& o) {
 void addBenchFlight(CLI::App& bench, int& code) {
   auto o = std::make_shared<BenchFlightOptions>();
   CLI::App* command =
-      bench.add_subcommand("flight", "How exact and how dear the flight models and integrators are");
+      bench.add_subcommand("flight", "How exact and how expensive the flight models and integrators are");
   CommandOptions options(*command);
   options.add("--flights", o->held);
   options.add("--rounds", o->rounds);

@@ -79,7 +79,7 @@ Errors errorsOf(const HeadPath& path, const BenchPredictionOptions& o, double ah
     for (Nanoseconds t; (t = signatureAt(measured, o.trackerRate).time) <= now; ++measured)
       feed.pose(kHeadTracker, begin + t, measuring.of(path.at(t)));
     if (toSeconds(now) < 1) continue;  // it has just been heard of
-    const auto told = feed.soon(kHeadTracker, begin + now, predicted ? ahead : 0);
+    const auto told = feed.predictedHead(kHeadTracker, begin + now, predicted ? ahead : 0);
     const Pose truly = path.at(now + ahead);
     errors.millimetres.push_back(1e3 * (told->X_RH.p - truly.p).norm());
     errors.degrees.push_back(det::logRotation(told->X_RH.q * truly.q.conjugate()).norm() / kDegree);

@@ -148,9 +148,9 @@ int playCluster(const ClusterOptions& o, const CLI::App& command) {
 }
 
 constexpr const char* kClusterFooter =
-    R"(Each node is a process of its own, as `stadion run SHOW --cluster FILE --node NAME` is on a machine of its own. A node that
-dies, by a signal or with exit code 3, restarts and continues from the others' scene. SIGINT (Ctrl-C) and SIGTERM are
-handed on to all nodes, and the exit code is 130 or 143; one that has not ended after 10 s is killed.
+    R"(Each host is a process of its own here. In a hall it is a machine with `stadion run SHOW --cluster FILE --node NAME`. A host
+that dies, by a signal or with exit code 3, restarts and continues from the others' scene. SIGINT (Ctrl-C) and SIGTERM go
+to all hosts, and the exit code is 130 or 143. A host that has not ended after 10 s is killed.
 
   ./stadion cluster walls/four.cluster scripts/kick.evs --frames 300 --out pictures
   ./stadion cluster walls/four.cluster scripts/olympia.evs --size 320x240

@@ -22,7 +22,7 @@ inline constexpr std::array kCommandsElsewhere{
                      "Find the cheapest flight model that follows recorded flights"},
     CommandElsewhere{
         "profile", "stadion-measure",
-        "Say what the frames of a show are spent on, node by node; or how exact and how dear the "
+        "Say what the frames of a show are spent on, node by node; or how exact and how expensive the "
         "models of its bodies are"},
     CommandElsewhere{"plan", "stadion-measure",
                      "Predict frames a second and latency for other machines, walls and modes"},

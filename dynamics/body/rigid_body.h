@@ -201,7 +201,7 @@ struct BodyGrip {
   Instant accumulatedTo;            ///< time up to which `accumulated` is added up
   Vec3 freePlace = Vec3::Zero();    ///< last middle of `bound` outside of all colliders
   bool letGo = false;               ///< a hand has released the body at this moment
-  std::vector<PenetrationRecovery> recoveries;  ///< ways out of the colliders in which the body was released
+  std::vector<PenetrationRecovery> recoveries;  ///< from the colliders in which the body was released
 };
 
 /// The record of a body's path within a frame (state/body_traces.h).

@@ -12,7 +12,7 @@ namespace {
 constexpr double kTrace = 1e-9;       ///< regularisation, relative to the diagonal
 constexpr double kExact = 1e-13;      ///< residual at which the linear solution is done [m/s]
 constexpr double kRound = 1e-12;      ///< violations below this are rounding [m/s]
-constexpr int kMends = 24;            ///< of a choice at most ...
+constexpr int kMostCorrections = 24;  ///< of a choice at most ...
 constexpr int kTogether = 5;          ///< ... and those of all points at once; they may go round in circles
 constexpr double kAreaAgrees = 1e-8;  ///< friction of an area is right to this, relative to its strength
 constexpr double kNearly = 0.5;    ///< a direction that is off by less is improved by Newton's method [rad]
@@ -58,7 +58,7 @@ Vec3 ContactActiveSet::areaSlipOf(std::size_t contact) const {
   return c.slides ? Vec3(0.5 * (u + Vec3(c.spin, c.slip.x(), c.slip.y()))) : u;
 }
 
-void ContactActiveSet::read() {
+void ContactActiveSet::readActiveSet() {
   kind_.resize(c_.size());
   flow_.assign(c_.size(), Vec3::Zero());
   for (std::size_t k = 0; k < c_.size(); ++k) {
@@ -128,7 +128,7 @@ void ContactActiveSet::listArea(std::uint32_t contact) {
   }
 }
 
-void ContactActiveSet::list() {
+void ContactActiveSet::listUnknowns() {
   unknowns_.clear();
   axes_.clear();
   for (const std::uint32_t i : order_) {
@@ -184,7 +184,7 @@ bool ContactActiveSet::isDense() const {
 }
 
 /// How much work the unknowns are; where their rows begin.
-double ContactActiveSet::measure() {
+double ContactActiveSet::residual() {
   const std::size_t n = unknowns_.size();
   if (isDense()) return static_cast<double>(n * n) * (kAssembly + static_cast<double>(n) / 3);
   firsts_.resize(n);
@@ -290,13 +290,13 @@ double ContactActiveSet::solve() {
   return before;
 }
 
-void ContactActiveSet::put(std::size_t contact, const Vec3& impulse) {
+void ContactActiveSet::setImpulse(std::size_t contact, const Vec3& impulse) {
   rows_[contact].give(m_, impulse - c_[contact].impulse);
   c_[contact].impulse = impulse;
 }
 
-/// Corrects the choice where a point disagrees, `singly` only the worst; true if all agree.
-bool ContactActiveSet::mend(bool singly) {
+/// Corrects the active set where a point disagrees, `singly` only the worst; true if all agree.
+bool ContactActiveSet::correctActiveSet(bool singly) {
   double largest = 0, worst = 0;
   for (const SolverContact& c : c_) {
     if (c.area) continue;
@@ -311,7 +311,7 @@ bool ContactActiveSet::mend(bool singly) {
     const bool rounding = c_[k].impulse[0] >= -1e-13 * largest;
     if (!rounding && c_[k].impulse[0] > pulls) continue;
     agreed = agreed && rounding;
-    put(k, Vec3::Zero());
+    setImpulse(k, Vec3::Zero());
     kind_[k] = Kind::Open;
   }
   if (!agreed) return false;
@@ -328,10 +328,10 @@ bool ContactActiveSet::mend(bool singly) {
     kind_[k] = Kind::Stick;
     agreed = false;
   }
-  return agreed && mendFriction(largest);
+  return agreed && correctFriction(largest);
 }
 
-bool ContactActiveSet::mendFriction(double largest) {
+bool ContactActiveSet::correctFriction(double largest) {
   bool agreed = true;
   slip_.resize(c_.size());
   areaSlip_.resize(c_.size());
@@ -340,7 +340,7 @@ bool ContactActiveSet::mendFriction(double largest) {
   for (std::size_t k = 0; k < c_.size(); ++k) {
     const SolverContact& c = c_[k];
     if (c.area) {
-      agreed = mendArea(k) && agreed;
+      agreed = correctArea(k) && agreed;
       continue;
     }
     if (kind_[k] == Kind::Open || leavesFriction(k)) continue;
@@ -362,21 +362,21 @@ bool ContactActiveSet::mendFriction(double largest) {
       wanted = -slip_[k] * (most / speed);
       speed_[k] = off < kNearly ? speed : 0;
     }
-    put(k, {c.impulse[0], wanted.x(), wanted.y()});
+    setImpulse(k, {c.impulse[0], wanted.x(), wanted.y()});
     agreed = false;
   }
   return agreed;
 }
 
 /// The same for an area.
-bool ContactActiveSet::mendArea(std::size_t k) {
+bool ContactActiveSet::correctArea(std::size_t k) {
   SolverContact& c = c_[k];
   if (c.friction <= 0) return true;
   const LoadedArea area(c_, rows_[k], *c.area);
   const double most = c.friction * area.load;
   if (!(most > 0)) {
     const bool open = kind_[k] == Kind::Open && c.impulse.isZero(0);
-    put(k, Vec3::Zero());
+    setImpulse(k, Vec3::Zero());
     kind_[k] = Kind::Open;
     return open;
   }
@@ -392,7 +392,7 @@ bool ContactActiveSet::mendArea(std::size_t k) {
     kind_[k] = Kind::Slip;
     flow_[k] = need.slip;
     speed_[k] = 0;
-    put(k, c.impulse / need.share);
+    setImpulse(k, c.impulse / need.share);
     return false;
   }
   const Vec3 wanted = -most * area.against(slip).force;
@@ -404,7 +404,7 @@ bool ContactActiveSet::mendArea(std::size_t k) {
   }
   flow_[k] = slip;
   speed_[k] = off < kNearly ? speed : 0;
-  put(k, wanted);
+  setImpulse(k, wanted);
   return false;
 }
 
@@ -412,18 +412,18 @@ bool ContactActiveSet::solve(double& work) {
   // Points that contradict each other have no solution, and what came of it would explode.
   const std::vector<SolverBody> solverBodies = m_;
   const std::vector<SolverContact> contacts = c_;
-  if (attempt(work)) return true;
+  if (trySolving(work)) return true;
   m_ = solverBodies;
   c_ = contacts;
   return false;
 }
 
-bool ContactActiveSet::attempt(double& work) {
-  read();
+bool ContactActiveSet::trySolving(double& work) {
+  readActiveSet();
   speed_.assign(c_.size(), 0);
-  for (int i = 0; i < kMends; ++i) {
-    list();
-    work -= measure();
+  for (int i = 0; i < kMostCorrections; ++i) {
+    listUnknowns();
+    work -= residual();
     if (work < 0 && (i > 0 || c_.size() > kAlways)) return false;
     double left = 0;
     if (!unknowns_.empty()) {
@@ -431,7 +431,7 @@ bool ContactActiveSet::attempt(double& work) {
       left = solve();
     }
     if (!(left < kUnsolved)) return false;
-    if (mend(i >= kTogether)) return left < 1e-10 && std::ranges::all_of(m_, isFinite);
+    if (correctActiveSet(i >= kTogether)) return left < 1e-10 && std::ranges::all_of(m_, isFinite);
   }
   return false;
 }

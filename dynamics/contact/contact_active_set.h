@@ -11,12 +11,12 @@ public:
   ContactActiveSet(std::vector<SolverBody>& solverBodies, std::vector<SolverContact>& contacts,
                    const std::vector<ContactRow>& rows);
 
-  /// Reads the choice off the present impulses, solves for it and mends it until every point agrees. False if
+  /// Takes the active set from the present impulses, solves for it, and corrects it until it is consistent. False if
   /// it does not converge within so many multiplications; everything is then as it was.
   bool solve(double& work);
 
 private:
-  bool attempt(double& work);
+  bool trySolving(double& work);
   enum class Kind : std::uint8_t { Open, Stick, Slip };
   /// An impulse in a contact's basis, and the velocity it is to bring about: `wanted` less `soft` times the
   /// impulse.
@@ -35,19 +35,19 @@ private:
   }
   void listSlip(std::uint32_t contact);
   void listArea(std::uint32_t contact);
-  void read();
-  void list();
+  void readActiveSet();
+  void listUnknowns();
   bool isDense() const;
-  double measure();
+  double residual();
   double changeBy(std::size_t row, std::size_t column) const;
   bool assemble();
   void solveFor(Eigen::VectorXd& r);
   double solve();
-  bool mend(bool singly);
-  bool mendFriction(double largest);
-  bool mendArea(std::size_t contact);
+  bool correctActiveSet(bool singly);
+  bool correctFriction(double largest);
+  bool correctArea(std::size_t contact);
   Vec3 areaSlipOf(std::size_t contact) const;
-  void put(std::size_t contact, const Vec3& impulse);
+  void setImpulse(std::size_t contact, const Vec3& impulse);
   Vec2 slipOf(std::size_t contact) const;
 
   std::vector<SolverBody>& m_;

@@ -1,11 +1,11 @@
 #pragma once
 /// Velocities of bodies in lasting contact: all contact points of an island at once.
 ///
-/// Method   Gauss and Seidel's sweeps over points, each with its normal and a friction disc, warm started,
-///          find out which points push, stick and slip; small islands then solve exactly for that choice
-///          (dense, with a trace of regularisation and refinement, so that redundant points and mass ratios
-///          do not matter) and mend it until it holds. Islands too large for that, or whose choice does not
-///          settle, go on sweeping along conjugate directions.
+/// Method   Warm-started Gauss-Seidel sweeps over the points, each with its normal and a friction disc, find
+///          the active set: which points push, stick and slip. Small islands then solve exactly for this
+///          set, and correct it until it is consistent. The solution is dense, with slight regularisation
+///          and refinement, so redundant points and mass ratios do not matter. Larger islands, and those
+///          whose set does not settle, continue with sweeps along conjugate directions.
 
 #include "dynamics/body/impulse.h"
 #include "dynamics/contact/flat_friction.h"

@@ -2,10 +2,10 @@
 /// The motion of one body between two of its events, known for any age of the arc without stepping.
 ///
 /// Translation and rotation separate (the fields act at the centre of mass): a `Path` carries the centre, a
-/// `Spin` the orientation. Age is seconds since the arc began. Everything here is exact but for `Path` under
-/// fields that are not uniform (a quintic through a step of a fifth-order integrator), `Spin` of asymmetric
-/// bodies (Taylor polynomial of order 16, whose horizon is chosen for an error below 1e-13), and what the air
-/// turns (`Spin::steered`, through a step of the same integrator).
+/// `Spin` the orientation. Age is seconds since the arc began. All of this is exact, with three exceptions:
+///   - `Path` under fields that are not uniform: a quintic through a step of a fifth-order integrator
+///   - `Spin` of asymmetric bodies: a Taylor polynomial of order 16, with a horizon for an error below 1e-13
+///   - `Spin::steered`, a body that the air turns: through a step of the same integrator
 
 #include "engine/maths/maths.h"
 

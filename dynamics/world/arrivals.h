@@ -15,9 +15,9 @@ class Arrivals {
 public:
   Arrivals(const WorldTime& time, WorldObjects& objects, const FieldSet& fields, ContactMemory& memory,
            const ActiveBodies& active, const ChangedMotions& changes, const SweptBoxes& boxes, BodyArcs& arcs,
-           Waking& waking, PenetrationRecoveries& waysOut)
+           Waking& waking, PenetrationRecoveries& recoveries)
       : time_(time), objects_(objects), fields_(fields), memory_(memory), active_(active), changes_(changes),
-        boxes_(boxes), arcs_(arcs), waking_(waking), recoveries_(waysOut) {}
+        boxes_(boxes), arcs_(arcs), waking_(waking), recoveries_(recoveries) {}
 
   /// Places all that has arrived since the last frame, and wakes the bodies that it was put into.
   void placeAll();

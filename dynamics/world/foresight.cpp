@@ -160,7 +160,7 @@ void Foresight::predictChanged(double tau) {
   changes_.clearBodies();
 }
 
-/// Returns true if far looks could be dear: solids that could meet something take small steps.
+/// Returns true if a long search could be expensive: solids that could meet something take small steps.
 bool Foresight::solidsMayMeet() const {
   constexpr std::size_t kFew = 64;
   std::size_t solids = 0;

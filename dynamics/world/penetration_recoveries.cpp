@@ -59,10 +59,10 @@ void PenetrationRecoveries::find(RigidBody& b) {
     if (const auto way = penetrationRecoveryOf(self, thing, tau, b.grip.freePlace))
       b.grip.recoveries.push_back(*way);
   });
-  std::erase_if(comingOut_, [&](BodyId id) {
+  std::erase_if(recovering_, [&](BodyId id) {
     return id == b.id || !objects_.body(id) || objects_.body(id)->grip.recoveries.empty();
   });
-  if (!b.grip.recoveries.empty()) comingOut_.push_back(b.id);
+  if (!b.grip.recoveries.empty()) recovering_.push_back(b.id);
 }
 
 std::uint64_t PenetrationRecoveries::digest() const {
@@ -72,7 +72,7 @@ std::uint64_t PenetrationRecoveries::digest() const {
       h.add(std::uint64_t{b->id});
       h.add(b->grip.freePlace);
     }
-  for (const BodyId id : comingOut_) {
+  for (const BodyId id : recovering_) {
     const RigidBody* b = objects_.body(id);
     for (const PenetrationRecovery& w : b ? b->grip.recoveries : std::vector<PenetrationRecovery>{}) {
       h.add(std::uint64_t{id});

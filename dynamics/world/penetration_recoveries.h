@@ -12,9 +12,9 @@
 
 namespace stadion {
 
-/// Returns true if the body is on a way out of the collider.
+/// Returns true if the body is recovering from penetration of the collider.
 bool comesOutOf(const RigidBody& b, ColliderId id);
-/// Drops the ways out that the body has completed.
+/// Drops the recoveries that the body has completed.
 void forgetRecoveries(RigidBody& b, const WorldObjects& objects, double tau);
 
 class PenetrationRecoveries {
@@ -26,14 +26,14 @@ public:
   /// Notes the places where held bodies are free: they overlap nothing, and have passed through nothing since
   /// the last free place.
   void noteFreePlaces();
-  /// Finds the ways out of a body that was released inside a collider.
+  /// Finds the recoveries of a body that was released inside a collider.
   void find(RigidBody& b);
-  /// Returns a hash of free places and ways out, which are part of the simulated state.
+  /// Returns a hash of free places and recoveries, which are part of the simulated state.
   std::uint64_t digest() const;
 
   template <class Fields>
   void state(Fields& f) {
-    f("coming out", comingOut_);
+    f("coming out", recovering_);
   }
 
 private:
@@ -42,7 +42,7 @@ private:
   const FieldSet& fields_;
   const SweptBoxes& boxes_;
   const HeldBodies& held_;
-  std::vector<BodyId> comingOut_;  ///< bodies with ways out, in the order of their release
+  std::vector<BodyId> recovering_;  ///< bodies with recoveries, in the order of their release
 };
 
 }  // namespace stadion

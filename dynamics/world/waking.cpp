@@ -72,27 +72,34 @@ void Waking::wakeOnto(ContactSide moved, double tau) {
         supports_.drop(gone, id);
         continue;
       }
-      const bool onFace =
-          other->mode == BodyMode::Rest || other->mode == BodyMode::Slide || other->mode == BodyMode::Roll;
-      if (onFace && other->support.on.id && other->support.on == gone) {
-        waking.push_back({true, id});
-        arcs_.startFlight(*other, tau, other->position(tau), other->velocity(tau), other->orientation(tau),
-                          other->spin.angularMomentum(other->spinAge(tau)));
-        foresight_.predict(*other, tau);
-      } else if (other->mode == BodyMode::Stuck) {
-        waking.push_back({true, id});
-        arcs_.startFlight(*other, tau, other->position(tau), Vec3::Zero(), other->orientation(tau),
-                          Vec3::Zero());
-        foresight_.predict(*other, tau);
-      } else if (other->mode == BodyMode::Contact) {
-        hurry(*other, tau);
-      } else if (other->mode == BodyMode::Rest) {
-        // In a pile, bodies that lean on it wake when it moves; elsewhere nothing would wake them.
-        if (!other->contact.restsInPile) waking.push_back({true, id});
-        enterContact(*other, tau);
-      }
+      if (wakeLeaner(*other, gone, tau)) waking.push_back({true, id});
     }
   }
+}
+
+/// Wakes a body that leans on `gone`. Returns true if the bodies that lean on this body have to wake, too.
+bool Waking::wakeLeaner(RigidBody& b, const ContactSide& gone, double tau) {
+  const bool onFace = b.mode == BodyMode::Rest || b.mode == BodyMode::Slide || b.mode == BodyMode::Roll;
+  if (onFace && b.support.on.id && b.support.on == gone) {
+    fly(b, tau, b.velocity(tau), b.spin.angularMomentum(b.spinAge(tau)));
+    return true;
+  }
+  switch (b.mode) {
+  case BodyMode::Stuck: fly(b, tau, Vec3::Zero(), Vec3::Zero()); return true;
+  case BodyMode::Contact: hurry(b, tau); return false;
+  case BodyMode::Rest: {
+    // In a pile, bodies that lean on it wake when it moves; elsewhere nothing would wake them.
+    const bool alone = !b.contact.restsInPile;
+    enterContact(b, tau);
+    return alone;
+  }
+  default: return false;
+  }
+}
+
+void Waking::fly(RigidBody& b, double tau, const Vec3& v, const Vec3& angularMomentum) {
+  arcs_.startFlight(b, tau, b.position(tau), v, b.orientation(tau), angularMomentum);
+  foresight_.predict(b, tau);
 }
 
 /// The next tick is when the first body in contact is due.

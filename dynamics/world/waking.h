@@ -29,6 +29,8 @@ public:
 private:
   void cutStep(RigidBody& b, double tau);
   void hurry(RigidBody& b, double tau);
+  bool wakeLeaner(RigidBody& b, const ContactSide& gone, double tau);
+  void fly(RigidBody& b, double tau, const Vec3& v, const Vec3& angularMomentum);
 
   const WorldTime& time_;
   const StepGrid& grid_;

@@ -6,7 +6,7 @@
 namespace stadion {
 namespace {
 
-/// Events between two windows, for each body: a last resort against endless chatter.
+/// Most events in one call of runEvents(), for each active body: a last resort against endless chatter.
 constexpr std::uint64_t kMostEvents = 3000;
 
 /// Returns false also if the pose is not a number.

@@ -1,5 +1,5 @@
-// The world's state, field by field (engine/core/state_fields.h). It is put back to the bit with all that has
-// been foreseen, so that what happens then, and in which order, is the same.
+// The world's state, field by field (engine/core/state_fields.h). All predicted events are restored, too. So the
+// same events follow in the same order.
 
 #include "dynamics/world/world_core.h"
 #include "engine/core/state_fields.h"
@@ -136,25 +136,25 @@ static void fieldsOf(RigidBody& b, StateFields& f) {
   f("age", b.age0), f("until", b.until), f("valid", b.validAge), f("path valid", b.pathAge);
   f("spin start", b.spinStart);
   f("enabled", b.enabled), f("fresh", b.fresh), f("active", b.active), f("marked", b.marked);
-  f("stirred", b.stirred), f("aligned", b.aligned), f("alone", b.atMostOneNear), f("lazy", b.lazy);
+  f("stirred", b.stirred), f("aligned", b.aligned), f("at most one near", b.atMostOneNear), f("lazy", b.lazy);
   f("shape", b.shapeId), f("surface", b.surface), f("mass", b.mass), f("inverse mass", b.inverseMass);
   f("inertia", b.inertia), f("even pull", b.even), f("X_NC", b.X_NC), f("X_CN", b.X_CN);
   f("centred", b.centred), f("bound", b.bound), f("reach", b.reach), f("damping", b.damping);
-  f("drag area", b.dragArea), f("release distance", b.releaseDistance), f("stick", b.embedding);
+  f("drag area", b.dragArea), f("release distance", b.releaseDistance), f("embedding", b.embedding);
   f("q_CA", b.q_CA), f("end momentum", b.contact.endL), f("step", b.step), f("support", b.support);
   f("hooks", b.hooks), f("touching", b.contact.touching), f("leaning", b.contact.leaning),
-      f("presses", b.contact.warmStarts);
-  f("due", b.contact.dueAge), f("crowd", b.contact.inPile), f("wedged", b.contact.wedged),
-      f("restless", b.contact.unsolved);
-  f("drowsy", b.contact.sleepsNext), f("heaped", b.contact.restsInPile), f("drift", b.contact.drift),
-      f("twist", b.contact.twist);
+      f("warm starts", b.contact.warmStarts);
+  f("due", b.contact.dueAge), f("in pile", b.contact.inPile), f("wedged", b.contact.wedged),
+      f("unsolved", b.contact.unsolved);
+  f("sleeps next", b.contact.sleepsNext), f("rests in pile", b.contact.restsInPile),
+      f("drift", b.contact.drift), f("twist", b.contact.twist);
   f("slot", b.contact.slot), f("held", b.grip.held), f("carried", b.grip.carried),
       f("accumulated", b.grip.accumulated);
   f("accumulated to", b.grip.accumulatedTo), f("free place", b.grip.freePlace), f("let go", b.grip.letGo),
-      f("ways out", b.grip.recoveries);
-  f("impacts", b.impacts), f("impact span", b.impactSpan), f("quiet", b.contact.quietTime),
-      f("calm", b.contact.sleepCandidate);
-  f("trouble", b.trouble), f("swept", b.swept), f("place", b.place), f("only", b.nearCollider);
+      f("recoveries", b.grip.recoveries);
+  f("impacts", b.impacts), f("impact span", b.impactSpan), f("quiet time", b.contact.quietTime),
+      f("sleep candidate", b.contact.sleepCandidate);
+  f("trouble", b.trouble), f("swept", b.swept), f("place", b.place), f("near collider", b.nearCollider);
 }
 static void fieldsOf(Collider& c, StateFields& f) {
   f("shape", c.shapeId), f("surface", c.surface), f("bound", c.bound), f("enabled", c.enabled);
@@ -169,7 +169,7 @@ void World::Core::visitState(StateFields& f) {
   fields_.state(f);
   objects_.stateOfPairs(f);
   recoveries_.state(f);
-  f("jerking", turnsByFrame_);
+  f("turns by frame", turnsByFrame_);
   changes_.stateOfMode(f);
   queue_.stateOfOrder(f);
   objects_.stateOfIds(f);

@@ -7,7 +7,8 @@
 ///     }
 ///
 /// A plugin calls the program's own functions: it links none of Stadion's libraries, and is built with the
-/// headers of the program that loads it. `layout` finds most that are not.
+/// headers of the program that loads it. `layout` detects most plugins
+/// that were built with other headers.
 
 #include "engine/build/node_request.h"
 #include "engine/core/node_registry.h"

@@ -134,7 +134,7 @@ struct IsolatedDrawTime {
       Span::LeftEye;   ///< the eye: everything of it; Draw: nodes; Sky, Resolve, ShadowMaps, Prepare: these
   double ms = 0;       ///< without what drawing nothing takes
   double emptyMs = 0;  ///< cost of drawing nothing [ms]
-  /// After so many frames it has its turn again, if there is as much to draw. The turn's giver sets it.
+  /// After so many frames it has its turn again, if there is as much to draw. The sampler sets it.
   std::uint64_t round = 0;
 };
 
@@ -153,10 +153,11 @@ public:
   /// Anything within a stage; of a node if that is valid.
   virtual void began(Span what, NodeRef node) = 0;
   virtual void ended(Span what) = 0;
-  /// So much of it within the span that is under way on this thread; by a node, if that is valid.
+  /// Adds to a count of the span that runs on this thread; for a node, if that is valid.
   virtual void counted(Count, std::uint64_t, NodeRef = {}) {}
 
-  /// Returns true if a node's visit is told as its spans. False: visited() alone tells it. Asked once in App.
+  /// Returns true if each phase of a node's visit is reported as a span. Otherwise only visited() is called.
+  /// Asked once in App.
   virtual bool wantsSpansOfVisits() const { return true; }
   /// The visit of this node is over. It began when the visit before it was over, or when all mail was
   /// delivered.

@@ -94,7 +94,8 @@ inline constexpr CommandSpec kSwitchCommands[] = {
 inline constexpr CommandSpec kPlacedCommands[] = {
     {"attach", ArgumentKind::PartAndTracker, "attach all|position|orientation [TRACKER]",
      "follows a tracker (foot, else wand, if none is named)"},
-    {"detach", ArgumentKind::None, "detach", "stays where it is and follows no tracker any more"},
+    {"detach", ArgumentKind::None, "detach",
+     "follows no tracker any more; its parent carries it again, from where it is"},
     {"show", ArgumentKind::None, "show", "becomes visible, with all below it"},
     {"hide", ArgumentKind::None, "hide", "becomes invisible, with all below it"},
 };

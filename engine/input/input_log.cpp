@@ -1,6 +1,6 @@
 #include "engine/input/input_log.h"
 
-#include "engine/input/tracker_leap.h"
+#include "engine/input/tracker_jump.h"
 #include "engine/maths/functions.h"
 
 #include <algorithm>
@@ -32,11 +32,11 @@ Vec3 velocityTo(const InputTrack& track, std::size_t i) {
 }
 
 /// Returns true if it reached stamp `i` as no hand or foot can: in one step, faster than before and after.
-bool leaps(const InputTrack& track, std::size_t i) {
+bool jumps(const InputTrack& track, std::size_t i) {
   if (i == 0 || i >= track.stamps.size() || track.stamps[i].smooth) return false;
   const Nanoseconds took = track.stamps[i].time - track.stamps[i - 1].time;
   const Vec3 v = velocityTo(track, i);
-  return leapsBeside(v, velocityTo(track, i - 1), took) && leapsBeside(v, velocityTo(track, i + 1), took);
+  return jumpsBeside(v, velocityTo(track, i - 1), took) && jumpsBeside(v, velocityTo(track, i + 1), took);
 }
 
 double share(const InputStamp& a, const InputStamp& b, Nanoseconds time) {
@@ -58,12 +58,12 @@ double progress(const InputStamp& a, const InputStamp& b, Nanoseconds time) {
   return eased(a, b, from) + part * (eased(a, b, to) - eased(a, b, from));
 }
 
-/// Between two stamps, a.time < time < b.time; `leap`: it does not go, but is at b from b.time on.
-void blend(const InputStamp& a, const InputStamp& b, Nanoseconds time, bool leap, TrackerSample& sample) {
+/// Between two stamps, a.time < time < b.time; `jump`: it does not move, but is at b from b.time on.
+void blend(const InputStamp& a, const InputStamp& b, Nanoseconds time, bool jump, TrackerSample& sample) {
   copy(a, sample);
   if (!wholeWay(a, b)) return;  // a lost tracker stays at its last known place
   const double s = progress(a, b, time);
-  if (!leap && a.valid) sample.X_RT = det::interpolate(a.X_RT, b.X_RT, s);
+  if (!jump && a.valid) sample.X_RT = det::interpolate(a.X_RT, b.X_RT, s);
   for (std::size_t i = 0; i < kTrackerAxes; ++i)
     sample.axes[i] = static_cast<float>(a.axes[i] + s * (static_cast<double>(b.axes[i]) - a.axes[i]));
 }
@@ -77,7 +77,7 @@ void sampleTrack(const InputTrack& track, Nanoseconds time, TrackerSample& sampl
   if (after == track.stamps.begin()) return copy(*after, sample);
   const InputStamp& before = *(after - 1);
   if (before.time == time || after == track.stamps.end()) return copy(before, sample);
-  blend(before, *after, time, leaps(track, static_cast<std::size_t>(after - track.stamps.begin())), sample);
+  blend(before, *after, time, jumps(track, static_cast<std::size_t>(after - track.stamps.begin())), sample);
 }
 
 bool samePose(const Pose& a, const Pose& b) {
@@ -85,7 +85,7 @@ bool samePose(const Pose& a, const Pose& b) {
 }
 
 /// The corners between a and b, and b itself, as far as they lie strictly inside the frame.
-void addKnots(const InputStamp& a, const InputStamp& b, bool leap, Nanoseconds start, Nanoseconds end,
+void addKnots(const InputStamp& a, const InputStamp& b, bool jump, Nanoseconds start, Nanoseconds end,
               PoseTrack& knots) {
   const bool whole = a.valid && b.valid;
   if (whole && b.smooth && !(samePose(a.X_RT, b.X_RT) && a.axes == b.axes)) {
@@ -95,9 +95,9 @@ void addKnots(const InputStamp& a, const InputStamp& b, bool leap, Nanoseconds s
       knots.push_back({t, det::interpolate(a.X_RT, b.X_RT, eased(a, b, t)), false});
   }
   // Lost and found it has jumped.
-  const bool jump = !whole || leap;
-  if (b.time > start && (b.time < end || (b.time == end && jump)) && b.valid && knots.size() < kMostKnots)
-    knots.push_back({b.time, b.X_RT, jump});
+  const bool jumped = !whole || jump;
+  if (b.time > start && (b.time < end || (b.time == end && jumped)) && b.valid && knots.size() < kMostKnots)
+    knots.push_back({b.time, b.X_RT, jumped});
 }
 
 /// What the buttons and axes do on the way from a to b, and at b, as far as it lies inside the frame. The
@@ -152,7 +152,7 @@ void addKnots(const InputTrack& track, Nanoseconds start, Nanoseconds end, PoseT
     ++next;
   }
   for (; next != track.stamps.end() && (next - 1)->time < end && knots.size() < kMostKnots; ++next)
-    addKnots(*(next - 1), *next, leaps(track, static_cast<std::size_t>(next - track.stamps.begin())), start,
+    addKnots(*(next - 1), *next, jumps(track, static_cast<std::size_t>(next - track.stamps.begin())), start,
              end, knots);
 }
 

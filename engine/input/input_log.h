@@ -41,7 +41,7 @@
 ///     stress N LEVEL
 ///         from frame N on all distances count 2^(LEVEL/4) times, when levels of detail are chosen
 ///
-/// A tracker may leap between two records (tracker_leap.h): it was taken for another, or lost. Until the
+/// A tracker may jump between two records (tracker_jump.h): it was taken for another, or lost. Until the
 /// later record it stays where it was. (A fast swing starts and ends over several records, and is no leap.)
 ///
 /// Between two records poses and axes are interpolated, buttons are those of the earlier record. An eased way

@@ -1,7 +1,7 @@
 #include "engine/input/tracker_feed.h"
 
 #include "engine/input/head_forecast.h"
-#include "engine/input/tracker_leap.h"
+#include "engine/input/tracker_jump.h"
 #include "engine/maths/angles.h"
 #include "engine/maths/functions.h"
 
@@ -43,12 +43,12 @@ double lagAt(const RigFile& rig, double speed) {
   return rig.cutoff > 0 ? 1 / (2 * kPi * (rig.cutoff + rig.beta * speed)) : 0;
 }
 
-/// Returns true if the way from the last stamp to X at `time` may count as a leap when the log is read.
-bool mayLeap(const InputTrack& track, const Pose& X, Nanoseconds time) {
+/// Returns true if the way from the last stamp to X at `time` may count as a jump when the log is read.
+bool mayJump(const InputTrack& track, const Pose& X, Nanoseconds time) {
   const InputStamp& last = track.stamps.back();
   if (!last.valid) return false;
   const Vec3 v = (X.p - last.X_RT.p) / toSeconds(time - last.time);
-  return leapsBeside(v, speedTo(track, track.stamps.size() - 1), time - last.time);
+  return jumpsBeside(v, speedTo(track, track.stamps.size() - 1), time - last.time);
 }
 
 }  // namespace
@@ -84,8 +84,8 @@ bool TrackerFeed::controlled(const Channel& c, Nanoseconds clock) const {
   return c.beat == 0 || toSeconds(clock - c.lastControl) <= most;
 }
 
-std::vector<TrackerFeed::Hearing> TrackerFeed::hearings(Nanoseconds clock) {
-  std::vector<Hearing> news;
+std::vector<TrackerFeed::Reception> TrackerFeed::receptionChanges(Nanoseconds clock) {
+  std::vector<Reception> news;
   for (Channel& c : channels_) {
     const bool now = there(c, clock);
     const bool ever = c.ever || c.controlled;
@@ -146,12 +146,13 @@ void TrackerFeed::freeze(std::string_view name, Nanoseconds clock, bool frozen) 
   }
 }
 
-void TrackerFeed::aim(std::string_view name, Nanoseconds ahead) {
+void TrackerFeed::setPrediction(std::string_view name, Nanoseconds ahead) {
   for (Channel& c : channels_)
     if (c.tracker->name == name) c.ahead = std::max<Nanoseconds>(ahead, 0);
 }
 
-std::optional<HeadNow> TrackerFeed::soon(std::string_view name, Nanoseconds clock, Nanoseconds ahead) const {
+std::optional<HeadNow> TrackerFeed::predictedHead(std::string_view name, Nanoseconds clock,
+                                                  Nanoseconds ahead) const {
   for (const Channel& c : channels_)
     if (c.tracker->name == name)
       if (const auto X = poseAt(c, clock, ahead)) return HeadNow{*X, measuredBy(c, clock)};
@@ -199,7 +200,7 @@ bool TrackerFeed::axis(std::string_view name, Nanoseconds clock, std::int64_t in
 }
 
 /// A measurement is some milliseconds old when its frame ends: it goes on as it went.
-Pose TrackerFeed::carriedOn(const Channel& c, Nanoseconds clock, Nanoseconds ahead) const {
+Pose TrackerFeed::extrapolated(const Channel& c, Nanoseconds clock, Nanoseconds ahead) const {
   const double t = std::clamp(toSeconds(clock - c.last), 0.0, rig_.predict);
   const Pose X{c.X_RT.p + t * c.filter.velocity(),
                (det::expRotation(t * c.filter.rotation()) * c.X_RT.q).normalized()};
@@ -212,7 +213,7 @@ std::optional<Pose> TrackerFeed::poseAt(const Channel& c, Nanoseconds clock, Nan
   if (c.frozen) return c.frozen;
   if (!c.ever) return {};
   const double age = toSeconds(clock - c.last);
-  Pose X = carriedOn(c, clock, ahead);
+  Pose X = extrapolated(c, clock, ahead);
   if (!c.tracker->safe) return age <= rig_.hold ? std::optional(X) : std::nullopt;
   if (age > rig_.hold + rig_.ease) return {};
   const auto along = [&](const Pose& a, const Pose& b, double s) {
@@ -284,7 +285,7 @@ void TrackerFeed::addStamps(Channel& c, InputTrack& track, Nanoseconds clock, Na
     track.stamps.back() = now;
     return;
   }
-  if (X && mayLeap(track, *X, end)) {
+  if (X && mayJump(track, *X, end)) {
     if (end - 1 > track.stamps.back().time) track.stamps.push_back(lostAt(end - 1, track));
   } else if (X ? wasValid : controls) {
     addChanges(changes, now, track, clock, start);

@@ -52,10 +52,10 @@ public:
   /// Counts a measurement that came later than a newer one, and is left out.
   void late() { ++counts_.late; }
 
-  /// From now on the tracker is predicted by this much more [ns] (forecast.h).
-  void aim(std::string_view tracker, Nanoseconds ahead);
-  /// Returns its predicted pose at `ahead` after `clock`, independent of its aim; nothing while it is lost.
-  std::optional<HeadNow> soon(std::string_view tracker, Nanoseconds clock, Nanoseconds ahead) const;
+  /// From now on the tracker is predicted by this much more [ns] (head_forecast.h).
+  void setPrediction(std::string_view tracker, Nanoseconds ahead);
+  /// Returns its predicted pose at `ahead` after `clock`, independent of setPrediction(); nothing while it is lost.
+  std::optional<HeadNow> predictedHead(std::string_view tracker, Nanoseconds clock, Nanoseconds ahead) const;
 
   /// Freezes the tracker, or releases it, and it eases back.
   void freeze(std::string_view tracker, Nanoseconds clock, bool frozen);
@@ -67,14 +67,14 @@ public:
   /// Where everything is now, apart from the show's frames.
   void sampleNow(Nanoseconds clock, InputSample& sample) const;
 
-  /// A tracker that has fallen silent, or is heard of again.
-  struct Hearing {
+  /// A tracker that fell silent, or is received again.
+  struct Reception {
     std::string_view tracker;
     bool heard = false;
     double silent = 0;  ///< for so long [s]
   };
   /// Returns the new ones at `clock`. For a tracker that comes and goes, once in ten seconds.
-  std::vector<Hearing> hearings(Nanoseconds clock);
+  std::vector<Reception> receptionChanges(Nanoseconds clock);
 
   const FeedCounts& counts() const { return counts_; }
   const RigFile& rig() const { return rig_; }
@@ -137,7 +137,7 @@ private:
   Nanoseconds measuredBy(const Channel& c, Nanoseconds clock) const { return heard(c, clock) ? c.last : 0; }
   std::optional<Pose> poseAt(const Channel& c, Nanoseconds clock, Nanoseconds ahead) const;
   std::optional<Pose> poseAt(const Channel& c, Nanoseconds clock) const { return poseAt(c, clock, c.ahead); }
-  Pose carriedOn(const Channel& c, Nanoseconds clock, Nanoseconds ahead) const;
+  Pose extrapolated(const Channel& c, Nanoseconds clock, Nanoseconds ahead) const;
   void change(Channel& c, Nanoseconds clock, bool changes);
   void addChanges(std::span<const Change> changes, const InputStamp& now, InputTrack& track,
                   Nanoseconds clock, Nanoseconds start) const;

@@ -56,7 +56,7 @@ private:
   Nanoseconds length() const { return fromSeconds(keys_.back().time); }
   /// Skips passes up to `time`: they do not count.
   void restUntil(Nanoseconds time);
-  /// Lets what has passed up to `time` count: passes end, the path may.
+  /// Advances to `time`: posts the events of passes that end until then, and of the end of the path.
   void advanceTo(Nanoseconds time, FrameContext& frame);
   void putTarget(Scene& scene);
   bool bends() const;

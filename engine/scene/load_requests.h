@@ -7,7 +7,7 @@
 /// Units      show time in nanoseconds.
 /// Ownership  borrows the loader; loads belong to the loader until take() returns them.
 /// Threads    App only.
-/// Errors     restore() fails the StateFields if the requests contradict each other.
+/// Errors     state() fails the StateFields if the requests contradict each other.
 
 #include "engine/scene/loaded_scene.h"
 #include "engine/scene/scene_tree.h"

@@ -3,7 +3,8 @@
 #include "engine/core/state_fields.h"
 
 #include <algorithm>
-#include <functional>
+#include <map>
+#include <set>
 #include <utility>
 
 namespace stadion {
@@ -36,48 +37,67 @@ void NodeSchedule::callDue(Nanoseconds now) {
   wakeWatchers();
 }
 
+namespace {
+
+/// By node: the nodes that move what it looks at.
+using Movers = std::map<NodeRef, std::vector<NodeRef>>;
+
+/// Returns true if `from` looks at `to`, directly or through others.
+bool looksAt(const Movers& movers, NodeRef from, NodeRef to) {
+  std::set<NodeRef> seen{from};
+  std::vector<NodeRef> open{from};
+  while (!open.empty()) {
+    const auto at = movers.find(open.back());
+    open.pop_back();
+    if (at == movers.end()) continue;
+    for (const NodeRef next : at->second) {
+      if (next == to) return true;
+      if (seen.insert(next).second) open.push_back(next);
+    }
+  }
+  return false;
+}
+
+/// If two nodes look at each other, the one that comes first in the file comes first here.
+void breakCycles(Movers& movers) {
+  std::vector<std::pair<NodeRef, NodeRef>> mutual;
+  for (const auto& [ref, before] : movers)
+    for (const NodeRef mover : before)
+      if (ref < mover && looksAt(movers, mover, ref)) mutual.emplace_back(ref, mover);
+  for (const auto& [ref, mover] : mutual) std::erase(movers[ref], mover);
+}
+
+/// Returns the node's level: one more than the highest of its movers. Expects no cycle.
+std::uint16_t levelOf(const Movers& movers, NodeRef ref, std::map<NodeRef, std::uint16_t>& known) {
+  if (const auto at = known.find(ref); at != known.end()) return at->second;
+  std::uint16_t level = 0;
+  if (const auto at = movers.find(ref); at != movers.end())
+    for (const NodeRef mover : at->second)
+      level = std::max<std::uint16_t>(level, levelOf(movers, mover, known) + 1);
+  return known[ref] = level;
+}
+
+}  // namespace
+
 /// Finds the levels: a node comes after the nodes whose results it looks at. Which node moves what is known
 /// one round after it has entered.
 void NodeSchedule::findLevels(const Scene& scene) {
   if (levelsLoads_ == tree_.version() && levelsSettled_) return;
   levelsSettled_ = levelsLoads_ == tree_.version();
   levelsLoads_ = tree_.version();
-  std::map<NodeRef, std::vector<NodeRef>> movers;
+  Movers movers;
   for (const NodeRef ref : loadWatchers_)
     if (const Node* node = tree_.find(ref)) node->addMovers(scene, movers[ref]);
   std::erase_if(movers, [](const auto& entry) { return entry.second.empty(); });
-  const auto reaches = [&](NodeRef from, NodeRef to) {
-    std::set<NodeRef> seen{from};
-    std::vector<NodeRef> open{from};
-    while (!open.empty()) {
-      const auto at = movers.find(open.back());
-      open.pop_back();
-      if (at == movers.end()) continue;
-      for (const NodeRef next : at->second) {
-        if (next == to) return true;
-        if (seen.insert(next).second) open.push_back(next);
-      }
-    }
-    return false;
-  };
-  // If two look at each other, the one that comes first in the file comes first here.
-  std::vector<std::pair<NodeRef, NodeRef>> mutual;
-  for (const auto& [ref, before] : movers)
-    for (const NodeRef mover : before)
-      if (ref < mover && reaches(mover, ref)) mutual.emplace_back(ref, mover);
-  for (const auto& [ref, mover] : mutual) std::erase(movers[ref], mover);
+  breakCycles(movers);
   std::map<NodeRef, std::uint16_t> levels;
-  const std::function<std::uint16_t(NodeRef)> levelOf = [&](NodeRef ref) {
-    if (const auto known = levels.find(ref); known != levels.end()) return known->second;
-    std::uint16_t level = 0;
-    if (const auto at = movers.find(ref); at != movers.end())
-      for (const NodeRef mover : at->second) level = std::max<std::uint16_t>(level, levelOf(mover) + 1);
-    return levels[ref] = level;
-  };
   bool changed = false;
-  for (const NodeRef ref : loadWatchers_)
-    if (Node* node = tree_.find(ref))
-      changed |= std::exchange(node->scheduleState().level, levelOf(ref)) != levelOf(ref);
+  for (const NodeRef ref : loadWatchers_) {
+    Node* node = tree_.find(ref);
+    if (!node) continue;
+    const std::uint16_t level = levelOf(movers, ref, levels);
+    changed |= std::exchange(node->scheduleState().level, level) != level;
+  }
   if (changed) queue_.reorder();
 }
 

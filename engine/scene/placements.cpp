@@ -318,35 +318,44 @@ void Placements::state(StateFields& f) {
   }
   f("free", free_), f("moved", movedWatched_), f("watched", anyWatched_);
   f("fleets", fleets_), f("free fleets", freeFleets_);
-  if (f.restores()) changed_.clear();
   if (!f.restores()) return;
-  // A free placement is free once, and a placement that goes with a fleet is the member that the fleet has.
-  const auto isThere = [&](PlacementId id) { return id < entries_.size() && entries_[id].live; };
-  const auto isFree = [&](PlacementId id) { return id < entries_.size() && !entries_[id].live; };
+  changed_.clear();
+  if (!freeListsFit() || !fleetsFit()) f.fail();
+}
+
+/// Returns true if each free placement and each free fleet is free, and listed once.
+bool Placements::freeListsFit() const {
   const auto twice = [](auto list) {
     std::ranges::sort(list);
     return std::ranges::adjacent_find(list) != list.end();
   };
-  if (!std::ranges::all_of(free_, isFree) || twice(free_)) f.fail();
-  if (std::ranges::any_of(movedWatched_, [&](PlacementId id) { return id >= entries_.size(); })) f.fail();
+  const auto isKnown = [&](PlacementId id) { return id < entries_.size(); };
+  const auto isFree = [&](PlacementId id) { return isKnown(id) && !entries_[id].live; };
+  const auto isEmpty = [&](FleetId id) {
+    return id < fleets_.size() && fleets_[id].members.empty() && fleets_[id].detached.empty();
+  };
+  return std::ranges::all_of(free_, isFree) && !twice(free_) && std::ranges::all_of(movedWatched_, isKnown) &&
+         std::ranges::all_of(freeFleets_, isEmpty) && !twice(freeFleets_);
+}
+
+/// Returns true if each member of a fleet is a live placement that names this fleet and number, and the reverse.
+bool Placements::fleetsFit() const {
+  const auto isThere = [&](PlacementId id) { return id < entries_.size() && entries_[id].live; };
   for (FleetId id = 0; id < fleets_.size(); ++id) {
     const Fleet& fleet = fleets_[id];
     for (std::uint32_t k = 0; k < fleet.members.size(); ++k)
       if (const PlacementId member = fleet.members[k]; member != kNoPlacement)
-        if (!isThere(member) || entries_[member].fleet != id || entries_[member].member != k) f.fail();
+        if (!isThere(member) || entries_[member].fleet != id || entries_[member].member != k) return false;
     for (const auto& [number, member] : fleet.detached)
-      if (!isThere(member) || number >= fleet.members.size()) f.fail();
+      if (!isThere(member) || number >= fleet.members.size()) return false;
   }
   for (PlacementId id = 0; id < entries_.size(); ++id) {
     const Entry& e = entries_[id];
     if (!e.live || e.fleet == kNoFleet) continue;
     const bool known = e.fleet < fleets_.size() && e.member < fleets_[e.fleet].members.size();
-    if (!known || fleets_[e.fleet].members[e.member] != id) f.fail();
+    if (!known || fleets_[e.fleet].members[e.member] != id) return false;
   }
-  const auto noFleet = [&](FleetId id) {
-    return id < fleets_.size() && fleets_[id].members.empty() && fleets_[id].detached.empty();
-  };
-  if (!std::ranges::all_of(freeFleets_, noFleet) || twice(freeFleets_)) f.fail();
+  return true;
 }
 
 /// Returns true if every live placement is below World, once.

@@ -185,6 +185,8 @@ private:
   Affine carriedBy(PlacementId id, const Affine& X_WP) const;
   void markBelow(PlacementId id, bool moved);
   bool standsTogether() const;
+  bool freeListsFit() const;
+  bool fleetsFit() const;
   void updateLocal(PlacementId id) const;
   MemberPlace memberOf(const Fleet& fleet, std::uint32_t member) const;
   void join(PlacementId id, FleetId fleet, std::uint32_t member);

@@ -88,10 +88,10 @@ public:
   ///   - of each node, the fields on which its future depends. `dynamics` and `collision` nodes add what
   ///     their bodies, colliders and fields do not: switch, pairs, grips, free places, recoveries
   ///   - show time, the free rig, the numbers of the loaded files
-  ///   - pending messages, alarms, loads and unloads; degradation
-  /// It does not cover parameters that never change, unhashed() fields (state_fields.h), and the rest of a world:
-  /// predicted events, search structures, the solver's memory. SceneSnapshot::digest() covers what a snapshot
-  /// saves of these.
+  ///   - pending messages, alarms, loads and unloads; the degradation of nodes
+  /// It does not cover parameters that never change, unhashed() fields (state_fields.h), stress, and the
+  /// rest of a world: predicted events, search structures, the solver's memory. SceneSnapshot::digest()
+  /// covers the part of these that a snapshot saves.
   std::uint64_t stateHash() const;
   const FrameCounters& counters() const { return counters_; }
   const std::vector<EventRecord>& events() const { return events_; }  ///< events of the last frame, by time

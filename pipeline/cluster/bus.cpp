@@ -21,7 +21,7 @@ dds_duration_t durationOf(double seconds) {
 }
 
 /// Cyclone's own configuration. It ignores a silence of up to a second; our deadline judges silent hosts. A
-/// reader asks for lost data again at once, because a node waits for it. A writer never waits for a reader
+/// reader asks for lost data again at once, because a host waits for it. A writer never waits for a reader
 /// that does not acknowledge. Cyclone's default would wait after a kilobyte or two, and one crashed host
 /// would then stop all others for a second.
 std::string configurationOf(const ClusterFile& o) {

@@ -33,15 +33,15 @@ using SceneHash = stadion_wire_SceneHash;
 using Difference = stadion_wire_Difference;
 using StatePart = stadion_wire_StatePart;
 
-/// A node's phase, as its Presence reports it.
+/// A host's phase, as its Presence reports it.
 enum class Phase : std::uint8_t {
   Waiting,  ///< for a session, or opening the show
-  Asking,   ///< the show is under way, and the node needs the scene's state
-  Ready,    ///< the node has applied all orders that it knows of
-  Leaving,  ///< the node plays no longer
+  Asking,   ///< the show is under way, and the host needs the scene's state
+  Ready,    ///< the host has applied all orders that it knows of
+  Leaving,  ///< the host plays no longer
 };
 
-/// No node; stands in place of a node's number (Session::giver).
+/// No host; stands in place of a host's number (Session::giver).
 constexpr std::uint8_t kNoNode = 255;
 
 class BusListener {
@@ -55,7 +55,7 @@ public:
   virtual void receive(const SceneHash&) {}
   virtual void receive(const Difference&) {}
   virtual void receive(const StatePart&) {}
-  /// The node's incarnation was silent for the deadline, or it said good-bye.
+  /// The host's incarnation was silent for the deadline, or it said good-bye.
   virtual void left(std::uint8_t node, std::uint64_t incarnation) {
     (void)node;
     (void)incarnation;
@@ -114,7 +114,7 @@ private:
   BusListener* listener_ = nullptr;
   dds_entity_t domain_ = 0, participant_ = 0;
   std::array<dds_entity_t, kChannels> writers_{};
-  /// The writer of a presence and the node that it writes for. Two programs may be the same node, and one of
+  /// The writer of a presence and the host that it writes for. Two programs may be the same host, and one of
   /// them may crash. Keyed by the network's handles.
   struct Speaker {
     std::uint8_t node = 0;

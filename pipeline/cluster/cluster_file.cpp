@@ -201,7 +201,7 @@ void checkWalls(const ClusterFile& cluster, const std::vector<std::string>& wall
     }
   for (const std::string& wall : unseen)
     out.warning(cluster.wallsAt.where,
-                fmt::format("no node shows the wall \"{}\" of {}", wall, cluster.walls),
+                fmt::format("no host shows the wall \"{}\" of {}", wall, cluster.walls),
                 cluster.wallsAt.excerpt);
 }
 

@@ -17,11 +17,11 @@
 ///                                 checkInterface() looks for it
 ///     domain N                    of DDS, 0 to 230 (0); clusters in one network need different ones, or
 ///     partition NAME              different names (stadion)
-///     deadline SECONDS            a node that is silent for so long is left out, 0.1 to 60 (0.5)
+///     deadline SECONDS            a host that is silent for so long is left out, 0.1 to 60 (0.5)
 ///     hash-every FRAMES           how often the scenes are compared, 1 to 1000 (30)
-///     on-difference resync|stop   a node with another state takes over the leader's (resync), or all end
+///     on-difference resync|stop   a host with another state takes over the leader's (resync), or all end
 ///
-/// At most one node shows each wall of the room. A cluster has 1 to 24 nodes.
+/// At most one host shows each wall of the room. A cluster has 1 to 24 hosts.
 ///
 /// Threads  plain values, any thread.
 /// Errors   go to the Diagnostics with line, column and a fix if one is known; there may be several.
@@ -75,7 +75,7 @@ std::optional<ClusterFile> loadCluster(const std::string& file, Diagnostics& out
 /// cluster file; the program that opens the show reports warnings.
 std::optional<WallFile> loadWallsOf(const ClusterFile& cluster, const std::string& folder, Diagnostics& out);
 
-/// Reports walls of nodes that are not among these, and warns of walls that no node shows.
+/// Reports walls of hosts that are not among these, and warns of walls that no host shows.
 void checkWalls(const ClusterFile& cluster, const std::vector<std::string>& walls, Diagnostics& out);
 
 }  // namespace stadion

@@ -15,9 +15,9 @@ namespace {
 
 constexpr std::size_t kHashesKept = 64, kMostEarly = kHashesKept * ClusterFile::kMostNodes;
 constexpr std::chrono::milliseconds kSearch{1500};  ///< time to discover other hosts
-constexpr std::chrono::seconds kGiving{5};          ///< limit for a node that sends its scene
+constexpr std::chrono::seconds kGiving{5};          ///< limit for a host that sends its scene
 constexpr std::chrono::seconds kReturn{5};          ///< limit for a continued show that waits for the others
-constexpr std::chrono::seconds kLately{10};         ///< a node that crashed so recently may be on its way
+constexpr std::chrono::seconds kLately{10};         ///< a host that crashed so recently may be on its way
                                                     ///< back
 
 std::uint32_t bit(std::size_t node) {
@@ -26,7 +26,7 @@ std::uint32_t bit(std::size_t node) {
 
 }  // namespace
 
-/// The show's input, which is sent to all nodes.
+/// The show's input, which is sent to all hosts.
 class ClusterLeader::SampledInput final : public InputDevice {
 public:
   SampledInput(InputDevice& inner, ClusterLeader& lead) : inner_(inner), lead_(lead) {}
@@ -89,7 +89,7 @@ InputDevice& ClusterLeader::input(InputDevice& inner) {
   return *input_;
 }
 
-// Expects the lock. Returns which of those nodes has come farthest in this show.
+// Expects the lock. Returns which of those hosts has come farthest in this show.
 std::optional<std::size_t> ClusterLeader::newestOf(std::uint32_t nodes) const {
   std::optional<std::size_t> best;
   const auto at = [this](std::size_t node) {
@@ -299,7 +299,7 @@ bool ClusterLeader::mayShow(const TimeSignature&) {
   return go_ >= serial && !double_;
 }
 
-// Expects the lock. A node that lives but does not draw what all others have drawn would hold them forever.
+// Expects the lock. A host that lives but does not draw what all others have drawn would hold them forever.
 void ClusterLeader::leaveOutStuckFollowers() {
   if (epochs_.empty() || !epochs_.front().drawnHere) return;
   const double seconds = std::chrono::duration<double>(Clock::now() - *epochs_.front().drawnHere).count();
@@ -310,7 +310,7 @@ void ClusterLeader::leaveOutStuckFollowers() {
       leaveOut(i, fmt::format("lives, but has drawn nothing for {:.1f} s", seconds));
 }
 
-// Expects the lock. Lets all nodes show what all have drawn.
+// Expects the lock. Lets all hosts show what all have drawn.
 void ClusterLeader::release() {
   bool released = false;
   while (!epochs_.empty() && epochs_.front().awaited == 0 && epochs_.front().drawnHere) {
@@ -354,7 +354,7 @@ void ClusterLeader::receive(const Presence& p) {
   Follower& f = followers_[p.node];
   // Another leader that has just started may end at once, because we lead.
   if (f.member && f.incarnation != p.incarnation && static_cast<Phase>(p.phase) == Phase::Waiting) return;
-  // A node that is discovered again repeats its last sample, which may be out of date.
+  // A host that is discovered again repeats its last sample, which may be out of date.
   Word& word = words_[p.node];
   if (word.incarnation == p.incarnation && p.count <= word.count) return;
   word.incarnation = p.incarnation;
@@ -407,10 +407,10 @@ void ClusterLeader::receive(const StatePart& part) {
 void ClusterLeader::left(std::uint8_t node, std::uint64_t incarnation) {
   const std::lock_guard lock(mutex_);
   if (node >= followers_.size() || node == options_.cluster.lead) return;
-  if (followers_[node].incarnation != incarnation) return;  // another program is this node now
+  if (followers_[node].incarnation != incarnation) return;  // another program is this host now
   if (followers_[node].member && !pending_.last)
     leaveOut(node, fmt::format("has not been heard of for {:g} s", options_.cluster.deadline));
-  letGo(node);  // when the show is over, nodes leave, and no message is needed
+  letGo(node);  // when the show is over, hosts leave, and no message is needed
   followers_[node] = {};
   changed_.notify_all();
 }
@@ -422,7 +422,7 @@ void ClusterLeader::leaveOut(std::size_t node, const std::string& why) {
   letGo(node);
 }
 
-// Expects the lock. Stops waiting for the node.
+// Expects the lock. Stops waiting for the host.
 void ClusterLeader::letGo(std::size_t node) {
   if (std::exchange(followers_[node].member, false)) words_[node].gone = Clock::now();
   for (OrderEpoch& epoch : epochs_) epoch.awaited &= ~bit(node);

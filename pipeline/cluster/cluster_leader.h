@@ -2,8 +2,8 @@
 /// The cluster's leader: its clock and trackers count. It orders the next frame, and says when all hosts may
 /// show it.
 ///
-/// A frame is shown once all members have drawn it. If a node is silent for the deadline, the leader leaves
-/// it out, and the others go on. A node that comes later gets the scene's state between two frames. It is a
+/// A frame is shown once all members have drawn it. If a host is silent for the deadline, the leader leaves
+/// it out, and the others go on. A host that comes later gets the scene's state between two frames. It is a
 /// member again once it has caught up. If a previous leader has crashed, the others hold their picture, and
 /// the show continues from the scene of one of them.
 ///
@@ -35,24 +35,24 @@ namespace stadion::cluster {
 struct LeaderOptions {
   ClusterFile cluster;
   CompatibilityKey key;
-  std::chrono::seconds patience{};  ///< limit for nodes that have not come; then the show begins without them
+  std::chrono::seconds patience{};  ///< limit for hosts that have not come; then the show begins without them
   std::function<void(const std::string&)> tell;
   std::function<bool()> stop;  ///< the wait is no longer wanted
   std::uint64_t above = 0;     ///< the session's number is higher than this, the previous show's
-  /// The nodes to wait for, one bit each; another node takes part only if it is present. After a show: the
-  /// nodes that were present.
+  /// The hosts to wait for, one bit each; another host takes part only if it is present. After a show: the
+  /// hosts that were present.
   std::uint32_t expected = ~std::uint32_t{0};
 };
 
-/// The operator's choice about nodes that have not come.
+/// The operator's choice about hosts that have not come.
 enum class WaitDecision {
-  Lasts,    ///< the leader goes on waiting for the missing nodes
-  Ends,     ///< the show starts without the missing nodes
+  Lasts,    ///< the leader goes on waiting for the missing hosts
+  Ends,     ///< the show starts without the missing hosts
   GivesUp,  ///< the show does not start
 };
 using OperatorDecision = std::function<WaitDecision(bool told)>;
 
-/// A show that the other nodes play already.
+/// A show that the other hosts play already.
 struct ShowUnderWay {
   TimeSignature last;                                      ///< last frame before the show continues
   std::shared_ptr<const std::vector<std::uint8_t>> state;  ///< snapshot of the scene
@@ -63,7 +63,7 @@ struct ShowUnderWay {
 
 class ClusterLeader final : public FrameOrders, public BusListener {
 public:
-  /// Number of deadlines after which a node that lives but draws nothing is left out.
+  /// Number of deadlines after which a host that lives but draws nothing is left out.
   static constexpr double kStuck = 10;
 
   static Result<std::unique_ptr<ClusterLeader>> open(LeaderOptions options);
@@ -71,20 +71,20 @@ public:
   static std::unique_ptr<ClusterLeader> unconnected(LeaderOptions options, std::uint64_t session);
   ~ClusterLeader() override;
 
-  /// Looks for a show that the other nodes play since its leader crashed, and has one of them send its scene.
-  /// Returns nothing if there is none: the show begins. Takes at most two seconds if nodes are missing.
+  /// Looks for a show that the other hosts play since its leader crashed, and has one of them send its scene.
+  /// Returns nothing if there is none: the show begins. Takes at most two seconds if hosts are missing.
   /// Expects that no show of our own has begun.
   std::optional<ShowUnderWay> takeOver();
-  /// Waits until all nodes have opened the show, or until the time limit has passed. Calls `operators`
-  /// repeatedly for the operator's choice, with whether he has heard which nodes are missing. `rate` in 1/s.
+  /// Waits until all hosts have opened the show, or until the time limit has passed. Calls `operators`
+  /// repeatedly for the operator's choice, with whether he has heard which hosts are missing. `rate` in 1/s.
   /// Returns false if the operator gives up: nothing has begun.
   bool begin(
       double rate, const OperatorDecision& operators = [](bool) { return WaitDecision::Lasts; });
-  /// The nodes that played with us at the end or shortly before, one bit each. Call it after finish().
+  /// The hosts that played with us at the end or shortly before, one bit each. Call it after finish().
   std::uint32_t played() const;
   bool hasBegun() const;
   std::uint64_t session() const;  ///< number of the session
-  /// Wraps the show's input: each sample also goes to all nodes. `inner` must outlive it.
+  /// Wraps the show's input: each sample also goes to all hosts. `inner` must outlive it.
   InputDevice& input(InputDevice& inner);
   /// Sets how the scene's state is saved, between two frames.
   void saveWith(std::function<SavedScene()> save) { save_ = std::move(save); }
@@ -94,7 +94,7 @@ public:
   ClusterStats stats() const;
   /// Returns true if another program leads this cluster already: ours must end.
   bool hasDouble() const;
-  /// Waits until all nodes have received everything. With `over`, also ends the show for all.
+  /// Waits until all hosts have received everything. With `over`, also ends the show for all.
   void finish(bool over);
 
   bool leads() const override { return true; }
@@ -116,21 +116,21 @@ private:
   using Clock = std::chrono::steady_clock;
 
   struct Follower {
-    std::uint64_t incarnation = 0;  ///< 0: the node is absent
+    std::uint64_t incarnation = 0;  ///< 0: the host is absent
     std::uint64_t session = 0;      ///< the session that it is in; 0: none
     std::uint64_t plays = 0;        ///< the session of its scene; 0: it has none
-    std::uint64_t serial = 0;       ///< last order that the node's scene has applied
+    std::uint64_t serial = 0;       ///< last order that the host's scene has applied
     std::uint64_t show = 0;         ///< CompatibilityKey::show() of that session
     Phase phase = Phase::Waiting;
     bool member = false, asks = false;
-    bool differs = false;  ///< the node's scene differs from ours, and the node has not joined again since
+    bool differs = false;  ///< the host's scene differs from ours, and the host has not joined again since
   };
-  /// The last sample from a node, present or not.
+  /// The last sample from a host, present or not.
   struct Word {
     std::uint64_t incarnation = 0, count = 0;
-    std::optional<Clock::time_point> gone{};  ///< time at which the node stopped playing
+    std::optional<Clock::time_point> gone{};  ///< time at which the host stopped playing
   };
-  /// An order that not all nodes have drawn.
+  /// An order that not all hosts have drawn.
   struct OrderEpoch {
     std::uint64_t serial = 0, frame = 0;
     std::uint32_t awaited = 0;
@@ -155,20 +155,20 @@ private:
   Session session_{};
   mutable std::mutex mutex_;
   std::condition_variable changed_;
-  std::vector<Follower> followers_;  ///< by node
-  std::vector<Word> words_;          ///< by node
+  std::vector<Follower> followers_;  ///< by host
+  std::vector<Word> words_;          ///< by host
   std::uint32_t played_ = ~std::uint32_t{0};
   FrameOrder pending_;
   bool awaitsInput_ = false;   ///< an order waits for its input
-  std::uint32_t explain_ = 0;  ///< nodes that must say with it where their scene differs
+  std::uint32_t explain_ = 0;  ///< hosts that must say with it where their scene differs
   bool stop_ = false;          ///< scenes differ, and this ends the show
   std::uint64_t serial_ = 0, go_ = 0, shown_ = 0;
   std::deque<OrderEpoch> epochs_;                               ///< by serial
-  std::uint8_t latest_ = 0;                                     ///< the node that has drawn last
+  std::uint8_t latest_ = 0;                                     ///< the host that has drawn last
   std::deque<std::pair<std::uint64_t, std::uint64_t>> hashes_;  ///< ours: frame, hash
   std::vector<SceneHash> early_;  ///< hashes of frames that we have not simulated yet
   std::deque<SceneTransfer> transfers_;
-  IncomingScene incoming_;  ///< from the node that sends us the show
+  IncomingScene incoming_;  ///< from the host that sends us the show
   bool ending_ = false, double_ = false;
   std::function<SavedScene()> save_;
   std::unique_ptr<SampledInput> input_;

@@ -148,7 +148,7 @@ std::optional<JoinTerms> Follower::joinSession(std::unique_lock<std::mutex>& loc
   return joining;
 }
 
-/// Expects the lock. Returns true if there is a session that this node can join.
+/// Expects the lock. Returns true if there is a session that this host can join.
 bool Follower::awaitSession(std::unique_lock<std::mutex>& lock) {
   const auto known = [&] {
     return over_ || (session_.number != 0 && session_.giver == kNoNode && !session_.over);
@@ -210,7 +210,7 @@ void Follower::continueFromState(JoinTerms& joining) {
   joining.files = transfer.scene.files;
 }
 
-/// Expects the lock. The leader may still count a node of our name. If that program has crashed, the deadline
+/// Expects the lock. The leader may still count a host of our name. If that program has crashed, the deadline
 /// passes. If it lives, we hear it and end.
 void Follower::awaitDouble(std::unique_lock<std::mutex>& lock) {
   const auto until = Clock::now() + std::chrono::duration<double>(2 * options_.cluster.deadline);
@@ -244,10 +244,10 @@ std::optional<FrameOrder> Follower::next() {
   if (isNew) announce(told_);
   if (heard.order.last && !over_) {
     frames_ = frame_ + 1;
-    tellEnd();  // this node may leave before it hears that the session is over
+    tellEnd();  // this host may leave before it hears that the session is over
   }
   heard.order.drawn = (heard.numbers.members >> options_.node & 1U) != 0;
-  // The leader left us out for being late. A node that has caught up is taken back.
+  // The leader left us out for being late. A host that has caught up is taken back.
   if (!heard.order.drawn && told_ == Phase::Ready && orders_.empty()) announce(Phase::Ready);
   shows_.emplace_back(appliedSerial_, heard.order.drawn);
   sample_ = std::move(heard.input);
@@ -260,7 +260,7 @@ std::optional<FrameOrder> Follower::next() {
 bool Follower::explain(std::unique_lock<std::mutex>& lock) {
   std::uint64_t received = 0;
   auto since = Clock::now();
-  bool late = false;  // part of it was lost: the node asks again each time it joins
+  bool late = false;  // part of it was lost: the host asks again each time it joins
   const auto has = [&] {
     if (std::exchange(received, incoming_.received()) != incoming_.received()) since = Clock::now();
     late = Clock::now() - since > kLongWait;
@@ -379,7 +379,7 @@ void Follower::receive(const Session& session) {
       over_ = true;
       tellEnd();
     }
-    // While another node is asked for its scene, we keep ours.
+    // While another host is asked for its scene, we keep ours.
     const bool holds =
         session.resumes == joined_ && session.giver != kNoNode && session.giver != options_.node;
     if (joined_ != 0 && session.number != joined_ && !holds) again_ = true;
@@ -388,7 +388,7 @@ void Follower::receive(const Session& session) {
   changed_.notify_all();
 }
 
-// If two programs are the same node, the one without a scene ends. If both or neither have one, the later
+// If two programs are the same host, the one without a scene ends. If both or neither have one, the later
 // program ends.
 void Follower::receive(const Presence& other) {
   {

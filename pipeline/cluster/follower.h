@@ -2,7 +2,7 @@
 /// Follows the leader's orders: plays the same show, frame by frame.
 ///
 /// It opens the show from its own files. If the show is under way, it continues from the leader's scene. If
-/// an order is missing or another program leads, the node has to join again, with a new follower. A new
+/// an order is missing or another program leads, the host has to join again, with a new follower. A new
 /// leader has no scene: the follower that has come farthest sends it one. So each follower keeps its scene
 /// until it has applied the first order after a change. The leader may crash while there is no other.
 ///
@@ -75,22 +75,22 @@ public:
   bool compares(std::uint64_t frame) const { return frame % options_.cluster.hashEvery == 0; }
   /// Reports the scene's digest() after that frame.
   void simulated(std::uint64_t frame, std::uint64_t digest);
-  /// Returns true if orders are missing: the run has ended, and the node is to join again.
+  /// Returns true if orders are missing: the run has ended, and the host is to join again.
   bool mustRejoin() const;
-  /// Returns true if another program is this node already: ours must end.
+  /// Returns true if another program is this host already: ours must end.
   bool hasDouble() const;
   /// Returns true if the leader has other files than this host.
   bool isRefused() const;
   /// Returns true if the leader has ended the show for all.
   bool isOver() const;
-  /// Returns true if the show is over and its last frame was not shown here: this node was still catching up,
+  /// Returns true if the show is over and its last frame was not shown here: this host was still catching up,
   /// or was left out.
   bool missedTheEnd() const;
   std::uint64_t session() const;  ///< the session that was joined; 0: none
   /// Returns true if the run has ended and its scene must be kept. A new leader or the next follower may ask
   /// for it.
   bool keepsScene() const;
-  /// Keeps the current scene; `last` is the frame simulated last. Any node that asks gets it.
+  /// Keeps the current scene; `last` is the frame simulated last. Any host that asks gets it.
   void keep(const TimeSignature& last, SavedScene scene);
   /// Returns the kept scene; null if there is none, or if it differs from the others' scene.
   std::shared_ptr<const ResumableScene> kept() const;

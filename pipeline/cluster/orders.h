@@ -16,8 +16,8 @@ namespace stadion::cluster {
 /// The fields of an order that the frame loop does not know.
 struct OrderNumbers {
   std::uint64_t session = 0, serial = 0;
-  std::uint32_t members = 0;  ///< bit n: node n shows it
-  std::uint32_t explain = 0;  ///< bit n: node n must say where its scene differs
+  std::uint32_t members = 0;  ///< bit n: host n shows it
+  std::uint32_t explain = 0;  ///< bit n: host n must say where its scene differs
 };
 
 /// An order in network form. It is refilled, so that it allocates nothing once it is large enough.

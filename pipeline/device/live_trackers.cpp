@@ -70,11 +70,11 @@ void LiveTrackers::misunderstood(const std::string& what) {
 void LiveTrackers::sampleFrame(Nanoseconds start, Nanoseconds end, InputSample& sample) {
   const std::lock_guard lock(mutex_);
   feed_.sampleFrame(clock_(), start, end, sample);
-  tellHearings();
+  reportReception();
 }
 
-void LiveTrackers::tellHearings() {
-  for (const TrackerFeed::Hearing& h : feed_.hearings(clock_()))
+void LiveTrackers::reportReception() {
+  for (const TrackerFeed::Reception& h : feed_.receptionChanges(clock_()))
     tell_(h.heard ? fmt::format("tracker {} is heard of again, after {:.1f} s", h.tracker, h.silent)
                   : fmt::format("tracker {} is silent", h.tracker));
 }
@@ -87,12 +87,12 @@ bool LiveTrackers::sampleNow(InputSample& sample) {
 
 std::optional<HeadNow> LiveTrackers::headSoon(Nanoseconds ahead) {
   const std::lock_guard lock(mutex_);
-  return feed_.soon(kHeadTracker, clock_(), ahead);
+  return feed_.predictedHead(kHeadTracker, clock_(), ahead);
 }
 
 void LiveTrackers::aimHead(Nanoseconds ahead) {
   const std::lock_guard lock(mutex_);
-  feed_.aim(kHeadTracker, ahead);
+  feed_.setPrediction(kHeadTracker, ahead);
 }
 
 void LiveTrackers::freezeHead(bool frozen) {

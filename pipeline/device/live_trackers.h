@@ -59,7 +59,7 @@ private:
   template <class Take>
   void take(std::string_view tracker, const Take& measurement);
   void tellOnce(const std::string& what);
-  void tellHearings();
+  void reportReception();
 
   mutable std::mutex mutex_;
   TrackerFeed feed_;

@@ -1,6 +1,6 @@
 #pragma once
 /// Draws each view of each wall in a process of its own, all views of a wall at once. On many processors a
-/// wall with two views takes half the time. On few processors none is idle while the dearest wall is
+/// wall with two views takes half the time. On few processors none is idle while the most expensive wall is
 /// finished. Each process would draw the shadow maps that the views share, so this serves the plain look.
 ///
 /// Threads  one of its own for each view but the first of each wall.

@@ -1,7 +1,7 @@
 #pragma once
-/// Gives each drawing process a processor of its own. No more draw at once than there are processors, and the
-/// dearest goes first. Processes that share one take each other's caches away; two that wake up on the same
-/// one leave the other idle; and the dearest would end last, alone.
+/// Gives each drawing process a processor of its own. No more of them draw at once than there are processors.
+/// The most expensive goes first, because otherwise it would end last and alone. Two processes on one
+/// processor would evict each other's caches, and another processor would be idle.
 ///
 /// Threads  any.
 

@@ -1,9 +1,9 @@
 #pragma once
 /// When a process that crashed is restarted, and what the log says about it.
 ///
-/// The first time at once. One that dies again before it has drawn kSteady frames is started after pauses
-/// that double, so that a wall that cannot be drawn costs its neighbours nothing, and is not told of each
-/// time.
+/// After its first crash a process restarts at once. After further crashes within kSteady frames, the pause
+/// before each restart doubles. Only the first two are reported. So a wall that cannot be drawn costs the
+/// others nothing.
 ///
 /// Threads  one at a time.
 

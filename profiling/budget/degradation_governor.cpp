@@ -152,7 +152,7 @@ void DegradationGovernor::noteOverrun(Governed& g, std::uint64_t frame, const No
 }
 
 std::string DegradationGovernor::stageText(const NodeCost& cost) const {
-  std::string stage(nameOf(cost.dearest));
+  std::string stage(nameOf(cost.mostExpensive));
   stage[0] = static_cast<char>(stage[0] - 'a' + 'A');
   return cost.wall < options_.walls.size() ? stage + " of wall " + options_.walls[cost.wall] : stage;
 }

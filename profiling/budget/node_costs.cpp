@@ -168,7 +168,7 @@ std::vector<NodeCost> NodeCosts::of(std::uint64_t frame) const {
     const auto& [governed, isDraw, wall] = stage;
     if (ms <= most[governed]) continue;
     most[governed] = ms;
-    costs[governed].dearest = isDraw ? Span::Draw : Span::Cull;
+    costs[governed].mostExpensive = isDraw ? Span::Draw : Span::Cull;
     costs[governed].wall = wall;
   }
   return costs;

@@ -30,9 +30,9 @@ struct NodeCost {
   BudgetedCost sure;  ///< the part that two samples in a row confirm
   /// The node's drawing was sampled since the last change of how it is drawn.
   bool known = true;
-  bool drawKnown = true;         ///< the node's drawing was sampled, or the node was never visible
-  Span dearest = Span::App;      ///< the most expensive stage
-  std::uint32_t wall = kNoWall;  ///< wall of that stage
+  bool drawKnown = true;           ///< the node's drawing was sampled, or the node was never visible
+  Span mostExpensive = Span::App;  ///< the most expensive stage
+  std::uint32_t wall = kNoWall;    ///< wall of that stage
 };
 
 class NodeCosts {

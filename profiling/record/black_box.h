@@ -2,7 +2,7 @@
 /// The last 600 frames of a run, written to a file while it plays. They survive a crash of the program. Each
 /// late frame gets its cause.
 ///
-/// Threads    SpanReader's; counts and latest() from any.
+/// Threads    SpanReader's; late() and verdicts() from any.
 /// Ownership  The file stays if a frame was late, if the program crashed, or after stay(). Otherwise it is
 ///            removed if this object made it. It is locked meanwhile: another run cannot keep its frames
 ///            there. A file that is neither empty nor a black box is never changed.

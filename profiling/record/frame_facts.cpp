@@ -48,11 +48,11 @@ Suspect longest(const FrameFacts& f, const std::vector<Suspect>& stages) {
 }
 
 /// Returns the slowest of the walls, except one.
-std::uint32_t dearestDraw(const FrameFacts& f, std::uint32_t except) {
-  std::uint32_t dearest = except == 0 && f.walls > 1 ? 1 : 0;
-  for (std::uint32_t wall = dearest + 1; wall < f.walls; ++wall)
-    if (wall != except && f.draw[wall].ms > f.draw[dearest].ms) dearest = wall;
-  return dearest;
+std::uint32_t mostExpensiveDraw(const FrameFacts& f, std::uint32_t except) {
+  std::uint32_t mostExpensive = except == 0 && f.walls > 1 ? 1 : 0;
+  for (std::uint32_t wall = mostExpensive + 1; wall < f.walls; ++wall)
+    if (wall != except && f.draw[wall].ms > f.draw[mostExpensive].ms) mostExpensive = wall;
+  return mostExpensive;
 }
 
 Cause causeOf(const Suspect& s, float budget) {
@@ -147,7 +147,7 @@ void judge(FrameFacts& f) {
   const Suspect s = longest(f, stages);
   f.stage = s.stage;
   f.wall = s.wall;
-  f.holder = dearestDraw(f, f.wall);
+  f.holder = mostExpensiveDraw(f, f.wall);
   // Each stage may be short, and all together long.
   const bool tookLong = std::max(s.all(), sumOf(stages)) >= 0.5f * f.budget;
   if (tookLong) {
@@ -213,7 +213,8 @@ std::string causeText(const FrameFacts& f, std::span<const std::string> walls) {
     break;
   default: text += fmt::format(": {} took {:.1f} ms{}", stage, s.ms, together);
   }
-  if (f.name[0] != 0 && nodeExplains(f)) text += fmt::format("; dearest {}, {:.1f} ms", f.name, f.nodeMs);
+  if (f.name[0] != 0 && nodeExplains(f))
+    text += fmt::format("; most expensive: {}, {:.1f} ms", f.name, f.nodeMs);
   const bool over = f.cause == Cause::Cull || f.cause == Cause::Draw;
   if (f.most[0] != 0 && over)
     text += fmt::format("; most there is to {} of {}", f.cause == Cause::Cull ? "cull" : "draw", f.most);

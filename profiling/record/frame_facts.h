@@ -67,7 +67,7 @@ struct FrameRecord {
   /// The frame of this App. It is another frame if a skipped one since the last swap delayed App more.
   std::uint64_t appFrame = kNoFrame;
   StageFacts app, swap;
-  std::uint32_t node[2] = {0, 0};  ///< the dearest in App: load, position
+  std::uint32_t node[2] = {0, 0};  ///< the most expensive in App: load, position
   float nodeMs = 0;
   Cause cause = Cause::None;
   Span stage = Span::App;    ///< the stage of the cause
@@ -78,7 +78,7 @@ struct FrameRecord {
   char over[112] = {};       ///< name of the node with the worst budget overrun, if there is one
   float overMs = 0, overBudget = 0;
 
-  NodeRef dearest() const { return {node[0], node[1]}; }
+  NodeRef mostExpensive() const { return {node[0], node[1]}; }
 };
 static_assert(std::is_trivially_copyable_v<FrameRecord> && std::is_trivially_copyable_v<StageFacts>);
 

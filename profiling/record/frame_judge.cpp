@@ -102,11 +102,12 @@ void FrameJudge::take(const SharedSpan& s) {
   culled_[{s.wall, s.what}] = {s.ms * share, most->first};
 }
 
-NodeRef FrameJudge::dearestCulled(std::uint32_t wall) const {
-  Culled dearest;
+NodeRef FrameJudge::mostExpensiveCulled(std::uint32_t wall) const {
+  Culled mostExpensive;
   for (const auto& [part, culled] : culled_)
-    if (part.first == wall && (!dearest.node.valid() || culled.ms > dearest.ms)) dearest = culled;
-  return dearest.node;
+    if (part.first == wall && (!mostExpensive.node.valid() || culled.ms > mostExpensive.ms))
+      mostExpensive = culled;
+  return mostExpensive.node;
 }
 
 /// Returns an empty text if the node is unknown.
@@ -159,10 +160,10 @@ void FrameJudge::show(const SpanRecord& swap, const StageFacts& stage) {
   if (lastShown_ != ProfileClock::time_point{}) facts.period = milliseconds(swap.ended - lastShown_);
   lastShown_ = swap.ended;
   judge(facts);
-  copyText(title(facts.dearest()), facts.name);
+  copyText(title(facts.mostExpensive()), facts.name);
   if (const auto at = largest_.find(facts.wall); facts.stage == Span::Draw && at != largest_.end())
     copyText(shadows[facts.wall] ? "the shadow maps" : title(at->second), facts.most);
-  if (facts.stage == Span::Cull) copyText(title(dearestCulled(facts.wall)), facts.most);
+  if (facts.stage == Span::Cull) copyText(title(mostExpensiveCulled(facts.wall)), facts.most);
   shown_(facts);
 }
 

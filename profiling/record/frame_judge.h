@@ -50,7 +50,7 @@ private:
   void takeApp(Open& open, const SpanRecord& record, const StageFacts& stage, const Pending& before);
   void place(Open& open, const SpanRecord& swap);
   std::string title(NodeRef node) const;
-  NodeRef dearestCulled(std::uint32_t wall) const;
+  NodeRef mostExpensiveCulled(std::uint32_t wall) const;
   static void takeNode(FrameFacts& facts, const SpanRecord& record);
   void show(const SpanRecord& swap, const StageFacts& stage);
 

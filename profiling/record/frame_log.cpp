@@ -15,7 +15,7 @@ constexpr std::chrono::milliseconds kNap{2};
 constexpr std::uint64_t kManyVisits = 300, kVisitsAFrame = 30;
 /// Nodes that share a span; above this number, shares are sampled less often.
 constexpr std::uint64_t kManyShares = 500;
-constexpr std::chrono::microseconds kDear{250};
+constexpr std::chrono::microseconds kExpensive{250};
 
 /// Spans that occur once for each visited node.
 constexpr bool isOfVisit(Span what) {
@@ -67,8 +67,8 @@ void FrameLog::measureOverhead() {
   }
   const double ns = std::chrono::duration<double, std::nano>(ProfileClock::now() - began).count();
   nanosecondsATick_ = ns / static_cast<double>(std::max<std::uint64_t>(1, TickClock::now() - beganTicks));
-  dearTicks_ =
-      static_cast<std::uint64_t>(std::chrono::duration<double, std::nano>(kDear).count() / nanosecondsATick_);
+  expensiveTicks_ = static_cast<std::uint64_t>(std::chrono::duration<double, std::nano>(kExpensive).count() /
+                                               nanosecondsATick_);
   overhead_ = {median(inside), median(outside)};
   measureLightOverhead();
   // A thread that comes later gets a track that includes the measurement.
@@ -207,7 +207,7 @@ void FrameLog::endedVisit() {
   // Only App's own thread adds up.
   const bool helps = t.depth() == 0 && account != NodeAccounts::kNone;
   const std::uint64_t ticks =
-      t.endLightly(appFrame_.load(std::memory_order_relaxed), helps ? 0 : dearTicks_, nanosecondsATick_);
+      t.endLightly(appFrame_.load(std::memory_order_relaxed), helps ? 0 : expensiveTicks_, nanosecondsATick_);
   if (account != NodeAccounts::kNone && ticks > lightTicks_) shortTicks_[account] += ticks - lightTicks_;
 }
 

@@ -10,7 +10,7 @@
 /// comes from the samples.
 ///
 /// If App visits very many nodes, most of its frames are light. In a light frame a node's visit is recorded
-/// only if it took kDear. The other visits are known from the frames that are recorded as a whole
+/// only if it took kExpensive. The other visits are known from the frames that are recorded as a whole
 /// (SpanRecord). For watched nodes (NodeAccounts), short visits are added up by account and frame. Only
 /// watched nodes are drawn alone, unless all costs must be explained.
 ///
@@ -150,7 +150,7 @@ private:
   std::atomic<bool> inParallel_ = false;  ///< nodes simulate in parallel, on App's thread and on others
   std::uint64_t nextWhole_ = 0;           ///< used by App only
   bool called_ = false;                   ///< used by App only: the nodes to visit in this frame are known
-  std::uint64_t dearTicks_ = 0;           ///< kDear
+  std::uint64_t expensiveTicks_ = 0;      ///< kExpensive
   std::uint64_t lightTicks_ = 0;          ///< cost of recording a visit in a light frame
   double nanosecondsATick_ = 1;
   std::vector<std::uint64_t> shortTicks_;  ///< used by App only, by account: of visits that were not recorded

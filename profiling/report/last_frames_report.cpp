@@ -37,7 +37,7 @@ std::string stagesText(const FrameFacts& f) {
   return fmt::format(
       "frame {}: {:.1f} ms after the one before; App {:.1f}, Cull {:.1f}, Draw {:.1f} ms, of the "
       "slowest walls{}{}",
-      f.frame, f.period, s.app, s.cull, s.draw, f.name[0] != 0 ? "; dearest in App: " : "", f.name);
+      f.frame, f.period, s.app, s.cull, s.draw, f.name[0] != 0 ? "; most expensive in App: " : "", f.name);
 }
 
 std::string causeName(Cause cause) {
@@ -77,8 +77,8 @@ Json frameJson(const FrameFacts& f, const std::vector<std::string>& walls) {
     j["said"] = toText(f, walls);
   }
   if (f.name[0] != 0) {
-    j["dearest_node"] = f.name;
-    j["dearest_node_ms"] = shortMs(f.nodeMs);
+    j["most_expensive_node"] = f.name;
+    j["most_expensive_node_ms"] = shortMs(f.nodeMs);
   }
   j["walls"] = Json::array();
   for (std::uint32_t wall = 0; wall < f.walls; ++wall)

@@ -35,7 +35,7 @@ function flameTree(stage) {
   return root;
 }
 /// Very many below one node are too narrow to be seen: those that are alike, by kind and by name without its
-/// number, become one box, in which the dearest come first, a hundred together.
+/// number, become one box, in which the most expensive come first, a hundred together.
 const kTogether = 100;
 function gather(box) {
   if (box.children.length <= kTogether) return;

@@ -71,7 +71,7 @@ function drawHeat() {
   const seen = data.nodes.filter(n => n.walls && n.draw > 0).sort((a, b) => b.draw - a.draw).slice(0, 15);
   if (seen.length === 0) return;
   const onWall = (n, w) => n.walls[w] ? n.walls[w][1] + n.walls[w][2] : 0, known = (n, w) => n.walls[w] && (n.walls[w][1] !== null || n.walls[w][2] !== null), top = Math.max(...seen.flatMap(n => n.walls.map((_, w) => onWall(n, w))));
-  put("node-heat", el("h3", {}, "The dearest to draw, by wall"), table("Both eyes together, milliseconds a frame", [{name: "node", cell: n => n.path, title: nodeText},
+  put("node-heat", el("h3", {}, "The most expensive to draw, by wall"), table("Both eyes together, milliseconds a frame", [{name: "node", cell: n => n.path, title: nodeText},
     ...data.walls.map((name, w) => ({name, n: true, cell: n => known(n, w) ? ms(onWall(n, w)) : priced(null), style: n => heat(onWall(n, w), top, "draw"),
       title: n => n.walls[w] ? `left ${msText(n.walls[w][1])}, right ${msText(n.walls[w][2])}, Cull ${msText(n.walls[w][0])}` : null})),
     {name: "all walls", n: true, cell: n => ms(n.draw)}], seen, {kind: "heat"}));
@@ -92,7 +92,7 @@ function drawLate() {
   put("late-table", table(null, [
     {name: "frame", cell: f => [el("a", {href: "#timeline", onclick: e => { e.preventDefault(); showFrame(f.frame); byId("timeline").scrollIntoView(); }}, String(f.frame))]},
     {name: "after", n: true, cell: f => msText(f.period)}, {name: "cause", kind: "row", cell: f => f.cause}, {name: "stage", kind: "row", cell: f => NAMES[f.stage] ? NAMES[f.stage] + (f.wall ? " of wall " + f.wall : "") : f.stage},
-    {name: "dearest node of App that was over", cell: f => f.node >= 0 ? `${data.nodes[f.node].path}, ${msText(f.nodeMs)}` : "\u2013", title: f => f.node >= 0 ? data.nodes[f.node].place : null}, {name: "in words", kind: "words", cell: f => f.text}], shown),
+    {name: "most expensive node of App that was over", cell: f => f.node >= 0 ? `${data.nodes[f.node].path}, ${msText(f.nodeMs)}` : "\u2013", title: f => f.node >= 0 ? data.nodes[f.node].place : null}, {name: "in words", kind: "words", cell: f => f.text}], shown),
     rows.length > 12 ? el("nav", {}, choice(chosen.get("lates") ? "fewer" : `all ${rows.length}`, false, {lates: chosen.get("lates") ? null : 1})) : "");
 }
 
@@ -101,10 +101,10 @@ function drawDynamics() {
   if (!d || d.bodies.length === 0) return byId("dynamics").remove();
   byId("dynamics-say").textContent = "Bodies that dynamics nodes move. Share is the body's part of its dynamics node's time, by the arcs it begins. Cost is what the node takes with the body more than without it; error is how far the body ever is from where its finest model puts it. " +
     `Cheaper models that stay within ${metres(d.tolerance)} are named. ` + d.note;
-  const worst = Math.max(...d.bodies.map(b => b.error || 0), d.tolerance), dearest = Math.max(...d.bodies.map(b => b.share), 1e-12);
+  const worst = Math.max(...d.bodies.map(b => b.error || 0), d.tolerance), greatest = Math.max(...d.bodies.map(b => b.share), 1e-12);
   put("dynamics-table", table(null, [
     {name: "body", cell: b => b.name || "a body", title: b => b.place}, {name: "script", kind: "place", cell: b => shortPlace(b.place)}, {name: "collides as", cell: b => b.shape},
-    {name: "share a frame", n: true, cell: b => msText(b.share), style: b => heat(b.share, dearest, "app")},
+    {name: "share a frame", n: true, cell: b => msText(b.share), style: b => heat(b.share, greatest, "app")},
     {name: "cost a frame", n: true, cell: b => b.error === null ? "\u2013" : b.cost === null ? "below noise" : msText(b.cost)},
     {name: "error", n: true, cell: b => metres(b.error), style: b => b.error ? heat(b.error, worst, "draw") : null, title: b => b.beyond !== null ? `beyond ${metres(d.tolerance)} from ${plain(b.beyond)} s on` : null},
     {name: "at the end", n: true, cell: b => metres(b.endError)},

@@ -75,7 +75,7 @@ A line stands where a frame was shown. Click on a frame to see it alone; arrow k
 <nav id="timeline-nav" aria-label="frames"></nav><div id="timeline-plot"></div><div class="readout" id="timeline-readout"></div><div class="key" id="timeline-key"></div></section>
 <section id="flame"><h2>Along the scene</h2><p class="say" id="flame-say"></p><nav id="flame-nav" aria-label="stage"></nav>
 <div id="flame-plot"></div><div class="readout" id="flame-readout"></div></section>
-<section id="nodes" class="long"><h2>Dearest nodes</h2><p class="say">Milliseconds a frame, the mean over all frames, all walls and eyes together.
+<section id="nodes" class="long"><h2>Most expensive nodes</h2><p class="say">Milliseconds a frame, the mean over all frames, all walls and eyes together.
 p95 visit is of the frames in which App visited the node, p95 drawing of the times it was drawn alone, on one wall for one eye. A dash means that there is nothing to compare with: the script states no budget, or App did not visit it.</p>
 <p class="say" id="nodes-unmeasured"></p>
 <nav id="nodes-nav"></nav><div class="wide" id="nodes-table"></div></section>

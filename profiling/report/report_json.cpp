@@ -199,7 +199,7 @@ private:
            {"wall",
             f.stage == Span::App || f.wall >= data_.figures.walls.size() ? "" : data_.figures.walls[f.wall]},
            {"text", toText(f, data_.figures.walls)},
-           {"node", nodeExplains(f) ? table_.find(f.dearest()) : -1},
+           {"node", nodeExplains(f) ? table_.find(f.mostExpensive()) : -1},
            {"nodeMs", number(static_cast<double>(f.nodeMs))}});
     return all;
   }

@@ -2,7 +2,7 @@
 /// Writes lines one after the other on a thread of its own, so that the caller never waits for a blocked
 /// terminal or a disk.
 ///
-/// Threads  tell() from any. Ends when everything has been written.
+/// Threads  write() from any. Ends when everything has been written.
 
 #include <condition_variable>
 #include <deque>

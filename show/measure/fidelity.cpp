@@ -160,7 +160,7 @@ void tryModels(const FidelityOptions& options, NodeRef ref, const PlayedShow& sh
   }
 }
 
-/// The bodies as the script models them, the dearest first.
+/// The bodies as the script models them, the most expensive first.
 std::vector<std::pair<NodeRef, BodyFidelity>> asPlayed(const PlayedShow& show) {
   std::map<NodeRef, std::uint64_t> arcs;  // of all bodies of a dynamics node
   for (const auto& [ref, body] : show.bodies) arcs[body.dynamics] += body.arcs;

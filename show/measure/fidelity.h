@@ -1,9 +1,9 @@
 #pragma once
 /// How near each body of a show comes to its finest model, what that costs, and which models would do.
 ///
-/// The finest model of a body collides as its own mesh (as the box or convex body that the mesh is to
-/// rounding, as its hull if it is not closed, or as the shape that it is said to have in truth), with exact
-/// impacts and with the steps of lasting contact divided by eight. The same show is played with one body's
+/// The finest model of a body collides as its own mesh. A mesh that is a box or convex within rounding
+/// collides as that, an open mesh as its hull, and a body whose true shape the script names as that shape.
+/// Impacts are exact, and steps of lasting contact are divided by eight. The same show is played with one body's
 /// model changed at a time, and the body's places are compared frame by frame. The contact scheme of the
 /// whole show, `impact=`, is such a model too. Fields, masses by density, and the drag area stay what the
 /// script says: what a body is not hooked to is no part of any model.
@@ -22,10 +22,10 @@ namespace stadion {
 struct FidelityOptions {
   ShowOptions show;
   double tolerance = 1e-3;          ///< [m]
-  std::uint64_t most = 8;           ///< bodies that are played with other models: the dearest
+  std::uint64_t most = 8;           ///< bodies that are played with other models: the most expensive
   std::uint64_t rounds = 3;         ///< how often each model but the finest is played, for its cost
   std::string finest;               ///< shape that a body has in truth; empty: its mesh, else its hull
-  std::vector<std::string> bodies;  ///< only these are played with other models; empty: the dearest
+  std::vector<std::string> bodies;  ///< only these are played with other models; empty: the most expensive
   std::function<void(const Diagnostics&)> report{};  ///< receives findings of files that are loaded
 };
 
@@ -53,7 +53,7 @@ struct Fidelity {
   std::string show;
   std::uint64_t frames = 0;
   double rate = 60, tolerance = 1e-3;
-  std::vector<BodyFidelity> bodies;  ///< the dearest first
+  std::vector<BodyFidelity> bodies;  ///< the most expensive first
 
   std::size_t lookedAt() const;
 };

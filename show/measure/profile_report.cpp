@@ -119,7 +119,7 @@ std::optional<DynamicsFigures> dynamicsFigures(const ProfileRunOptions& o, const
     options.rounds = kRounds;
     if (const auto some = measure(options)) {
       DynamicsFigures d = figuresOf(*some);
-      d.note = "The dearest few were played twice with each model; --fidelity plays more.";
+      d.note = "The most expensive few were played twice with each model; --fidelity plays more.";
       return d;
     }
   }

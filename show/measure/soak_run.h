@@ -4,8 +4,8 @@
 /// Method   visits of three kinds take turns: pipelined and long, sequential and short, and short ones whose
 ///          wall processes are killed. The visitor does the same in all of them, so the same frame of a show
 ///          must have the same history of states.
-/// Threads  App's; play() returns after the last frame.
-/// Errors   play() returns false if a show could not be played; the reporter has received the reason.
+/// Threads  App's; playSoak() returns after the last frame.
+/// Errors   playSoak() returns false if a show could not be played; the reporter has received the reason.
 
 #include "pipeline/shader/look.h"
 #include "show/base/reporter.h"

@@ -1,11 +1,10 @@
 #pragma once
 /// A show that is read again while the one before it plays on.
 ///
-/// Its scripts are read once and checked first, so that a mistake is reported at once, not when
-/// every asset has been read, and what plays then is what was checked. Nothing is recorded of it before it
-/// plays.
+/// Its scripts are read once and checked first. So a mistake is reported before any asset is read, and the
+/// text that was checked is the text that plays. Recording begins when it plays.
 ///
-/// Threads  the caller's; the reading is done on a thread of its own, that is ended with this.
+/// Threads  the caller's. A thread of its own reads the show; it ends with this object.
 
 #include "engine/base/diagnostic.h"
 #include "show/view/playing_show.h"

@@ -1,4 +1,4 @@
-/// The launcher `./stadion`, in a house of its own: a copy of the script beside programs that only say that
+/// The launcher `./stadion`, in a checkout of its own: a copy of the script beside programs that only say that
 /// they were called.
 
 #include "tests/programs/program.h"
@@ -12,9 +12,9 @@ namespace fs = std::filesystem;
 
 /// A root folder with the launcher, sources to compare with, and stand-ins for every program it calls. What
 /// they were called with is in `calls`.
-class House {
+class Checkout {
 public:
-  House() {
+  Checkout() {
     fs::create_directories(root_.path() / "stubs");
     fs::copy_file(STADION_SOURCE_DIR "/stadion", root_.path() / "stadion");
     for (const char* floor :
@@ -59,191 +59,193 @@ private:
 };
 
 TEST(ProgramLauncher, BuildsTheFirstTimeAndThenOnlyStarts) {
-  House house;
-  const ProgramResult first = house.start({"run", "a show.evs", "--frames", "5"});
+  Checkout checkout;
+  const ProgramResult first = checkout.start({"run", "a show.evs", "--frames", "5"});
   EXPECT_EQ(first.status, 0) << first.err;
   EXPECT_EQ(first.out, "<run><a show.evs><--frames><5>");
-  EXPECT_TRUE(has(house.calls(), "cmake --preset release")) << house.calls();
-  EXPECT_TRUE(has(house.calls(), "--target stadion\n")) << house.calls();
-  EXPECT_FALSE(has(house.calls(), "apt-get"));
+  EXPECT_TRUE(has(checkout.calls(), "cmake --preset release")) << checkout.calls();
+  EXPECT_TRUE(has(checkout.calls(), "--target stadion\n")) << checkout.calls();
+  EXPECT_FALSE(has(checkout.calls(), "apt-get"));
   EXPECT_TRUE(has(first.err, "building")) << first.err;
 
-  house.forgetCalls();
-  const ProgramResult second = house.start({"nodes"});
+  checkout.forgetCalls();
+  const ProgramResult second = checkout.start({"nodes"});
   EXPECT_EQ(second.out, "<nodes>");
   EXPECT_EQ(second.err, "");
-  EXPECT_EQ(house.calls(), "");
+  EXPECT_EQ(checkout.calls(), "");
 }
 
 TEST(ProgramLauncher, TheMeasurementsAreBuiltWhenTheyAreFirstCalled) {
-  House house;
-  house.start({"nodes"});
-  house.forgetCalls();
-  EXPECT_EQ(house.start({"plan", "show.evs"}).out, "<plan><show.evs>");
-  EXPECT_TRUE(has(house.calls(), "--target stadion-measure")) << house.calls();
-  house.forgetCalls();
-  EXPECT_EQ(house.start({"profile", "show.evs"}).out, "<profile><show.evs>");
-  EXPECT_EQ(house.calls(), "");
-  EXPECT_EQ(house.start({"bench", "walls"}).out, "<bench><walls>");
-  EXPECT_TRUE(has(house.calls(), "--target programs")) << house.calls();
-  house.forgetCalls();
-  EXPECT_EQ(house.start({"bench", "walls"}).out, "<bench><walls>");
-  EXPECT_EQ(house.start({"nodes"}).out, "<nodes>");
-  EXPECT_EQ(house.calls(), "");
+  Checkout checkout;
+  checkout.start({"nodes"});
+  checkout.forgetCalls();
+  EXPECT_EQ(checkout.start({"plan", "show.evs"}).out, "<plan><show.evs>");
+  EXPECT_TRUE(has(checkout.calls(), "--target stadion-measure")) << checkout.calls();
+  checkout.forgetCalls();
+  EXPECT_EQ(checkout.start({"profile", "show.evs"}).out, "<profile><show.evs>");
+  EXPECT_EQ(checkout.calls(), "");
+  EXPECT_EQ(checkout.start({"bench", "walls"}).out, "<bench><walls>");
+  EXPECT_TRUE(has(checkout.calls(), "--target programs")) << checkout.calls();
+  checkout.forgetCalls();
+  EXPECT_EQ(checkout.start({"bench", "walls"}).out, "<bench><walls>");
+  EXPECT_EQ(checkout.start({"nodes"}).out, "<nodes>");
+  EXPECT_EQ(checkout.calls(), "");
 }
 
 TEST(ProgramLauncher, AChangedSourceIsBuiltAgain) {
-  House house;
-  house.start({"nodes"});
-  house.forgetCalls();
-  house.write("engine/new.cpp", "// more\n");
-  house.start({"nodes"});
-  EXPECT_TRUE(has(house.calls(), "--build")) << house.calls();
+  Checkout checkout;
+  checkout.start({"nodes"});
+  checkout.forgetCalls();
+  checkout.write("engine/new.cpp", "// more\n");
+  checkout.start({"nodes"});
+  EXPECT_TRUE(has(checkout.calls(), "--build")) << checkout.calls();
 }
 
 TEST(ProgramLauncher, ARemovedSourceIsBuiltAgain) {
-  House house;
-  house.start({"nodes"});
-  house.forgetCalls();
-  fs::remove(house.path("engine/x.cpp"));
-  house.start({"nodes"});
-  EXPECT_TRUE(has(house.calls(), "--build")) << house.calls();
+  Checkout checkout;
+  checkout.start({"nodes"});
+  checkout.forgetCalls();
+  fs::remove(checkout.path("engine/x.cpp"));
+  checkout.start({"nodes"});
+  EXPECT_TRUE(has(checkout.calls(), "--build")) << checkout.calls();
 }
 
 TEST(ProgramLauncher, InstallsWhatIsMissingAsRoot) {
-  House house;
-  const ProgramResult r = house.start({"nodes"}, {"STUB_MISSING=libfcl-dev libegl1"});
+  Checkout checkout;
+  const ProgramResult r = checkout.start({"nodes"}, {"STUB_MISSING=libfcl-dev libegl1"});
   EXPECT_EQ(r.status, 0) << r.err;
-  EXPECT_TRUE(has(house.calls(), "apt-get install -y -qq --no-install-recommends libfcl-dev libegl1"))
-      << house.calls();
+  EXPECT_TRUE(has(checkout.calls(), "apt-get install -y -qq --no-install-recommends libfcl-dev libegl1"))
+      << checkout.calls();
 }
 
 TEST(ProgramLauncher, SaysTheOneAptLineWhenItCannotBecomeRoot) {
-  House house;
-  const ProgramResult r = house.start({"nodes"}, {"STUB_UID=1000", "STUB_MISSING=libfcl-dev libegl1"});
+  Checkout checkout;
+  const ProgramResult r = checkout.start({"nodes"}, {"STUB_UID=1000", "STUB_MISSING=libfcl-dev libegl1"});
   EXPECT_EQ(r.status, 2);
   EXPECT_TRUE(has(r.out + r.err, "apt-get install --no-install-recommends libfcl-dev libegl1"))
       << r.out << r.err;
-  EXPECT_FALSE(has(house.calls(), "apt-get")) << house.calls();
-  EXPECT_FALSE(has(house.calls(), "cmake")) << house.calls();
+  EXPECT_FALSE(has(checkout.calls(), "apt-get")) << checkout.calls();
+  EXPECT_FALSE(has(checkout.calls(), "cmake")) << checkout.calls();
 }
 
 TEST(ProgramLauncher, SetupPeersInstallsAndBuildsTheOtherEngines) {
-  House house;
-  const ProgramResult r = house.start({"setup", "peers"}, {"STUB_MISSING=libode-dev libmujoco-dev"});
+  Checkout checkout;
+  const ProgramResult r = checkout.start({"setup", "peers"}, {"STUB_MISSING=libode-dev libmujoco-dev"});
   EXPECT_EQ(r.status, 0) << r.err;
-  EXPECT_TRUE(has(house.calls(), "--no-install-recommends libode-dev libmujoco-dev")) << house.calls();
-  EXPECT_TRUE(has(house.calls(), "cmake --preset release -DSTADION_PEERS=ON")) << house.calls();
-  EXPECT_TRUE(has(house.calls(), "--target programs")) << house.calls();
+  EXPECT_TRUE(has(checkout.calls(), "--no-install-recommends libode-dev libmujoco-dev")) << checkout.calls();
+  EXPECT_TRUE(has(checkout.calls(), "cmake --preset release -DSTADION_PEERS=ON")) << checkout.calls();
+  EXPECT_TRUE(has(checkout.calls(), "--target programs")) << checkout.calls();
   EXPECT_EQ(r.out, "");
 
-  house.forgetCalls();
-  EXPECT_EQ(house.start({"nodes"}, {"STUB_MISSING=libbullet-dev"}).out, "<nodes>");
-  EXPECT_EQ(house.calls(), "");  // no other program needs them
+  checkout.forgetCalls();
+  EXPECT_EQ(checkout.start({"nodes"}, {"STUB_MISSING=libbullet-dev"}).out, "<nodes>");
+  EXPECT_EQ(checkout.calls(), "");  // no other program needs them
 }
 
 TEST(ProgramLauncher, SetupPeersSaysTheAptLineWhenItCannotBecomeRoot) {
-  House house;
-  const ProgramResult r = house.start({"setup", "peers"}, {"STUB_UID=1000", "STUB_MISSING=libbullet-dev"});
+  Checkout checkout;
+  const ProgramResult r = checkout.start({"setup", "peers"}, {"STUB_UID=1000", "STUB_MISSING=libbullet-dev"});
   EXPECT_EQ(r.status, 2);
   EXPECT_TRUE(has(r.out, "apt-get install --no-install-recommends libbullet-dev")) << r.out << r.err;
-  EXPECT_FALSE(has(house.calls(), "cmake")) << house.calls();
+  EXPECT_FALSE(has(checkout.calls(), "cmake")) << checkout.calls();
 }
 
 TEST(ProgramLauncher, SetupKnowsOnlyPeers) {
-  House house;
-  const ProgramResult r = house.start({"setup", "everything"});
+  Checkout checkout;
+  const ProgramResult r = checkout.start({"setup", "everything"});
   EXPECT_EQ(r.status, 2);
   EXPECT_TRUE(has(r.err, "./stadion setup peers")) << r.err;
-  EXPECT_EQ(house.calls(), "");
+  EXPECT_EQ(checkout.calls(), "");
 }
 
 TEST(ProgramLauncher, AFailedInstallationIsShown) {
-  House house;
-  const ProgramResult r = house.start({"nodes"}, {"STUB_MISSING=libfcl-dev", "STUB_APT=100"});
+  Checkout checkout;
+  const ProgramResult r = checkout.start({"nodes"}, {"STUB_MISSING=libfcl-dev", "STUB_APT=100"});
   EXPECT_EQ(r.status, 2);
   EXPECT_TRUE(has(r.err, "installing failed")) << r.err;
 }
 
 TEST(ProgramLauncher, AFailedBuildShowsItsErrorsAndIsTriedAgain) {
-  House house;
-  const ProgramResult r = house.start({"nodes"}, {"STUB_ERROR=x.cpp:1:1: error: no"});
+  Checkout checkout;
+  const ProgramResult r = checkout.start({"nodes"}, {"STUB_ERROR=x.cpp:1:1: error: no"});
   EXPECT_EQ(r.status, 3);
   EXPECT_TRUE(has(r.err, "x.cpp:1:1: error: no")) << r.err;
   EXPECT_EQ(r.out, "");
-  EXPECT_EQ(house.start({"nodes"}).out, "<nodes>");
+  EXPECT_EQ(checkout.start({"nodes"}).out, "<nodes>");
 }
 
 TEST(ProgramLauncher, WorksFromAnotherFolderAndThroughALink) {
-  House house;
+  Checkout checkout;
   const TestFolder elsewhere;
-  fs::create_symlink(house.path("stadion"), elsewhere.path() / "play");
-  const ProgramResult r = house.start({"run", "mine.evs"}, {}, elsewhere.path() / "play", elsewhere.path());
+  fs::create_symlink(checkout.path("stadion"), elsewhere.path() / "play");
+  const ProgramResult r =
+      checkout.start({"run", "mine.evs"}, {}, elsewhere.path() / "play", elsewhere.path());
   EXPECT_EQ(r.status, 0) << r.err;
   EXPECT_EQ(r.out, "<run><mine.evs>");
-  EXPECT_TRUE(fs::exists(house.path("build/release/.built")));
+  EXPECT_TRUE(fs::exists(checkout.path("build/release/.built")));
 }
 
 TEST(ProgramLauncher, OnlyTheTestCommandInstallsWhatOnlyTheTestsNeed) {
-  House house;
+  Checkout checkout;
   const std::vector<std::string> missing{"STUB_MISSING=chromium ffmpeg assimp-testmodels valgrind xvfb"};
-  EXPECT_EQ(house.start({"run", "a.evs"}, missing).status, 0);
-  EXPECT_FALSE(has(house.calls(), "apt-get")) << house.calls();
-  const ProgramResult r = house.start({"test"}, missing);
+  EXPECT_EQ(checkout.start({"run", "a.evs"}, missing).status, 0);
+  EXPECT_FALSE(has(checkout.calls(), "apt-get")) << checkout.calls();
+  const ProgramResult r = checkout.start({"test"}, missing);
   EXPECT_EQ(r.status, 0) << r.err;
-  EXPECT_TRUE(has(house.calls(), "--no-install-recommends xvfb chromium ffmpeg assimp-testmodels valgrind"))
-      << house.calls();
+  EXPECT_TRUE(
+      has(checkout.calls(), "--no-install-recommends xvfb chromium ffmpeg assimp-testmodels valgrind"))
+      << checkout.calls();
 }
 
 TEST(ProgramLauncher, TestBuildsEverythingAndPassesItsArgumentsOn) {
-  House house;
-  const ProgramResult r = house.start({"test", "--only", "Same pictures"});
+  Checkout checkout;
+  const ProgramResult r = checkout.start({"test", "--only", "Same pictures"});
   EXPECT_EQ(r.status, 0) << r.err;
   EXPECT_EQ(r.out, "<test><--only><Same pictures>");
-  EXPECT_TRUE(has(house.calls(), "--target all")) << house.calls();
+  EXPECT_TRUE(has(checkout.calls(), "--target all")) << checkout.calls();
 }
 
 // A folder in the place of the lock stands for a checkout that cannot be written: root may write anywhere
 // else.
 TEST(ProgramLauncher, WhatIsBuiltStartsFromAFolderThatCannotBeWritten) {
-  House house;
-  house.start({"nodes"});
-  fs::remove(house.path("build/.lock"));
-  fs::create_directory(house.path("build/.lock"));
-  const ProgramResult r = house.start({"run", "a.evs"});
+  Checkout checkout;
+  checkout.start({"nodes"});
+  fs::remove(checkout.path("build/.lock"));
+  fs::create_directory(checkout.path("build/.lock"));
+  const ProgramResult r = checkout.start({"run", "a.evs"});
   EXPECT_EQ(r.status, 0) << r.err;
   EXPECT_EQ(r.out, "<run><a.evs>");
   EXPECT_EQ(r.err, "");
 }
 
 TEST(ProgramLauncher, WithoutABuildAFolderThatCannotBeWrittenIsOneClearMessage) {
-  House house;
-  fs::remove_all(house.path("build"));
-  house.write("build", "a file is in the way");
+  Checkout checkout;
+  fs::remove_all(checkout.path("build"));
+  checkout.write("build", "a file is in the way");
   for (const char* command : {"run", "test"}) {
-    const ProgramResult r = house.start({command});
+    const ProgramResult r = checkout.start({command});
     EXPECT_EQ(r.status, 2) << r.err;
     EXPECT_EQ(r.out, "");
     EXPECT_EQ(std::count(r.err.begin(), r.err.end(), '\n'), 1) << r.err;
     EXPECT_TRUE(has(r.err, "cannot write into " +
-                               fs::canonical(house.path("stadion")).parent_path().string() + "/build"))
+                               fs::canonical(checkout.path("stadion")).parent_path().string() + "/build"))
         << r.err;
-    EXPECT_EQ(house.calls(), "");
+    EXPECT_EQ(checkout.calls(), "");
   }
 }
 
 TEST(ProgramLauncher, AnOutdatedBuildThatCannotBeRenewedIsNotStarted) {
-  House house;
-  house.start({"nodes"});
-  house.forgetCalls();
-  fs::remove(house.path("build/.lock"));
-  fs::create_directory(house.path("build/.lock"));
-  house.write("engine/new.cpp", "// more\n");
-  const ProgramResult r = house.start({"nodes"});
+  Checkout checkout;
+  checkout.start({"nodes"});
+  checkout.forgetCalls();
+  fs::remove(checkout.path("build/.lock"));
+  fs::create_directory(checkout.path("build/.lock"));
+  checkout.write("engine/new.cpp", "// more\n");
+  const ProgramResult r = checkout.start({"nodes"});
   EXPECT_EQ(r.status, 2);
   EXPECT_EQ(r.out, "");
   EXPECT_TRUE(has(r.err, "older than its sources")) << r.err;
-  EXPECT_EQ(house.calls(), "");
+  EXPECT_EQ(checkout.calls(), "");
 }
 
 TEST(ProgramLauncher, FuzzingWithoutABuildOfItsTargetsSaysWhatMakesOne) {

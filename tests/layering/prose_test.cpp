@@ -13,7 +13,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const fs::path kHouse = STADION_SOURCE_DIR;
+const fs::path kSourceFolder = STADION_SOURCE_DIR;
 
 /// Returns the word that hides an actor: "nobody" or "whoever", also as a part of a name, or "who" without a
 /// person before it. Empty if there is none.
@@ -54,7 +54,8 @@ std::string replacedWord(const std::string& line) {
       "InWorkers",      "CpuWalls",      "TriangleSieve", "SmallThings",     "LoneClock",
       "OperatorDesk",   "CrowdStep",     "CrowdBody",     "CrowdContact",    "CrowdSolver",
       "CrowdEnergy",    "ContactChoice", "WayOut",        "ReliefPolicy",    "Concession",
-      "Verb::",         "verbNamed",     "WallWorker",    "worker process"};
+      "Verb::",         "verbNamed",     "WallWorker",    "worker process",  "dearest",
+      "leaps",          "ways out"};
   const auto isLetter = [&](std::size_t at) {
     return at < line.size() && std::islower(static_cast<unsigned char>(line[at])) != 0;
   };
@@ -89,13 +90,13 @@ bool isProse(const fs::path& file) {
 TEST(Prose, NoActorIsHiddenAndNoReplacedWordIsBack) {
   for (const char* folder : {"engine", "pipeline", "dynamics", "profiling", "show", "bench", "cli", "tests",
                              "docs", "examples", "scripts", "assets/generator", "packaging"})
-    for (const auto& entry : fs::recursive_directory_iterator(kHouse / folder)) {
+    for (const auto& entry : fs::recursive_directory_iterator(kSourceFolder / folder)) {
       if (!entry.is_regular_file() || !isProse(entry.path())) continue;
       std::ifstream in(entry.path());
       std::string line;
       for (std::size_t n = 1; std::getline(in, line); ++n) {
         const auto where = [&] {
-          return fs::relative(entry.path(), kHouse).string() + ":" + std::to_string(n);
+          return fs::relative(entry.path(), kSourceFolder).string() + ":" + std::to_string(n);
         };
         EXPECT_EQ(hiddenActor(line), "") << where() << ": name the actor: " << line;
         EXPECT_EQ(replacedWord(line), "") << where() << ": use the word that replaced it: " << line;

@@ -1,5 +1,5 @@
 #pragma once
-/// assimp's tree of nodes as one flat bag of triangles, and that bag as a tidy mesh.
+/// Flattens assimp's node tree into one list of triangles, and makes an indexed mesh of the list.
 
 #include "engine/asset/mesh_file.h"
 #include "engine/maths/maths.h"

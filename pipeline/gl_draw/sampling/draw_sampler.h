@@ -18,8 +18,8 @@ namespace stadion {
 
 class DrawSampler {
 public:
-  /// More of a mesh are several pieces. What is drawn alone must be much more than nothing, which is taken
-  /// off it: about so large a part of all drawing.
+  /// A mesh with more than this part of the frame's work is split into batches. A batch must cost much more
+  /// than drawing nothing, because that cost is subtracted from it.
   static constexpr float kPartsOfAFrame = 8;
   /// Meshes that follow each other are joined into a piece of at most this part of the frame's work. So at
   /// most twice as many pieces arise, however many meshes there are. Each piece is timed at least once in 600

@@ -499,7 +499,7 @@ TEST(ProgramClusterProcesses, WhatAllNodesWouldWarnOfIsToldOnce) {
                                                               std::to_string(getpid()) + "\n");
   const ProgramResult r = stadionProgram(shortCluster(three, {"--frames", "3", "--gl", "none"}));
   EXPECT_EQ(r.status, 0) << r.err;
-  EXPECT_EQ(timesIn(r.err, "warning: no node shows the wall \"floor\" of cave4"), 1U) << r.err;
+  EXPECT_EQ(timesIn(r.err, "warning: no host shows the wall \"floor\" of cave4"), 1U) << r.err;
 }
 
 TEST(ProgramClusterProcesses, OptionsMayStandWhereverTheyLike) {

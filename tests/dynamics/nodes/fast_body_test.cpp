@@ -2,7 +2,7 @@
 /// exact time, at every frame rate.
 
 #include "dynamics/collision/shape_choice.h"
-#include "engine/input/tracker_leap.h"
+#include "engine/input/tracker_jump.h"
 #include "engine/nodes/model_node.h"
 #include "engine/nodes/path_node.h"
 #include "engine/nodes/rig_node.h"
@@ -345,8 +345,8 @@ TEST(FastBody, ATrackerJumpsFromTheSpeedInTheDocuments) {
   const auto says = [&](const std::string& text) { return rule.find(text) != std::string::npos; };
   EXPECT_TRUE(says("faster than " + std::to_string(static_cast<int>(kTeleportSpeed)) + " m/s in the rig"))
       << rule;
-  EXPECT_TRUE(says("faster than " + std::to_string(static_cast<int>(kLeapSpeed)) + " m/s there")) << rule;
-  EXPECT_TRUE(says("at most " + std::to_string(kLongestLeap / 1'000'000) + " ms apart")) << rule;
+  EXPECT_TRUE(says("faster than " + std::to_string(static_cast<int>(kJumpSpeed)) + " m/s there")) << rule;
+  EXPECT_TRUE(says("at most " + std::to_string(kLongestJump / 1'000'000) + " ms apart")) << rule;
   const std::vector<double> met = impactsOfHandAt(kTeleportSpeed - 1);
   ASSERT_EQ(met.size(), 1U);
   EXPECT_TRUE(impactsOfHandAt(kTeleportSpeed + 1).empty()) << "what it touches after a jump posts no impact";

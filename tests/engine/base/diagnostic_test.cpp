@@ -70,7 +70,7 @@ TEST(Diagnostic, ASlipIsRecognisedAndANewWordIsNot) {
 }
 
 TEST(Diagnostic, TheSearchForASuggestionIsBounded) {
-  // Long words that differ in every third letter are the dearest to compare. The right one comes too late.
+  // Long words that differ in every third letter are the most expensive to compare. The right one comes too late.
   std::vector<std::string> candidates(20000, std::string(64, 'a'));
   std::string word(64, 'a');
   for (std::size_t i = 0; i < word.size(); i += 2) word[i] = 'b';

@@ -80,7 +80,7 @@ TEST(StateFields, WhatIsPutBackIsTheSameToTheBit) {
   EXPECT_EQ(other.names, w.names);
 }
 
-TEST(StateFields, WhatIsKeptBesideIsNoPartOfTheHash) {
+TEST(StateFields, UnhashedFieldsAreNoPartOfTheHash) {
   Whole w = example();
   const std::uint64_t before = hashOf(w);
   w.names[3] = "four";

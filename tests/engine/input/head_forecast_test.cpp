@@ -60,17 +60,17 @@ TEST(TrackerFeed, AHeadThatIsAimedIsToldAsItWillBe) {
   TrackerFeed feed(bareRig());
   for (int i = 0; i <= 400; ++i) feed.pose("head", i * 5 * kMs, walking(0.005 * i));
   InputSample sample;
-  feed.aim("head", 50 * kMs);
+  feed.setPrediction("head", 50 * kMs);
   feed.sampleFrame(2010 * kMs, 0, 16 * kMs, sample);
   EXPECT_NEAR(sample.find("head")->X_RT.p.x(), 2.060, 3e-4);
   EXPECT_NEAR(angleBetween(sample.find("head")->X_RT.q, walking(2.060).q), 0, 1e-3);
   EXPECT_EQ(sample.find("head")->measured, 2000 * kMs);
   EXPECT_EQ(sample.find("wand")->measured, 0);
-  const auto soon = feed.soon("head", 2010 * kMs, 20 * kMs);
+  const auto soon = feed.predictedHead("head", 2010 * kMs, 20 * kMs);
   ASSERT_TRUE(soon);
   EXPECT_NEAR(soon->X_RH.p.x(), 2.030, 3e-4);
   EXPECT_EQ(soon->measured, 2000 * kMs);
-  EXPECT_FALSE(feed.soon("wand", 2010 * kMs, 0));
+  EXPECT_FALSE(feed.predictedHead("wand", 2010 * kMs, 0));
 }
 
 TEST(TrackerFeed, AHeadThatIsAimedDoesNotLagBehindForBeingSmoothed) {
@@ -79,7 +79,8 @@ TEST(TrackerFeed, AHeadThatIsAimedDoesNotLagBehindForBeingSmoothed) {
   TrackerFeed feed(rig);
   for (int i = 0; i <= 400; ++i) feed.pose("head", i * 5 * kMs, walking(0.005 * i));
   const Pose truly = walking(2.040);
-  const auto told = feed.soon("head", 2000 * kMs, 40 * kMs), late = feed.soon("head", 2000 * kMs, 0);
+  const auto told = feed.predictedHead("head", 2000 * kMs, 40 * kMs),
+             late = feed.predictedHead("head", 2000 * kMs, 0);
   EXPECT_NEAR((told->X_RH.p - truly.p).norm(), 0, 5e-4);
   EXPECT_NEAR(angleBetween(told->X_RH.q, truly.q), 0, 1e-3);
   EXPECT_GT((late->X_RH.p - walking(2).p).norm(), 5e-3) << "nothing is caught up with without being asked";
@@ -101,7 +102,7 @@ TEST(TrackerFeed, WhatWasForeseenIsInTheRecordAndTheReplayHasItToTheBit) {
                   {Vec3(std::sin(3 * t), 0.4 * std::sin(9 * t), 1.7), det::fromEuler(0, 0, t)});
       }
       // As auto aims, from frame to frame; and now and then as it never does.
-      feed.aim("head", n % 50 == 49 ? 0 : static_cast<Nanoseconds>(40 + n % 7) * kMs);
+      feed.setPrediction("head", n % 50 == 49 ? 0 : static_cast<Nanoseconds>(40 + n % 7) * kMs);
       InputSample sample;
       feed.sampleFrame(now.time, now.time - now.step, now.time, sample);
       recorder.frame(now), recorder.record(sample);

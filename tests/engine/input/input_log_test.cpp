@@ -386,7 +386,7 @@ InputLog wandAt(const std::vector<double>& heights) {
   return log;
 }
 
-TEST(InputLog, AStepThatIsFasterThanBeforeAndAfterIsALeapAFastSwingIsNone) {
+TEST(InputLog, AStepThatIsFasterThanBeforeAndAfterIsAJumpAFastSwingIsNone) {
   InputSample sample;
   wandAt({0, 0, 0.4, 0.4, 0.4}).sampleFrame(fromSeconds(0.005), fromSeconds(0.018), sample);
   EXPECT_EQ(sample.trackers[0].X_RT.p.z(), 0) << "it stays until it is seen elsewhere";

@@ -89,7 +89,7 @@ TEST(TrackerFeed, ASilenceAndItsEndAreReportedButNotOfTrackersThatComeAndGo) {
   Room room;
   const auto heardAt = [&](Nanoseconds time) {
     std::string told;
-    for (const TrackerFeed::Hearing& h : room.feed.hearings(1'000'000'000 + time))
+    for (const TrackerFeed::Reception& h : room.feed.receptionChanges(1'000'000'000 + time))
       told += std::string(h.tracker) + (h.heard ? " heard " : " silent ") +
               std::to_string(std::lround(10 * h.silent)) + ";";
     return told;
@@ -235,10 +235,10 @@ TEST(TrackerFeed, APadThatRepeatsItsStateIsLostWhenItStops) {
     EXPECT_FALSE(room.pad().controlsOnly) << every;
     EXPECT_EQ(room.sample.find("pad")->axes[1], 0.0f);
     EXPECT_EQ(room.sample.find("pad")->buttons, 0u);
-    EXPECT_EQ(room.feed.hearings(room.now()).size(), 1u);
+    EXPECT_EQ(room.feed.receptionChanges(room.now()).size(), 1u);
     room.feed.axis("pad", room.now(), 1, 0.5);
     EXPECT_EQ(room.pad().axes[1], 0.5f);
-    EXPECT_TRUE(room.feed.hearings(room.now()).at(0).heard);
+    EXPECT_TRUE(room.feed.receptionChanges(room.now()).at(0).heard);
   }
 }
 
@@ -249,7 +249,7 @@ TEST(TrackerFeed, APadThatSendsChangesOnlyHoldsThemForTenSeconds) {
   for (int n = 0; n < 20; ++n) room.frame();
   EXPECT_EQ(room.pad().axes[1], 0.0f);
   EXPECT_TRUE(room.pad().controlsOnly);
-  EXPECT_TRUE(room.feed.hearings(room.now()).empty()) << "a pad at rest is not silent";
+  EXPECT_TRUE(room.feed.receptionChanges(room.now()).empty()) << "a pad at rest is not silent";
   room.feed.axis("pad", room.now(), 1, -1);
   EXPECT_EQ(room.pad().axes[1], -1.0f);
 }

@@ -153,7 +153,7 @@ TEST(ScriptDocument, AWrongDeclarationDoesNotMakeItsUsersWrong) {
   EXPECT_EQ(errorsOf("group(name=a, scale=0)\ngroup(name=b, parent=a)").size(), 1U);
 }
 
-TEST(ScriptDocument, VeryManyLostNamesDoNotMakeReferencesDear) {
+TEST(ScriptDocument, VeryManyLostNamesDoNotMakeReferencesExpensive) {
   std::string text = "dynobjct(name=first";
   for (int i = 0; i < 100000; ++i) text += ",name=lost" + std::to_string(i);
   text += ")\n";

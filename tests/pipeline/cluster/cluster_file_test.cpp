@@ -91,10 +91,10 @@ TEST(ClusterFile, WallsThatTheRoomLacksAndThoseThatNoHostShowsAreReportedWithThe
             "room.cluster:1:14: error: cave4 has no wall \"leff\"; did you mean \"left\"?\n"
             "node a front leff\n"
             "             ^\n"
-            "room.cluster:2:7: warning: no node shows the wall \"left\" of cave4\n"
+            "room.cluster:2:7: warning: no host shows the wall \"left\" of cave4\n"
             "walls cave4\n"
             "      ^\n");
-  EXPECT_EQ(wrongWith("node a front\n"), "room.cluster: warning: no node shows the wall \"left\" of cave4\n")
+  EXPECT_EQ(wrongWith("node a front\n"), "room.cluster: warning: no host shows the wall \"left\" of cave4\n")
       << "nothing in the file names the room";
 }
 

@@ -160,7 +160,7 @@ TEST(FrameVerdict, AppThatWaitsForAHelperIsOverAndNotPreempted) {
   judge(f);
   EXPECT_EQ(f.cause, Cause::App);
   EXPECT_EQ(toText(f, {}),
-            "frame 7 came after 60.0 ms (16.7): App took 55.0 ms; dearest game kick.evs:5, 50.0 ms");
+            "frame 7 came after 60.0 ms (16.7): App took 55.0 ms; most expensive: game kick.evs:5, 50.0 ms");
   f.nodeMs = 0.01f;
   EXPECT_EQ(toText(f, {}), "frame 7 came after 60.0 ms (16.7): App took 55.0 ms") << "it is not its fault";
 }
@@ -327,7 +327,7 @@ TEST(ThreadsBlackBox, AStallIsNamedAtOnceAndKept) {
   const Cause cause = kept.value().frames[3].cause;
   EXPECT_TRUE(cause == Cause::App || cause == Cause::Preempted) << "others may have been at work, too";
   EXPECT_EQ(kept.value().frames[3].stage, Span::App);
-  EXPECT_EQ(kept.value().frames[3].dearest(), (NodeRef{1, 4}));
+  EXPECT_EQ(kept.value().frames[3].mostExpensive(), (NodeRef{1, 4}));
   EXPECT_GT(kept.value().frames[3].nodeMs, 55);
 }
 

@@ -335,7 +335,7 @@ TEST(FrameLog, WhatIsDrawnAloneSaysWhenItsTurnComesAgain) {
   EXPECT_EQ(kept.drawn[0].round, kTurns * FrameLogOptions{}.sampleEvery);
 }
 
-/// A live run that takes too long draws some of its frames; just then it must be known what is dear.
+/// A live run that takes too long draws some of its frames; just then it must be known what is expensive.
 TEST(FrameLog, WhereFramesArePassedOverTheNextOneThatIsDrawnIsSampled) {
   FrameLog log({}, {.whole = true, .from = 4});
   std::vector<std::pair<std::uint64_t, DrawSample>> sampled;

@@ -71,7 +71,7 @@ TEST(KeptFrames, TheLongestFramesAreThereInFullHoweverLongTheyAreOver) {
             static_cast<long>(KeptFrames::kNodesAFrame));
   EXPECT_TRUE(std::ranges::any_of(spans, [](const KeptSpan& s) {
     return s.node == NodeRef{1, 59};
-  })) << "the dearest";
+  })) << "the most expensive";
   EXPECT_FALSE(std::ranges::any_of(spans, [](const KeptSpan& s) { return s.node == NodeRef{1, 0}; }));
   EXPECT_EQ(std::ranges::count_if(spans, [](const KeptSpan& s) { return s.what == Span::ForFrame; }), 1)
       << "a wait belongs to the frame that was waited for";
@@ -115,7 +115,7 @@ TEST(FrameSeries, ALateFrameHasItsCauseAndItsNode) {
   ASSERT_EQ(late.size(), 1U);
   EXPECT_EQ(late[0].frame, 70U);
   EXPECT_EQ(late[0].cause, Cause::App);
-  EXPECT_EQ(late[0].dearest(), (NodeRef{1, 59}));
+  EXPECT_EQ(late[0].mostExpensive(), (NodeRef{1, 59}));
 }
 
 TEST(DurationHistogram, ItsMarksAreThoseOfTheValuesAndEveryValueIsInABin) {

@@ -52,7 +52,7 @@ void RunOptions::refuseInSupervision(Diagnostics& findings) const {
   refuse(!r.spans.file.empty() || r.countWork || r.profile || !trace.file.empty(),
          "--spans, --count-work, --profile and --trace", "what is measured is one process's; leave one out");
   refuse(!settings.cluster.file.empty(), "--cluster",
-         "supervision is for a single player; `stadion cluster` restarts a node that died, and the node "
+         "supervision is for a single player; `stadion cluster` restarts a host that died, and the host "
          "joins again");
 }
 

@@ -11,11 +11,11 @@ namespace {
 using namespace scenes;
 
 /// Spinning boxes in air, `apart` metres from each other, thrown up.
-struct Swarm {
+struct FarApartBodies {
   World w;
   std::vector<BodyId> all;
 
-  Swarm(int many, double apart) {
+  FarApartBodies(int many, double apart) {
     const FieldId g = addGravity(w);
     ForceField air;
     air.law = MediumField{1.0, 0.0, Vec3::Zero()};
@@ -54,27 +54,27 @@ void expectSame(const BodyState& a, const BodyState& b) {
   EXPECT_EQ(a.arcs, b.arcs);
 }
 
-TEST(Swarm, WhereNoBodiesMeetNoPairIsLookedAt) {
-  Swarm swarm(400, 4);
+TEST(LazyBodies, WhereNoBodiesMeetNoPairIsLookedAt) {
+  FarApartBodies swarm(400, 4);
   swarm.playTo(2000, 10);
   EXPECT_EQ(swarm.pairs, 0);
   for (const BodyId id : swarm.all) EXPECT_GT(swarm.w.state(id).arcs, 5);
 }
 
-TEST(Swarm, ArcsWithoutAnObserverAreTheSameToTheBitAtEveryFrameRate) {
-  Swarm first(80, 4);
+TEST(LazyBodies, ArcsWithoutAnObserverAreTheSameToTheBitAtEveryFrameRate) {
+  FarApartBodies first(80, 4);
   first.playTo(2000, 500);
   for (const int step : {1, 8, 20, 100}) {
-    Swarm other(80, 4);
+    FarApartBodies other(80, 4);
     other.playTo(2000, step);
     for (const BodyId id : first.all) expectSame(first.w.state(id), other.w.state(id));
   }
 }
 
-TEST(Swarm, ABodyPutIntoAnothersWayIsMet) {
+TEST(LazyBodies, ABodyPutIntoAnothersWayIsMet) {
   std::vector<BodyState> first;
   for (const int step : {250, 5, 10, 50}) {
-    Swarm swarm(80, 4);
+    FarApartBodies swarm(80, 4);
     swarm.playTo(500, step);
     const BodyState s = swarm.w.state(swarm.all[7]);
     swarm.w.placeBody(swarm.all[0], {s.p + 0.3 * s.v, Quat::Identity()}, Vec3::Zero(), Vec3::Zero());
@@ -87,9 +87,9 @@ TEST(Swarm, ABodyPutIntoAnothersWayIsMet) {
   }
 }
 
-TEST(Swarm, BodiesThatCrossMeet) {
+TEST(LazyBodies, BodiesThatCrossMeet) {
   for (const double apart : {0.5, 0.7}) {
-    Swarm coarse(100, apart), fine(100, apart);
+    FarApartBodies coarse(100, apart), fine(100, apart);
     coarse.playTo(1000, 100);
     fine.playTo(1000, 5);
     EXPECT_GT(coarse.impacts, 0);
