@@ -12,6 +12,8 @@ namespace {
 constexpr double kAlike = 1.02;       ///< errors that differ by less are the same
 constexpr double kBetterCost = 2;     ///< of the better rung: most, of the default's
 constexpr double kBetterError = 0.8;  ///< of the better rung: most, of the default's
+constexpr double kFilledCost =
+    3;  ///< of the filled stadium with ten times the triangles: most, of the other's
 
 /// A measure by which less is nearer.
 struct Measure {
@@ -82,6 +84,21 @@ void judgeBetter(const std::vector<LooksRow>& rows, std::vector<LooksLimit>& lim
       {"8 samples: mean error, of the default's", defaultError > 0 ? error / defaultError : 0, kBetterError});
 }
 
+/// What ten times as many triangles cost at the same moment.
+void judgeFilled(const std::vector<LooksRow>& rows, std::vector<LooksLimit>& limits) {
+  double filled = 0, usual = 0;
+  for (const LooksRow& row : rows) {
+    if (row.scene != "filled" || row.rung != kDefaultRung) continue;
+    const auto beside = std::ranges::find_if(rows, [&](const LooksRow& r) {
+      return r.scene == "olympia-1" && r.wall == row.wall && r.rung == row.rung;
+    });
+    if (beside == rows.end()) continue;
+    filled += row.leastMs;
+    usual += beside->leastMs;
+  }
+  if (usual > 0) limits.push_back({"filled stadium: cost, of olympia-1", filled / usual, kFilledCost});
+}
+
 std::string shown(const std::optional<double>& value, int digits) {
   return value ? fmt::format("{:.{}f}", *value, digits) : "-";
 }
@@ -96,6 +113,7 @@ std::vector<LooksLimit> limitsOf(const std::vector<LooksRow>& rows) {
   std::vector<LooksLimit> limits;
   judgeDefault(rows, limits);
   judgeBetter(rows, limits);
+  judgeFilled(rows, limits);
   return limits;
 }
 

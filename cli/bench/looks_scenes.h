@@ -18,7 +18,7 @@ namespace stadion {
 
 struct LooksScene {
   std::string_view name;    ///< as it is chosen
-  std::string_view script;  ///< in the folder scripts; empty: the scene of `bench walls` with this letter
+  std::string_view script;  ///< in the folder scripts; empty: a scene of `bench walls`, or the filled stadium
   std::vector<std::string> walls;  ///< walls of the room; flicker is measured on the last one
   double seconds;                  ///< show time of the moment
 };
@@ -27,7 +27,7 @@ struct LooksScene {
 const std::vector<LooksScene>& allLooksScenes();
 /// Their names, for the grammar of an option.
 constexpr std::string_view kLooksSceneNames =
-    "kick|olympia-1|olympia-2|olympia-3|olympia-4|olympia-5|olympia-6|crowd|a|b|c";
+    "kick|olympia-1|olympia-2|olympia-3|olympia-4|olympia-5|olympia-6|filled|crowd|a|b|c";
 
 /// A show with its recorded input, played frame by frame without being drawn.
 class LooksShow {
@@ -48,8 +48,9 @@ public:
 
 private:
   LooksShow() = default;
+  std::string writeScene(const LooksScene& scene, ShowOptions& options) const;
 
-  TemporaryFolder folder_;  ///< files of a scene of `bench walls`
+  TemporaryFolder folder_;  ///< files of a scene without a script of its own
   std::unique_ptr<Player> player_;
   std::unique_ptr<ShowStages> stages_;
   PixelSize size_;

@@ -75,7 +75,7 @@ constexpr OptionRow kRows[] = {
      Length},
     {"--pace", word("free|lock|float"),
      "free: as fast as possible; lock: on the ticks of --rate; float: a late frame begins at once (default: "
-     "lock with --display; else free with --frames, --seconds or --out; else lock)",
+     "lock with --display, else free with --frames, --seconds or --out, else lock)",
      Length},
     {"--wait", flag(), "stays at the first frame until the operator says start", Length},
 

@@ -42,6 +42,20 @@ TEST(LooksResults, EightSamplesMayCostTwiceTheDefault) {
     EXPECT_FALSE(l.met()) << l.what;
 }
 
+TEST(LooksResults, TheFilledStadiumMayCostThreeTimesTheUsualOne) {
+  const auto rowsOf = [](double filled) {
+    LooksRow usual = rowOf("front", "4", 20, 0.5), full = rowOf("front", "4", filled, 0.5);
+    usual.scene = "olympia-1";
+    full.scene = "filled";
+    return std::vector<LooksRow>{usual, full};
+  };
+  const auto limits = limitsOf(rowsOf(50));
+  ASSERT_EQ(limits.size(), 1u);
+  EXPECT_NEAR(*valueOf(limits, "filled stadium"), 2.5, 1e-9);
+  EXPECT_TRUE(limits[0].met());
+  EXPECT_FALSE(limitsOf(rowsOf(61))[0].met());
+}
+
 TEST(LooksResults, NothingIsJudgedWithoutARowToCompareWith) {
   EXPECT_TRUE(limitsOf({rowOf("front", "4", 20, 0.5), rowOf("right", "8", 39, 0.3)}).empty());
 }
