@@ -10,15 +10,16 @@ install(TARGETS stadion-measure stadion-bench stadion-dyn-stadion RUNTIME DESTIN
   OPTIONAL)
 install(DIRECTORY scripts walls DESTINATION ${CMAKE_INSTALL_DATADIR}/stadion COMPONENT runtime)
 install(DIRECTORY assets DESTINATION ${CMAKE_INSTALL_DATADIR}/stadion COMPONENT runtime PATTERN generator EXCLUDE)
-# Pages keep their places, so that the links between them lead somewhere.
-install(DIRECTORY docs DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT runtime)
-install(FILES README.md CHANGELOG.md CONTRIBUTING.md SECURITY.md packaging/copyright DESTINATION ${CMAKE_INSTALL_DOCDIR}
+# Pages keep their places, so that the links between them lead somewhere. The folder has the package's name.
+set(pages_folder ${CMAKE_INSTALL_DATADIR}/doc/stadion)
+install(DIRECTORY docs DESTINATION ${pages_folder} COMPONENT runtime)
+install(FILES README.md CHANGELOG.md CONTRIBUTING.md SECURITY.md packaging/copyright DESTINATION ${pages_folder}
   COMPONENT runtime)
-file(GLOB_RECURSE pages RELATIVE ${PROJECT_SOURCE_DIR} CONFIGURE_DEPENDS bench/*.md cli/*.md dynamics/*.md engine/*.md
+file(GLOB_RECURSE pages RELATIVE ${PROJECT_SOURCE_DIR} CONFIGURE_DEPENDS assets/README.md bench/*.md cli/*.md dynamics/*.md engine/*.md
   examples/*.md pipeline/*.md profiling/*.md scripts/*.md show/*.md tests/*.md walls/*.md)
 foreach(page IN LISTS pages)
   get_filename_component(folder ${page} DIRECTORY)
-  install(FILES ${page} DESTINATION ${CMAKE_INSTALL_DOCDIR}/${folder} COMPONENT runtime)
+  install(FILES ${page} DESTINATION ${pages_folder}/${folder} COMPONENT runtime)
 endforeach()
 
 # The programs write their man pages when they are installed.
