@@ -1,6 +1,6 @@
-# What `cmake --install` and the Debian packages hold. Component "runtime" plays shows; "development" has the libraries for
-# programs that embed Stadion, with the targets Stadion::engine, dynamics, pipeline, profiling, show and measure, and
-# Stadion::plugin for plugins.
+# What `cmake --install` and the Debian packages hold. Component "runtime" plays shows; "development" has the
+# libraries for programs that embed Stadion, with the targets Stadion::engine, dynamics, pipeline, profiling, show and
+# measure, and Stadion::plugin for plugins.
 include(CMakePackageConfigHelpers)
 
 install(TARGETS stadion RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT runtime)
@@ -15,8 +15,8 @@ set(pages_folder ${CMAKE_INSTALL_DATADIR}/doc/stadion)
 install(DIRECTORY docs DESTINATION ${pages_folder} COMPONENT runtime)
 install(FILES README.md CHANGELOG.md CONTRIBUTING.md SECURITY.md packaging/copyright DESTINATION ${pages_folder}
   COMPONENT runtime)
-file(GLOB_RECURSE pages RELATIVE ${PROJECT_SOURCE_DIR} CONFIGURE_DEPENDS assets/README.md bench/*.md cli/*.md dynamics/*.md engine/*.md
-  examples/*.md pipeline/*.md profiling/*.md scripts/*.md show/*.md tests/*.md walls/*.md)
+file(GLOB_RECURSE pages RELATIVE ${PROJECT_SOURCE_DIR} CONFIGURE_DEPENDS assets/README.md bench/*.md cli/*.md
+  dynamics/*.md engine/*.md examples/*.md pipeline/*.md profiling/*.md scripts/*.md show/*.md tests/*.md walls/*.md)
 foreach(page IN LISTS pages)
   get_filename_component(folder ${page} DIRECTORY)
   install(FILES ${page} DESTINATION ${pages_folder}/${folder} COMPONENT runtime)
@@ -35,10 +35,12 @@ set(completion ${PROJECT_SOURCE_DIR}/packaging/completion)
 install(FILES ${completion}/stadion.bash DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions RENAME stadion
   COMPONENT runtime)
 install(FILES ${completion}/_stadion DESTINATION ${CMAKE_INSTALL_DATADIR}/zsh/vendor-completions COMPONENT runtime)
-install(FILES ${completion}/stadion.fish DESTINATION ${CMAKE_INSTALL_DATADIR}/fish/vendor_completions.d COMPONENT runtime)
+install(FILES ${completion}/stadion.fish DESTINATION ${CMAKE_INSTALL_DATADIR}/fish/vendor_completions.d
+  COMPONENT runtime)
 
-install(TARGETS stadion_options stadion_sanitize stadion_plugin stadion_engine stadion_wire stadion_pipeline stadion_dynamics
-  stadion_profiling stadion_show stadion_measure EXPORT StadionTargets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT development)
+install(TARGETS stadion_options stadion_sanitize stadion_plugin stadion_engine stadion_wire stadion_pipeline
+  stadion_dynamics stadion_profiling stadion_show stadion_measure EXPORT StadionTargets
+  ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT development)
 foreach(layer engine pipeline dynamics profiling show)
   set_target_properties(stadion_${layer} PROPERTIES EXPORT_NAME ${layer})
   add_library(Stadion::${layer} ALIAS stadion_${layer})
@@ -74,12 +76,14 @@ if(PROJECT_IS_TOP_LEVEL)
   set(CPACK_DEBIAN_RUNTIME_PACKAGE_SHLIBDEPS ON)
   # Loaded at run time: no program names them.
   set(CPACK_DEBIAN_RUNTIME_PACKAGE_DEPENDS "libosmesa6")
-  set(CPACK_DEBIAN_RUNTIME_PACKAGE_RECOMMENDS "libegl1, libegl-mesa0, libgl1-mesa-dri, libglfw3, libopenal1, libxss1, ffmpeg")
+  set(CPACK_DEBIAN_RUNTIME_PACKAGE_RECOMMENDS
+    "libegl1, libegl-mesa0, libgl1-mesa-dri, libglfw3, libopenal1, libxss1, ffmpeg")
   set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME libstadion-dev)
   set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
   set(CPACK_COMPONENT_DEVELOPMENT_DEPENDS runtime)
   set(CPACK_DEBIAN_ENABLE_COMPONENT_DEPENDS ON)
-  string(CONCAT CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS "g++, cmake, pkg-config, libeigen3-dev, libfcl-dev, libfmt-dev, "
+  string(CONCAT CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS
+    "g++, cmake, pkg-config, libeigen3-dev, libfcl-dev, libfmt-dev, "
     "libxxhash-dev, libsndfile1-dev, libpng-dev, libmeshoptimizer-dev, libhwloc-dev, liblo-dev, nlohmann-json3-dev, "
     "cyclonedds-dev, libgl-dev")
   include(CPack)
