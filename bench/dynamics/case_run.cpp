@@ -13,8 +13,8 @@ double processorSeconds() {
   return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
 }
 
-/// What two readings with nothing between them are apart: the clock is a call into the kernel, as expensive as the
-/// frame of a few bodies.
+/// What two readings with nothing between them are apart: the clock is a call into the kernel, as expensive
+/// as the frame of a few bodies.
 double readingSeconds() {
   std::array<double, 101> apart{};
   for (double& x : apart) {

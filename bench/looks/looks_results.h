@@ -31,8 +31,8 @@ struct LooksLimit {
   bool met() const { return value <= most; }
 };
 
-/// The limits that the rows can show: the default against OpenGL and against 8 samples, and the filled stadium
-/// against the usual one.
+/// The limits that the rows can show: the default against OpenGL and against 8 samples, and the filled
+/// stadium against the usual one.
 std::vector<LooksLimit> limitsOf(const std::vector<LooksRow>& rows);
 
 std::string headOfTable();

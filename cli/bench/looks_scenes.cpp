@@ -18,8 +18,8 @@ constexpr std::size_t kWallsOfRoom = 4;
 constexpr std::size_t kMostFrames =
     700;  ///< length of the visitor's path: the moment, and what --frames may add
 
-/// The stadium of Olympia, filled to the last row: its spectators once more in 22 places between those that sit
-/// there. So it has ten times as many triangles.
+/// The stadium of Olympia, filled to the last row: its spectators once more in 22 places between those that
+/// sit there. So it has ten times as many triangles.
 std::string filledStadium(const std::string& olympia) {
   constexpr int kAlong = 11, kUp = 2;
   std::string script = olympia;
@@ -77,7 +77,8 @@ std::unique_ptr<LooksShow> LooksShow::open(const LooksScene& scene, const std::s
   return show;
 }
 
-/// Writes the files of a scene without a script of its own, and names them in the options. Returns what is wrong.
+/// Writes the files of a scene without a script of its own, and names them in the options. Returns what is
+/// wrong.
 std::string LooksShow::writeScene(const LooksScene& scene, ShowOptions& options) const {
   options.script = folder_.path("show.evs");
   if (scene.name.size() == 1) {

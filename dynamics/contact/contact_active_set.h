@@ -11,8 +11,8 @@ public:
   ContactActiveSet(std::vector<SolverBody>& solverBodies, std::vector<SolverContact>& contacts,
                    const std::vector<ContactRow>& rows);
 
-  /// Takes the active set from the present impulses, solves for it, and corrects it until it is consistent. False if
-  /// it does not converge within so many multiplications; everything is then as it was.
+  /// Takes the active set from the present impulses, solves for it, and corrects it until it is consistent.
+  /// False if it does not converge within so many multiplications; everything is then as it was.
   bool solve(double& work);
 
 private:

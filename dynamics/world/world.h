@@ -185,7 +185,8 @@ public:
   const std::vector<ContactEvent>& events() const;
   /// Hash of the pairs that touch or await their release: part of the simulated state.
   std::uint64_t pairsDigest() const;
-  /// Hash of the last free places of held bodies and of recoveries from penetration: part of the simulated state.
+  /// Hash of the last free places of held bodies and of recoveries from penetration: part of the simulated
+  /// state.
   std::uint64_t recoveryDigest() const;
 
   /// Distance between the surfaces of two sides now [m], negative or 0 when they touch. Infinite if one

@@ -1,5 +1,5 @@
-// The world's state, field by field (engine/core/state_fields.h). All predicted events are restored, too. So the
-// same events follow in the same order.
+// The world's state, field by field (engine/core/state_fields.h). All predicted events are restored, too.
+// So the same events follow in the same order.
 
 #include "dynamics/world/world_core.h"
 #include "engine/core/state_fields.h"

@@ -9,8 +9,8 @@
 /// repeats its state, it is lost once that stops for three of its periods, at least `hold`. If it sends only
 /// changes, it lets go of what it holds after 10 s without one.
 ///
-/// Only trackers of the rig file are known, from the first frame on. What is not finite, absurdly far, not a
-/// rotation, or of an unknown name is refused.
+/// Only trackers of the rig file are known, from the first frame on. Measurements are refused if they are not
+/// finite, are absurdly far, are no rotation, or have an unknown name.
 ///
 /// The samples are those of an input log with one record a frame, and one for each change of a button or axis
 /// inside it: so a log that InputRecorder wrote gives the very same samples again.

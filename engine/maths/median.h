@@ -10,7 +10,7 @@
 
 namespace stadion {
 
-/// The middle value, or the mean of the two middle ones; 0 if there is none. Leaves out what is not finite.
+/// The middle value, or the mean of the two middle ones; 0 if there is none. Values that are not finite are left out.
 inline double median(std::vector<double> values) {
   std::erase_if(values, [](double v) { return !std::isfinite(v); });
   if (values.empty()) return 0;

@@ -70,8 +70,8 @@ private:
 /// "SECONDS.FRACTION" without trailing zeros; LineReader::seconds reads it back exactly. ns >= 0.
 std::string formatSeconds(Nanoseconds ns);
 
-/// At most `limit` characters of it, with control characters and what is no UTF-8 replaced: what came from a
-/// file is no command to a terminal.
+/// Returns at most `limit` characters of the text. Control characters and invalid UTF-8 are replaced, so text
+/// from a file cannot command a terminal.
 std::string printable(std::string_view text, std::size_t limit);
 /// `"word"`, shortened and printable(), for messages.
 std::string quotedWord(std::string_view word);

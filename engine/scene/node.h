@@ -126,8 +126,8 @@ public:
   /// Maps a part number (StateFields::about()) to its node: the bodies of a dynamics node are nodes
   /// themselves.
   virtual NodeRef nodeOf(std::uint32_t /*part*/) const { return self_; }
-  /// Called after the node's fields and the scene were restored: makes again what is not saved. False if the
-  /// saved state does not fit.
+  /// Called after the node's fields and the scene were restored. The node computes the members that are not
+  /// saved. Returns false if the saved state does not fit.
   virtual bool resume(Scene&) { return true; }
 
 protected:

@@ -19,7 +19,7 @@
 ///
 /// Ownership  owns its parts and all installed nodes; borrows the loader and the meshes.
 /// Threads    App only. While nodes compute side by side, nothing else is in here.
-/// Errors     those of a show's files go to the loader; lookups of what is not loaded return null.
+/// Errors     those of a show's files go to the loader; lookups of nodes that are not loaded return null.
 
 #include "engine/base/worker_pool.h"
 #include "engine/scene/degradation.h"

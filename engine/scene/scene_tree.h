@@ -7,7 +7,7 @@
 ///
 /// Ownership  owns the installed loads and so their nodes.
 /// Threads    App only.
-/// Errors     lookups of what is not loaded return null or an invalid reference.
+/// Errors     lookups of nodes that are not loaded return null or an invalid reference.
 
 #include "engine/scene/loaded_scene.h"
 #include "engine/scene/placements.h"

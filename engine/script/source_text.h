@@ -3,7 +3,7 @@
 ///
 /// Text     UTF-8 without NUL, at most 64 MiB, any line ends; a byte order mark at the start is left out.
 /// Places   byte offsets into text(); positions count lines and characters from 1.
-/// Errors   make() and read() refuse what is not such a text.
+/// Errors   make() and read() refuse any other text.
 /// Threads  constant once made. Moving it keeps views into text() valid.
 
 #include "engine/base/diagnostic.h"

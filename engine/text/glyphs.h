@@ -50,7 +50,7 @@ DrawnCharacter drawn(char32_t character);
 /// How much closer than their advance says two characters stand (negative), such as A and V.
 double kerning(const Glyph& left, const Glyph& right);
 
-/// The characters of a text, which must be UTF-8; what is not becomes U+FFFD.
+/// Returns the characters of a UTF-8 text. Invalid bytes become U+FFFD.
 std::vector<char32_t> charactersOf(std::string_view utf8);
 /// Returns the characters of a text that the font lacks, each once, in the order of the text. Line ends are
 /// no characters.

@@ -2,8 +2,8 @@
 /// Shadow maps of the frames that are being drawn: one set for all walls.
 ///
 /// Rings    A set holds the four rings side by side, two by two, like the texture of the OpenGL renderer.
-///          What does not move is drawn once and kept until a ring's `stillKey` changes; movers are drawn
-///          over a copy of it when its `movingKey` changes, in the part that they cover.
+///          Still objects are drawn once and kept until a ring's `stillKey` changes. When its `movingKey`
+///          changes, movers are drawn over a copy, in the part that they cover.
 /// Same     A set depends on the keys and lists alone, not on sets that were drawn before it.
 /// Threads  any. Walls that draw the same frame get the same set; the first one draws it.
 

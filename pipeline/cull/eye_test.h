@@ -6,7 +6,7 @@
 /// for pixels whose middles are inside of a triangle (OpenGL 3.3 core, 3.6.1). Pictures are the same without
 /// it.
 ///
-/// Safe      single precision: what is not surely unseen by more than rounding is seen.
+/// Safe      single precision: an object counts as seen unless it is unseen by more than rounding.
 /// Frames    spheres are in World axes relative to the list's origin [m].
 /// Threads   plain values.
 

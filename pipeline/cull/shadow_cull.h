@@ -3,8 +3,8 @@
 ///
 /// The rings are the same for all walls and both eyes (engine/published/shadow_places.h says where they are),
 /// and lie on a grid of their texels that is fixed in the world, so that shadows look the same everywhere.
-/// What has ever moved is kept apart from what has not, which need not be looked for (still_casters.h) nor
-/// drawn again while nothing changes.
+/// Casters that have ever moved are kept apart from still ones. Still casters are neither searched for
+/// (still_casters.h) nor drawn again while nothing changes.
 ///
 /// Threads  pure but for the list; any thread that holds a lease on the view's slot.
 

@@ -20,7 +20,7 @@ class ShowReload {
 public:
   /// Begins to read the show that `around` names.
   explicit ShowReload(ShowSurroundings around);
-  /// Gives up what has not been read.
+  /// Stops reading, and drops the files that are not read yet.
   ~ShowReload();
 
   bool done() const { return done_; }

@@ -3,10 +3,9 @@
 ///
 /// Depths are 1 where a ring begins, towards the light, and 0 where it ends.
 ///
-/// One texture holds the rings of a draw list side by side, two by two. What does not move is drawn into a
-/// texture of its own and kept as long as it stays the same; each frame that something moves, the part of it
-/// that the movers cover is copied back and the movers are drawn over it. A frame in which nothing moves
-/// costs nothing.
+/// One texture holds the rings of a draw list side by side, two by two. Still objects are drawn into a
+/// texture of their own, which is kept as long as they stay the same. In a frame with movers, the part that
+/// they cover is copied back, and they are drawn over it. A frame in which nothing moves costs nothing.
 ///
 /// Same pixels  what is in the maps follows from the list alone, not from what was drawn before it.
 /// Ownership    owns its GL objects. Threads: the thread on which its context is current.
