@@ -374,7 +374,7 @@ void CollisionNode::afterSimulation(FrameContext& frame) {
   if (frame.scene.impacts().wanted()) noteImpacts(frame.scene);
   std::erase_if(comingOrGoing_,
                 [](const Part* p) { return !p->next.valid() && p->leaveAt == SceneTree::kNever; });
-  awake_ = afterStep(frame) || step_.outside;
+  awake_ = afterStep(frame) || step_.outside || world_.awaitsCommands();
 }
 
 NodeRef CollisionNode::nodeOf(ContactSide key) const {

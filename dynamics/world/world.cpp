@@ -434,6 +434,10 @@ BodyMode World::mode(BodyId id) const {
   return b ? b->mode : BodyMode::Rest;
 }
 
+bool World::awaitsCommands() const {
+  return !core_->commands_.empty();
+}
+
 bool World::moving(BodyId id) const {
   const BodyMode m = mode(id);
   return !standsStill(m);

@@ -164,6 +164,9 @@ public:
   BodyMode mode(BodyId id) const;
   /// Returns false if the body stands: it is asleep, quarantined or stuck. Then there is nothing to publish.
   bool moving(BodyId id) const;
+  /// Returns true if a field switches itself off later, as its duration says. Then time must go on, although
+  /// nothing moves.
+  bool awaitsCommands() const;
   /// The reason why the body is quarantined; empty if it is not.
   std::string quarantineReason(BodyId id) const;
   /// The mass [kg]; 0 if there is no such body.

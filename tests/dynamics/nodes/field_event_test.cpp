@@ -85,5 +85,24 @@ TEST(FieldEvents, ABodyThatIsHookedLaterFeelsTheRestOfTheActivation) {
   }
 }
 
+/// Two fields hold a ball on the floor against a third one, until the stronger of them expires.
+TEST(FieldEvents, ABodyAsleepWakesAtTheTimeAtWhichAFieldExpires) {
+  for (const double rate : {25.0, 60.0, 240.0})
+    for (const double duration : {0.1, 0.5004, 1.2004}) {
+      FieldShow show(rate, true, duration, false);
+      show.loader.files["held"] = [&](LoadedScene& load) {
+        addNode<Field>(load, "down", Vec3(0, 0, -20), true, duration);
+        addNode<Field>(load, "up", Vec3(0, 0, 10), true);
+        addNode<Block>(load, "floor", show.meshes.add(cube(1)), Vec3(0, 0, -1));
+        show.ball = &addNode<Ball>(load, "held", Vec3(0, 0, 0.1), std::vector<std::string>{"down", "up"});
+        addNode<Sim>(load, "world", std::vector<std::string>{"floor"}, std::vector<std::string>{"held"});
+      };
+      show.scene.open("held");
+      show.playTo(2);
+      const double risen = toSeconds(signatureAt(show.next - 1, rate).time) - duration;
+      EXPECT_NEAR(show.ball->state().v.z(), 10 * risen, 1e-9) << rate << " Hz, " << duration << " s";
+    }
+}
+
 }  // namespace
 }  // namespace stadion
