@@ -4,17 +4,17 @@
 #include "cli/terminal.h"
 #include "engine/base/atomic_file.h"
 #include "engine/base/installed_files.h"
+#include "engine/base/plain_file.h"
 
 #include <algorithm>
 #include <fmt/format.h>
-#include <fstream>
-#include <sstream>
 
 namespace stadion {
 namespace {
 
 constexpr std::size_t kSlot = 0;  ///< App and Cull take turns, so that one slot serves
 constexpr std::size_t kWallsOfRoom = 4;
+constexpr std::size_t kMostScriptBytes = 1 << 20;
 constexpr std::size_t kMostFrames =
     700;  ///< length of the visitor's path: the moment, and what --frames may add
 
@@ -29,12 +29,6 @@ std::string filledStadium(const std::string& olympia) {
         script += fmt::format("object( file=crowd_{}.glb, position=\"{:.2f}, {:.2f}, {:.2f}\" )\n", part,
                               (part[0] == 'n' ? 0.6 : -0.6) * k, 0.6 * (i - kAlong / 2) + 0.3, 0.15 * k);
   return script;
-}
-
-std::string textIn(const std::string& file) {
-  std::ostringstream text;
-  text << std::ifstream(file).rdbuf();
-  return text.str();
 }
 
 }  // namespace
@@ -89,7 +83,9 @@ std::string LooksShow::writeScene(const LooksScene& scene, ShowOptions& options)
   const std::string scripts = shareFolder() + "/scripts";
   options.assetRoots = {scripts, shareFolder() + "/assets"};
   options.input = scripts + "/olympia.input";
-  const auto wrong = writeFile(options.script, filledStadium(textIn(scripts + "/olympia.evs")));
+  const auto olympia = readPlainFile(scripts + "/olympia.evs", kMostScriptBytes);
+  if (!olympia) return olympia.error().message;
+  const auto wrong = writeFile(options.script, filledStadium(olympia.value()));
   return wrong ? wrong->message : "";
 }
 

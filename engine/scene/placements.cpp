@@ -338,7 +338,8 @@ bool Placements::freeListsFit() const {
          std::ranges::all_of(freeFleets_, isEmpty) && !twice(freeFleets_);
 }
 
-/// Returns true if each member of a fleet is a live placement that names this fleet and number, and the reverse.
+/// Returns true if each member of a fleet is a live placement that names this fleet and number, and the
+/// reverse.
 bool Placements::fleetsFit() const {
   const auto isThere = [&](PlacementId id) { return id < entries_.size() && entries_[id].live; };
   for (FleetId id = 0; id < fleets_.size(); ++id) {

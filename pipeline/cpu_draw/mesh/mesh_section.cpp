@@ -8,8 +8,8 @@ namespace {
 
 using Plane = std::array<double, 4>;
 
-/// Returns true if the plane's function is negative in the whole box. Vertices are placed in single precision, so it
-/// has to be so by more than their rounding.
+/// Returns true if the plane's function is negative in the whole box, by more than the rounding of vertices,
+/// which are placed in single precision.
 bool isBeyond(const MeshSection& s, const Plane& plane) {
   constexpr double kRounding = 1e-5;
   double most = plane[3], size = std::fabs(plane[3]);

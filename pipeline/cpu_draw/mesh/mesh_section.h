@@ -16,8 +16,8 @@ struct MeshSection {
   std::array<float, 3> low{}, high{};            ///< box around its corners, in mesh coordinates
 };
 
-/// Returns true if the section's box may reach into a picture of `width` by `height` pixels. False only if each
-/// triangle of it lies beside the picture or behind the eye, by more than rounding.
+/// Returns true if the section's box may reach into a picture of `width` by `height` pixels. False only if
+/// each triangle of it lies beside the picture or behind the eye, by more than rounding.
 bool mayBeSeen(const MeshSection& section, const PixelMatrix& by, bool parallel, int width, int height);
 
 }  // namespace stadion
