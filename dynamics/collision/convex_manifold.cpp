@@ -56,9 +56,9 @@ Rounding roundingAt(const ConvexCore& c, const Vec3& n, const Vec3& x) {
 }
 
 /// The part of `body`'s side over the flat face of `flat`, whose outward normal is m.
-void overFace(const ConvexCore& body, const Feature& face, const Vec3& n, bool faceIsB, double margin,
-              std::uint32_t key, std::vector<ManifoldPoint>& points) {
-  const Vec3 m = face.normal;  // of the face, outwards
+void overFace(const ConvexCore& body, const Feature& face, bool faceIsB, double margin, std::uint32_t key,
+              std::vector<ManifoldPoint>& points) {
+  const Vec3 m = face.normal, n = faceIsB ? m : Vec3(-m);  // outwards; from b to a
   Polygon p = polygonOf(featureTowards(body, -m, false));
   for (int i = 0; i < face.count && p.count > 0; ++i) {
     const Vec3 &x = face.points[static_cast<std::size_t>(i)],
@@ -139,9 +139,9 @@ void convexManifold(const ConvexCore& a, const ConvexCore& b, const ConvexGap& g
   const double flatB = fb.count > 2 && b.radius == 0 ? fb.normal.dot(n) : 0,
                flatA = fa.count > 2 && a.radius == 0 ? -fa.normal.dot(n) : 0;
   if (flatB > kFlat && flatB >= flatA - 1e-9) {
-    overFace(a, fb, n, true, margin, key, points);
+    overFace(a, fb, true, margin, key, points);
   } else if (flatA > kFlat) {
-    overFace(b, fa, n, false, margin, key, points);
+    overFace(b, fa, false, margin, key, points);
   } else {
     alongLines(a, featureTowards(a, -n, false), b, featureTowards(b, n, false), n, margin, key, points);
   }

@@ -104,10 +104,16 @@ Local localGap(const Vec3& c, double r, const MeshShape& s, DistanceLimits limit
   ClosestPoint at;
   const std::int32_t i =
       s.tree.nearest(c, limits.limit + r, at, limits.enough > 0 ? limits.enough + r : 0, limits.triangle);
-  if (i < 0) return {1e300, c, Vec3::UnitZ(), false, -1};
+  if (i < 0) {
+    if (limits.limit < 1e300 && s.tree.encloses(c)) return localGap(c, r, s, {});  // deeper than the limit
+    return {1e300, c, Vec3::UnitZ(), false, -1};
+  }
   const Triangle& t = s.tree.triangles()[static_cast<std::size_t>(i)];
+  const bool isBehind = s.tree.closed() && s.tree.outwardsAt(i, at).dot(c - at.point) < 0;
+  // Only the nearest point tells inside from outside.
+  if (isBehind && limits.enough > 0) return localGap(c, r, s, {limits.limit});
   Local l = triangleGap(c, r, t, i, s.tree.closed());
-  if (s.tree.closed() && t.normal.dot(c - at.point) < 0) {  // inside: out the near way
+  if (isBehind) {  // inside: out the near way
     const double depth = (c - at.point).norm();
     l.distance = -depth - r;
     l.normal = depth > kNoWay ? Vec3((at.point - c) / depth) : t.normal;
@@ -173,7 +179,7 @@ private:
   const Pose& X_;
 };
 
-/// Whether the ball's centre is in the mesh, farther than its radius from the surface.
+/// Whether the ball's centre is in the mesh.
 bool isInside(const BallFlight& flight, const MeshShape& mesh) {
   const double r = flight.radius;
   return mesh.tree.closed() && localGap(flight.p, r, mesh, {r}).distance < -r;
@@ -443,6 +449,27 @@ std::optional<Touch> firstTouch(const Side& a, const Side& b, double from, doubl
   return meshesTouch(a, b, from, to, count);
 }
 
+namespace {
+
+Vec3 pointOf(const Shape& shape) {
+  const auto* mesh = std::get_if<MeshShape>(&shape);
+  return mesh && !mesh->tree.empty() ? mesh->tree.corners().front() : boundingSphere(shape).centre;
+}
+
+/// What lies wholly in a closed mesh, whose surface is this far off, is not apart from it.
+void countInside(Gap& gap, const Shape& inner, const Pose& X_WI, const Shape& outer, const Pose& X_WO,
+                 double limit) {
+  const auto* mesh = std::get_if<MeshShape>(&outer);
+  if (!(gap.distance > 0) || !mesh) return;
+  const Vec3 x = X_WI * pointOf(inner);
+  if (!mesh->tree.encloses(X_WO.inverse() * x)) return;
+  if (!(gap.distance < limit)) gap.distance = limit, gap.point = x;
+  gap.distance = -gap.distance;
+  gap.normal = -gap.normal;
+}
+
+}  // namespace
+
 Gap gapBetween(const Side& a, const Side& b, double tau, DistanceLimits limits) {
   if (isBall(a)) {
     if (isBall(b) && isFreeBall(a) && isFreeBall(b)) return ballsGap(a, b, tau);
@@ -467,8 +494,11 @@ Gap gapBetween(const Side& a, const Kinematics& ka, const Side& b, const Kinemat
     const auto* mesh = std::get_if<MeshShape>(b.shape);
     if (mesh) {
       const auto& own = std::get<MeshShape>(*a.shape);
-      return limits.limit < 1e300 ? meshesGapWithin(own.tree, ka.pose, mesh->tree, kb.pose, limits.limit)
-                                  : meshesGap(own, ka.pose, *mesh, kb.pose);
+      Gap gap = limits.limit < 1e300 ? meshesGapWithin(own.tree, ka.pose, mesh->tree, kb.pose, limits.limit)
+                                     : meshesGap(own, ka.pose, *mesh, kb.pose);
+      countInside(gap, *a.shape, ka.pose, *b.shape, kb.pose, limits.limit);
+      countInside(gap, *b.shape, kb.pose, *a.shape, ka.pose, limits.limit);
+      return gap;
     }
     Gap best;  // a mesh over a plane, bounded or not
     for (const Vec3& corner : std::get<MeshShape>(*a.shape).tree.corners()) {
@@ -481,7 +511,9 @@ Gap gapBetween(const Side& a, const Kinematics& ka, const Side& b, const Kinemat
   if (isConvex(*b.shape)) return convexGapBetween(*a.shape, ka.pose, *b.shape, kb.pose);
   if (const auto* plane = std::get_if<PlaneShape>(b.shape))
     return planeGapBetween(*a.shape, ka.pose, *plane, kb.pose);
-  return meshGapBetween(*a.shape, ka.pose, std::get<MeshShape>(*b.shape), kb.pose, limits.limit);
+  Gap gap = meshGapBetween(*a.shape, ka.pose, std::get<MeshShape>(*b.shape), kb.pose, limits.limit);
+  countInside(gap, *a.shape, ka.pose, *b.shape, kb.pose, limits.limit);
+  return gap;
 }
 
 Aabb sweptBox(const Side& side, double from, double to) {

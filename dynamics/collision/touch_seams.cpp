@@ -3,6 +3,7 @@
 #include "dynamics/collision/manifold.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace stadion {
@@ -13,6 +14,8 @@ constexpr double kOpposed = -0.99;   ///< cosine below which two surfaces squeez
 constexpr double kSteep = 0.5;       ///< cosine below which a contact stands across the surface
 constexpr double kAlong = 2e-3;      ///< how far the surface is followed [m]
 constexpr double kInPlane = 0.1;     ///< share of a way by which it may leave a plane
+constexpr double kOwn = 1e-9;        ///< sine of the angle between normals that are the same
+constexpr double kOnePlace = 1e-6;   ///< points that are nearer to each other count once [m]
 
 /// The point of the solid that is nearest to x.
 Vec3 nearestTo(const Vec3& x, const Shape& shape, const Pose& X, double limit, double& distance) {
@@ -36,48 +39,157 @@ bool risesAbove(const Gap& gap, const Shape& piece, const Pose& X, const Vec3& m
 }
 
 /// Whether the surface goes on, from below the contact, on the side that its normal leans to.
-bool goesOn(const Gap& gap, const Bearing& on, double height) {
+bool goesOn(const Gap& gap, const Bearing& on, double height, const std::vector<Bearing>& others) {
   const Vec3 &n = gap.normal, &m = on.gap.normal;
-  const Vec3 lean = n - m * n.dot(m), way = kAlong * lean.normalized();
-  double away = 0;
-  const Vec3 foot = nearestTo(gap.point - height * m + way, *on.shape, on.X_WN, 2 * kFlush, away);
-  return away <= kFlush && n.dot(foot - gap.point) > 0.5 * n.dot(way);
+  const Vec3 lean = n - m * n.dot(m), way = kAlong * lean.normalized(), x = gap.point - height * m + way;
+  const auto liesOn = [&](const Bearing& p) {
+    double away = 0;
+    const Vec3 foot = nearestTo(x, *p.shape, p.X_WN, 2 * kFlush, away);
+    return away <= kFlush && n.dot(foot - gap.point) > 0.5 * n.dot(way);
+  };
+  return liesOn(on) || std::ranges::any_of(others, liesOn);
 }
 
 }  // namespace
 
-bool isHidden(const Gap& gap, const Shape& piece, const Pose& X, const Bearing& on) {
+bool isHidden(const Bearing& own, const Bearing& on, const std::vector<Bearing>& others) {
+  const Gap& gap = own.gap;
   const Vec3 &n = gap.normal, &m = on.gap.normal;
   const double cosine = n.dot(m);
   if ((gap.face && cosine > kAlike) || cosine < kOpposed) return false;
   const double height = m.dot(gap.point - on.gap.point);
   if (height > kFlush || height < -kFlush - std::max(0.0, -on.gap.distance)) return false;
-  if (!(n.cross(m).norm() > 1e-9)) return false;
-  return !risesAbove(gap, piece, X, m, height) && (cosine < kSteep || goesOn(gap, on, height));
+  if (!(n.cross(m).norm() > kOwn)) return false;
+  return !risesAbove(gap, *own.shape, own.X_WN, m, height) &&
+         (cosine < kSteep || goesOn(gap, on, height, others));
 }
 
-std::vector<char> hiddenAmong(const std::vector<Bearing>& points) {
+bool isSquareToPiece(const Bearing& on) {
+  constexpr double kOnIt = 0.01 * kAlong;  // [m]
+  const double diagonal = std::sqrt(0.5);
+  const Vec3 u = on.gap.normal.unitOrthogonal(), v = on.gap.normal.cross(u);
+  const auto liesOn = [&](double x, double y) {
+    double away = 0;
+    nearestTo(on.gap.point + kAlong * (x * u + y * v), *on.shape, on.X_WN, 2 * kAlong, away);
+    return away <= kOnIt;
+  };
+  // Along an edge the piece lies in the plane of contact, but not on both sides of an angle.
+  const std::array<bool, 8> lies{
+      liesOn(1, 0),  liesOn(diagonal, diagonal),   liesOn(0, 1),  liesOn(-diagonal, diagonal),
+      liesOn(-1, 0), liesOn(-diagonal, -diagonal), liesOn(0, -1), liesOn(diagonal, -diagonal)};
+  for (std::size_t i = 0; i < lies.size(); ++i)
+    if (lies[i] && lies[(i + 1) % lies.size()]) return true;
+  return false;
+}
+
+namespace {
+
+/// Returns true if the body touches both, at one place.
+bool areAtOnePlace(const Bearing& a, const Bearing& b) {
+  return b.gap.distance <= kTouching && (a.gap.point - b.gap.point).norm() <= kFlush;
+}
+
+/// The same for two pieces; `up` is about the direction out of their surface.
+std::optional<Vec3> normalOver(const Bearing& a, const Bearing& b, const Vec3& up) {
+  const Vec3 &n = a.gap.normal, &m = b.gap.normal, apart = n - m;
+  // Each leans away from its own piece. From above, a little way on, each piece's surface is looked for.
+  const Vec3 lean = kAlong * (apart - up * up.dot(apart)).normalized();
+  const auto surfaceOf = [&](const Bearing& p, const Vec3& way) {
+    double away = 0;
+    return nearestTo(p.gap.point + way + kAlong * up, *p.shape, p.X_WN, 3 * kAlong, away);
+  };
+  const auto follows = [](const Vec3& from, const Vec3& to, const Vec3& way) {
+    return way.dot(to - from) > 0.5 * way.squaredNorm();
+  };
+  const Vec3 onA = surfaceOf(a, -lean), onB = surfaceOf(b, lean);
+  if (!follows(a.gap.point, onA, -lean) || !follows(b.gap.point, onB, lean)) return {};
+  const Vec3 across = onB - onA, along = kAlong * across.cross(up).normalized();
+  Vec3 normal = up - across * (across.dot(up) / across.squaredNorm());
+  for (const Vec3& way : {along, Vec3(-along)})
+    if (const Vec3 beside = surfaceOf(a, way - lean); follows(onA, beside, way)) {
+      normal = across.cross(beside - onA);
+      break;
+    }
+  normal *= (normal.dot(up) < 0 ? -1 : 1) / normal.norm();
+  if (std::fabs(normal.dot(a.gap.point - onA)) > kFlush || std::fabs(normal.dot(b.gap.point - onB)) > kFlush)
+    return {};
+  if (n.cross(normal).norm() < kOwn || m.cross(normal).norm() < kOwn) return {};
+  return normal;
+}
+
+}  // namespace
+
+std::optional<Vec3> normalOverSlit(const Bearing& a, const std::vector<Bearing>& others) {
+  Vec3 up = a.gap.normal;
+  for (const Bearing& on : others)
+    if (areAtOnePlace(a, on)) up += on.gap.normal;
+  if (!(up.norm() > 1e-3)) return {};
+  up.normalize();
+  const auto faces = [&](const Vec3& normal) {  // all that touch there
+    return std::ranges::all_of(
+        others, [&](const Bearing& on) { return !areAtOnePlace(a, on) || on.gap.normal.dot(normal) > 0; });
+  };
+  // The piece across is the one with the normal that differs most.
+  std::optional<Vec3> found;
+  double least = 1;
+  for (const Bearing& on : others) {
+    const double cosine = a.gap.normal.dot(on.gap.normal);
+    if (!areAtOnePlace(a, on) || !(cosine < least) || cosine < kOpposed) continue;
+    if (a.gap.normal.cross(on.gap.normal).norm() < kOwn) continue;
+    if (a.of == on.of && !std::holds_alternative<MeshShape>(*a.shape)) continue;
+    if (const auto normal = normalOver(a, on, up); normal && faces(*normal)) found = normal, least = cosine;
+  }
+  return found;
+}
+
+namespace {
+
+/// Gives points at a slit the normal of the surface there. Marks all but one of those at one place as gone.
+/// Returns true if there are any.
+bool joinOverSlits(std::vector<Bearing>& points, std::vector<char>& gone) {
+  std::vector<Bearing> left;
+  for (std::size_t i = 0; i < points.size(); ++i)
+    if (!gone[i]) left.push_back(points[i]);
+  std::vector<std::size_t> turned;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (gone[i] || points[i].gap.distance > kTouching) continue;
+    if (const auto normal = normalOverSlit(points[i], left)) {
+      points[i].gap.normal = *normal;
+      turned.push_back(i);
+    }
+  }
+  for (std::size_t k = 0; k < turned.size(); ++k)
+    for (std::size_t l = 0; l < k; ++l) {
+      const Gap &p = points[turned[k]].gap, &kept = points[turned[l]].gap;
+      if (!gone[turned[l]] && (p.point - kept.point).norm() < kOnePlace && p.normal.dot(kept.normal) > kAlike)
+        gone[turned[k]] = 1;
+    }
+  return !turned.empty();
+}
+
+}  // namespace
+
+std::vector<char> hiddenAmong(std::vector<Bearing>& points) {
   const std::size_t n = points.size();
   const auto differs = [&](const Bearing& p) {
     return p.of != points[0].of || p.gap.normal.dot(points[0].gap.normal) < 1 - 1e-12;
   };
   if (n < 2 || std::ranges::none_of(points, differs)) return {};
-  std::vector<char> hidden(n, 0);
+  std::vector<char> hidden(n, 0), gone(n, 0);
   std::vector<std::pair<std::size_t, std::size_t>> hides;  // which bearing, which other
   for (std::size_t i = 0; i < n; ++i)
     for (std::size_t k = 0; k < n; ++k) {
       const Bearing &p = points[i], &on = points[k];
       if (i == k || on.gap.distance > kTouching) continue;
       if (p.of == on.of && !std::holds_alternative<MeshShape>(*p.shape)) continue;
-      if (isHidden(p.gap, *p.shape, p.X_WN, on)) {
+      if (isHidden(p, on, points)) {
         hides.emplace_back(k, i);
         hidden[i] = 1;
       }
     }
-  if (hides.empty()) return {};
-  std::vector<char> gone(n, 0);
   for (const auto& [by, hiddenOne] : hides)
     if (!hidden[by]) gone[hiddenOne] = 1;
+  if (!joinOverSlits(points, gone) && hides.empty()) return {};
   return gone;
 }
 

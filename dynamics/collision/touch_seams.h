@@ -9,9 +9,12 @@
 ///          2. the touched piece does not go on along n's plane to above that surface, and
 ///          3. where n and m differ by less than 60 degrees, the surface goes on on the side that n leans to.
 ///          So steps below kFlush are no edges; a step above it is one.
+/// Slits    a corner that comes down between two flush pieces touches an edge of each. Both normals are the
+///          body's then. The surface that the pieces make up gives the one normal that counts.
 
 #include "dynamics/collision/touch.h"
 
+#include <optional>
 #include <vector>
 
 namespace stadion {
@@ -26,12 +29,21 @@ struct Bearing {
   Gap gap;    ///< normal to the body
 };
 
-/// Returns true if the contact `gap` of a body with a piece at X_WN is hidden by the surface `on` that it
-/// touches as well.
-bool isHidden(const Gap& gap, const Shape& piece, const Pose& X_WN, const Bearing& on);
+/// Returns true if the contact `own` of a body is hidden by the surface `on` that it touches as well. That
+/// surface may go on over the pieces of `others`.
+bool isHidden(const Bearing& own, const Bearing& on, const std::vector<Bearing>& others);
+
+/// Returns true if the normal of this contact is the one of the piece's surface, as it is not at an edge that
+/// the body leans over.
+bool isSquareToPiece(const Bearing& on);
+
+/// The normal of the surface that pieces make up, if the body touches `a` and one of `others` at a slit between
+/// them and neither normal is that of the surface.
+std::optional<Vec3> normalOverSlit(const Bearing& a, const std::vector<Bearing>& others);
 
 /// Which points of one body the surfaces at others hide, one flag each; empty if none. What only hidden ones
-/// hide counts as not hidden: something must carry the body.
-std::vector<char> hiddenAmong(const std::vector<Bearing>& points);
+/// hide counts as not hidden: something must carry the body. Points at a slit get the normal of the surface,
+/// and count once.
+std::vector<char> hiddenAmong(std::vector<Bearing>& points);
 
 }  // namespace stadion

@@ -1,6 +1,6 @@
 #include "dynamics/contact/patch_impact.h"
 
-#include "dynamics/collision/manifold.h"
+#include "dynamics/collision/touch_seams.h"
 #include "dynamics/contact/contact_area.h"
 #include "dynamics/contact/contact_solver.h"
 #include "dynamics/shapes/convex_core.h"
@@ -36,8 +36,10 @@ public:
   FlatLanding(const Side& a, double tau, const Gap& first, const SolverBody& ma, const SolverBody& mb)
       : a_(a), tau_(tau), first_(first), ma_(ma), mb_(mb) {}
 
-  /// Adds the points that strike `side`, whose part is null for the first side.
+  /// Looks for points that may strike `side`, whose part is null for the first side.
   void gather(const Side& side, PatchSide* part, double bounce, double grip);
+  /// Chooses those that strike with the first one, after all sides have been gathered.
+  void choose();
   std::size_t size() const { return contacts_.size(); }
   /// Adds the friction over the areas between the points of `side`.
   void flatten(const Side& side, PatchSide* part, double grip);
@@ -53,12 +55,19 @@ public:
   }
 
 private:
+  struct Strike {
+    PatchSide* part;
+    double bounce, grip;
+  };
+
   const Side& a_;
   double tau_;
   const Gap& first_;
   const SolverBody &ma_, &mb_;              ///< before the impact
   std::vector<SolverBody> before_, after_;  ///< of solve()
   std::vector<ManifoldPoint> points_;       ///< gather()'s own
+  std::vector<Bearing> near_;               ///< what has been gathered
+  std::vector<Strike> strikes_;             ///< the same, by point
   std::vector<SolverContact> contacts_;
   std::vector<PatchSide*> whose_;   ///< by contact; null: the first side's
   std::vector<Gap> gaps_;           ///< by point
@@ -67,21 +76,33 @@ private:
 };
 
 void FlatLanding::gather(const Side& side, PatchSide* part, double bounce, double grip) {
-  // A scheme of steps reports a touch early. The others are as far away then, and strike with the first one.
-  const double early = first_.distance > kSameImpact ? first_.distance : 0;
   manifold(a_, side, tau_, std::max(first_.distance, 0.0) + kSameImpact, points_);
   for (const ManifoldPoint& p : points_) {
-    const double comes = closing(ma_, mb_, p.gap);
-    if (p.gap.normal.dot(first_.normal) < kSameSide || !(p.gap.distance - early < kSoon * comes)) continue;
+    near_.push_back({side.key, side.shape, side.at(tau_).pose, p.gap});
+    strikes_.push_back({part, bounce, grip});
+  }
+}
+
+void FlatLanding::choose() {
+  // A scheme of steps reports a touch early. The others are as far away then, and strike with the first one.
+  const double early = first_.distance > kSameImpact ? first_.distance : 0;
+  const std::vector<char> hidden = hiddenAmong(near_);
+  for (std::size_t i = 0; i < near_.size(); ++i) {
+    const Gap& gap = near_[i].gap;
+    const Strike& strike = strikes_[i];
+    const double comes = closing(ma_, mb_, gap);
+    if ((!hidden.empty() && hidden[i]) || gap.normal.dot(first_.normal) < kSameSide ||
+        !(gap.distance - early < kSoon * comes))
+      continue;
     SolverContact c;
     c.b = 1;
-    c.placeAt(p.gap.point, p.gap.normal, ma_.p, mb_.p);
-    c.friction = grip;
-    c.floor = bounce * comes;
+    c.placeAt(gap.point, gap.normal, ma_.p, mb_.p);
+    c.friction = strike.grip;
+    c.floor = strike.bounce * comes;
     contacts_.push_back(c);
-    whose_.push_back(part);
-    gaps_.push_back(p.gap);
-    if (part) part->closing = std::max(part->closing, comes);
+    whose_.push_back(strike.part);
+    gaps_.push_back(gap);
+    if (strike.part) strike.part->closing = std::max(strike.part->closing, comes);
   }
 }
 
@@ -142,6 +163,7 @@ std::optional<PatchImpact> collidePatch(const Side& a, const Side& b, double tau
     part.closing = 0;
     landing.gather(part.side, &part, part.restitution, part.friction);
   }
+  landing.choose();
   if (landing.size() < 2) return {};
   landing.flatten(b, nullptr, friction);
   for (PatchSide& part : beside) landing.flatten(part.side, &part, part.friction);

@@ -1,5 +1,7 @@
 #include "dynamics/shapes/triangle_tree.h"
 
+#include "engine/maths/functions.h"
+
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -203,6 +205,35 @@ void TriangleTree::overlapping(const Aabb& box, std::vector<std::uint32_t>& foun
   found.clear();
   walk([&](const Aabb& b) { return b.overlaps(box); }, [&](std::uint32_t i) { found.push_back(i); });
   std::sort(found.begin(), found.end());
+}
+
+Vec3 TriangleTree::outwardsAt(std::int32_t triangle, const ClosestPoint& at) const {
+  const auto i = static_cast<std::size_t>(triangle);
+  const Triangle& t = triangles_[i];
+  if (at.edge < 0) return t.normal;
+  const auto k = static_cast<std::size_t>(at.edge);
+  if (!at.corner) {
+    const std::int32_t next = t.next[k];
+    return next < 0 ? t.normal : Vec3(t.normal + triangles_[static_cast<std::size_t>(next)].normal);
+  }
+  const std::uint32_t corner = cornersOf_[i][k];
+  Vec3 sum = Vec3::Zero();
+  for (const std::uint32_t j : around(corner)) {
+    const auto& own = cornersOf_[j];
+    const std::size_t m = own[0] == corner ? 0 : own[1] == corner ? 1 : 2;
+    const Triangle& u = triangles_[j];
+    const Vec3 a = u.v[(m + 1) % 3] - u.v[m], b = u.v[(m + 2) % 3] - u.v[m];
+    sum += det::atan2(a.cross(b).norm(), a.dot(b)) * u.normal;
+  }
+  return sum;
+}
+
+bool TriangleTree::encloses(const Vec3& p) const {
+  if (!closed_ || (p.array() < bounds_.lo.array()).any() || (p.array() > bounds_.hi.array()).any())
+    return false;
+  ClosestPoint at;
+  const std::int32_t i = nearest(p, 1e300, at);
+  return i >= 0 && outwardsAt(i, at).dot(p - at.point) < 0;
 }
 
 std::int32_t TriangleTree::nearest(const Vec3& p, double limit, ClosestPoint& at, double enough,

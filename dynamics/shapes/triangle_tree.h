@@ -76,6 +76,14 @@ public:
   std::int32_t nearest(const Vec3& p, double limit, ClosestPoint& at, double enough = 0,
                        std::int32_t hint = -1) const;
 
+  /// Direction out of the mesh at the point of a triangle that is nearest to something: there, a point is
+  /// inside of a closed mesh if it lies against this. Not of unit length.
+  /// Source   Baerentzen, Aanaes, Signed distance computation using the angle weighted pseudonormal, IEEE
+  ///          TVCG 11 (2005) 243.
+  Vec3 outwardsAt(std::int32_t triangle, const ClosestPoint& at) const;
+  /// Returns true if p is inside of the mesh, however deep. An open mesh has no inside.
+  bool encloses(const Vec3& p) const;
+
   struct Node {
     Aabb box;
     std::uint32_t first = 0;  ///< leaf: first triangle in order(); inner: right child (left is the next node)

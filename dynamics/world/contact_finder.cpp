@@ -10,14 +10,27 @@
 namespace stadion {
 namespace {
 
-constexpr double kUsualPull = 9.81;             ///< that others in contact feel at least [m/s2]
-constexpr double kOneHeight = 1e-7;             ///< points that differ less in height lie in one plane [m]
+constexpr double kUsualPull = 9.81;  ///< that others in contact feel at least [m/s2]
+constexpr double kOneHeight = 1e-7;  ///< points that differ less in height lie in one plane [m]
+constexpr double kBeside = 1e-5;  ///< the point of an edge that is nearest to a body is known this well [m]
 constexpr double kOneDirection = 1 - 1e-12;     ///< cosine between normals that are one
 constexpr std::uint32_t kNowhere = 0xffffffff;  ///< slot of a body that is in no set yet
 
-/// Which of these points in a plane are corners of their convex hull; of points at one place one.
-std::vector<char> hullCorners(const std::vector<Vec2>& p) {
-  constexpr double kOnLine = 1e-7;  // [m]
+/// Turns the places so that they spread along x, where rounding does not order them.
+void spreadAlongX(std::vector<Vec2>& p) {
+  const Vec2 from = p.front();
+  Vec2 far = Vec2::Zero();
+  for (const Vec2& x : p)
+    if ((x - from).squaredNorm() > far.squaredNorm()) far = x - from;
+  if (!(far.squaredNorm() > 0)) return;
+  const Vec2 along = far.normalized(), across(-along.y(), along.x());
+  for (Vec2& x : p) x = {along.dot(x - from), across.dot(x - from)};
+}
+
+/// Which of these points in a plane stand out of their convex hull by more than `onLine` [m]; of points at one
+/// place one.
+std::vector<char> hullCorners(std::vector<Vec2> p, double onLine) {
+  spreadAlongX(p);
   std::vector<std::size_t> order(p.size());
   for (std::size_t i = 0; i < p.size(); ++i) order[i] = i;
   std::ranges::sort(order, [&](std::size_t i, std::size_t k) {
@@ -27,13 +40,13 @@ std::vector<char> hullCorners(const std::vector<Vec2>& p) {
                          std::size_t c) {  // b is farther than rounding left of a to c
     const Vec2 along = p[c] - p[a], to = p[b] - p[a];
     const double cross = along.x() * to.y() - along.y() * to.x();
-    return -cross > kOnLine * along.norm();
+    return -cross > onLine * along.norm();
   };
   std::vector<std::size_t> hull;
   for (int pass = 0; pass < 2; ++pass) {
     const std::size_t begin = hull.size();
     for (const std::size_t i : order) {
-      if (hull.size() > begin && (p[hull.back()] - p[i]).norm() < kOnLine) continue;
+      if (hull.size() > begin && (p[hull.back()] - p[i]).norm() < onLine) continue;
       while (hull.size() > begin + 1 && !turns(hull[hull.size() - 2], hull.back(), i)) hull.pop_back();
       hull.push_back(i);
     }
@@ -45,14 +58,17 @@ std::vector<char> hullCorners(const std::vector<Vec2>& p) {
   return corner;
 }
 
-/// Returns true if both lie on one plane, at one height, and feel alike.
-bool feelAlike(const FoundContact& f, const FoundContact& o) {
+/// Returns true if both lie on one plane, and the pieces there feel alike.
+bool areOnOnePlane(const FoundContact& f, const FoundContact& o) {
   return f.gap.normal.dot(o.gap.normal) > kOneDirection &&
          std::fabs(f.gap.normal.dot(f.gap.point - o.gap.point)) < kOneHeight &&
-         std::fabs(f.gap.distance - o.gap.distance) < kOneHeight &&
          f.surface.friction == o.surface.friction && f.surface.restitution == o.surface.restitution &&
-         f.surface.rolling == o.surface.rolling && f.carrier == o.carrier &&
-         f.rounding.radius == o.rounding.radius;
+         f.surface.rolling == o.surface.rolling;
+}
+
+/// Returns true if the body has the same form at both.
+bool haveOneForm(const FoundContact& f, const FoundContact& o) {
+  return f.carrier == o.carrier && f.rounding.radius == o.rounding.radius;
 }
 
 /// Fills `places` with where the contacts of the group are in their plane, relative to the first.
@@ -63,6 +79,31 @@ void placesOf(const std::vector<std::size_t>& group, const std::vector<FoundCont
   places.clear();
   for (const std::size_t k : group)
     places.push_back((basis.transpose() * (found[k].gap.point - first.point)).tail<2>());
+}
+
+/// Returns true if the body's points of the group, at these places, lie in one plane too, which may tilt.
+bool isEvenOver(const std::vector<std::size_t>& group, const std::vector<FoundContact>& found,
+                const std::vector<Vec2>& places) {
+  const auto many = static_cast<double>(group.size());
+  Vec2 middle = Vec2::Zero();
+  double height = 0;
+  for (std::size_t g = 0; g < group.size(); ++g) {
+    middle += places[g] / many;
+    height += found[group[g]].gap.distance / many;
+  }
+  Eigen::Matrix2d spread = Eigen::Matrix2d::Zero();
+  Vec2 tilt = Vec2::Zero();
+  for (std::size_t g = 0; g < group.size(); ++g) {
+    const Vec2 x = places[g] - middle;
+    spread += x * x.transpose();
+    tilt += (found[group[g]].gap.distance - height) * x;
+  }
+  spread += 1e-12 * spread.trace() * Eigen::Matrix2d::Identity();  // they may lie on a line
+  tilt = spread.inverse() * tilt;
+  for (std::size_t g = 0; g < group.size(); ++g)
+    if (!(std::fabs(found[group[g]].gap.distance - height - tilt.dot(places[g] - middle)) < kOneHeight))
+      return false;
+  return true;
 }
 
 template <class T>
@@ -209,26 +250,35 @@ void ContactFinder::dropHidden(const RigidBody& b, double tau, std::size_t first
   const std::vector<char> hidden = hiddenAmong(points);
   std::vector<char> gone(found.size(), 0);
   for (std::size_t k = 0; k < hidden.size(); ++k)
-    if (hidden[k]) {
+    if (!hidden[k]) {
+      found[whose[k]].gap.normal = points[k].gap.normal;
+    } else {
       beside_.push_back({b.id, found[whose[k]].b, false});
       gone[whose[k]] = 1;
     }
   eraseMarked(found, first, gone);
 }
 
-/// Points on one plane of flush colliders that feel alike count as those of one of them, and what lies
-/// between others of them is left out: they carry the body as one face would.
+/// Points on one plane of flush pieces that feel alike count as those of one of them, and what lies between
+/// others of them is left out: they carry the body as one face would.
 void ContactFinder::joinFlush(const RigidBody& b, std::size_t first, std::vector<FoundContact>& found) {
   std::vector<char> gone(found.size(), 0), grouped(found.size(), 0);
   std::vector<std::size_t> group;
   std::vector<Vec2> places;
   bool any = false;
   for (std::size_t i = first; i < found.size(); ++i) {
-    if (grouped[i] || !isOnStillCollider(found[i])) continue;
+    if (grouped[i] || gone[i] || !isOnStillCollider(found[i])) continue;
     if (!groupOf(i, found, grouped, group)) continue;
     placesOf(group, found, places);
+    if (!isEvenOver(group, found, places)) {
+      std::erase_if(group, [&](std::size_t k) {
+        return std::fabs(found[k].gap.distance - found[i].gap.distance) >= kOneHeight;
+      });
+      placesOf(group, found, places);
+    }
     for (const std::size_t k : group) grouped[k] = 1;
-    any = keepCorners(b, group, hullCorners(places), found, gone) || any;
+    any = dropBetween(b, first, group, found, gone) || any;
+    any = keepCorners(b, group, hullCorners(places, kOneHeight), found, gone) || any;
   }
   if (any) eraseMarked(found, first, gone);
 }
@@ -237,17 +287,45 @@ bool ContactFinder::isOnStillCollider(const FoundContact& f) const {
   return !f.b.isBody && !objects_.collider(f.b.id)->motion.moving;
 }
 
-/// Fills `group` with contact i and the later ones that are like it. False if all are of one collider.
+/// Fills `group` with contact i and the later ones that are like it. False if all are of one piece.
 bool ContactFinder::groupOf(std::size_t i, const std::vector<FoundContact>& found,
                             const std::vector<char>& grouped, std::vector<std::size_t>& group) const {
   group.assign(1, i);
-  bool several = false;
+  bool several = std::holds_alternative<MeshShape>(*objects_.collider(found[i].b.id)->shape);
   for (std::size_t k = i + 1; k < found.size(); ++k)
-    if (!grouped[k] && isOnStillCollider(found[k]) && feelAlike(found[i], found[k])) {
+    if (!grouped[k] && isOnStillCollider(found[k]) && areOnOnePlane(found[i], found[k]) &&
+        haveOneForm(found[i], found[k])) {
       group.push_back(k);
       several = several || found[k].b != found[i].b;
     }
-  return several;
+  return several && group.size() > 1;
+}
+
+/// Marks points of edges that lie between those of the group as gone: they carry nothing more. False if there
+/// is none.
+bool ContactFinder::dropBetween(const RigidBody& b, std::size_t first, const std::vector<std::size_t>& group,
+                                const std::vector<FoundContact>& found, std::vector<char>& gone) {
+  bool any = false;
+  std::vector<std::size_t> more = group;
+  std::vector<Vec2> places;
+  const FoundContact& one = found[group.front()];
+  for (std::size_t k = first; k < found.size(); ++k) {
+    const FoundContact& f = found[k];
+    if (gone[k] || f.gap.face || f.carrier != Carrier::None || haveOneForm(one, f) || !isOnStillCollider(f) ||
+        !areOnOnePlane(one, f))
+      continue;
+    more.resize(group.size());
+    more.push_back(k);
+    placesOf(more, found, places);
+    const auto isThere = [&](const Vec2& x) { return (x - places.back()).norm() < kBeside; };
+    if (!isEvenOver(more, found, places) ||
+        (hullCorners(places, kBeside).back() && std::none_of(places.begin(), places.end() - 1, isThere)))
+      continue;
+    beside_.push_back({b.id, f.b, f.gap.distance < kTouching});
+    gone[k] = 1;
+    any = true;
+  }
+  return any;
 }
 
 /// Renames the contacts at corners to one collider, and marks the others as gone. False if there is none.

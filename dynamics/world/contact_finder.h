@@ -57,6 +57,8 @@ private:
   bool isOnStillCollider(const FoundContact& f) const;
   bool groupOf(std::size_t i, const std::vector<FoundContact>& found, const std::vector<char>& grouped,
                std::vector<std::size_t>& group) const;
+  bool dropBetween(const RigidBody& b, std::size_t first, const std::vector<std::size_t>& group,
+                   const std::vector<FoundContact>& found, std::vector<char>& gone);
   bool keepCorners(const RigidBody& b, const std::vector<std::size_t>& group, const std::vector<char>& corner,
                    std::vector<FoundContact>& found, std::vector<char>& gone);
 

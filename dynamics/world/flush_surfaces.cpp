@@ -125,14 +125,28 @@ std::vector<Bearing> FlushSurfaces::bearingsOf(const RigidBody& b, double tau, c
   return bearings;
 }
 
-/// Returns true if the body meets there only what a surface that it already touches hides.
-bool FlushSurfaces::isHiddenTouch(const Side& a, const Side& b, const Touch& touch) const {
+/// Returns true if the body meets there only what a surface that it already touches hides. A touch at a slit
+/// gets the normal of the surface.
+bool FlushSurfaces::isHiddenTouch(const Side& a, const Side& b, Touch& touch) const {
   const Side &body = a.body ? a : b, &piece = a.body ? b : a;
   if (!body.body || !piece.collider || !body.body->movable()) return false;
-  const Gap gap = fromBody(touch, a.body != nullptr);
-  const Pose X = piece.at(touch.tau).pose;
-  return std::ranges::any_of(bearingsOf(*body.body, touch.tau, *piece.collider),
-                             [&](const Bearing& on) { return isHidden(gap, *piece.shape, X, on); });
+  const Bearing own{piece.key, piece.shape, piece.at(touch.tau).pose, fromBody(touch, a.body != nullptr)};
+  const std::vector<Bearing> bearings = bearingsOf(*body.body, touch.tau, *piece.collider);
+  const auto normal = normalOverSlit(own, bearings);
+  for (const Bearing& on : bearings) {
+    const bool hides = normal ? (on.gap.point - own.gap.point).norm() <= kFlush : isHidden(own, on, bearings);
+    if (!hides) continue;
+    // Where each hides the other, as at a slit, the one counts that carries the body already.
+    if (carriesAlready(*body.body, on.of)) return true;
+    if (!normal && !isHidden(on, own, bearings) && isSquareToPiece(on)) return true;
+  }
+  if (normal) touch.gap.normal = a.body ? *normal : Vec3(-*normal);
+  return false;
+}
+
+/// Returns true if the body is in contact with the piece, or rolls or slides on it.
+bool FlushSurfaces::carriesAlready(const RigidBody& b, ContactSide piece) const {
+  return b.support.on == piece || memory_.touching(ContactMemory::keyOf(piece, {true, b.id}));
 }
 
 /// The first touch in [from, to] that is more than a seam.

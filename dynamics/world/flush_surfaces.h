@@ -39,7 +39,8 @@ private:
   template <class F>
   void eachColliderAt(const RigidBody& b, double tau, F f) const;
   std::vector<Bearing> bearingsOf(const RigidBody& b, double tau, const Collider& but) const;
-  bool isHiddenTouch(const Side& a, const Side& b, const Touch& touch) const;
+  bool isHiddenTouch(const Side& a, const Side& b, Touch& touch) const;
+  bool carriesAlready(const RigidBody& b, ContactSide piece) const;
 
   const WorldObjects& objects_;
   const SweptBoxes& boxes_;

@@ -44,6 +44,12 @@ double whenApart(const Side& a, const Side& b, double far, double lo, double hi)
 
 namespace {
 
+/// How far the two must go at least until they are `far` apart. How deep they overlap does not count: that is
+/// known along one direction only.
+double wayTo(double far, const Gap& gap) {
+  return far - std::max(0.0, gap.distance);
+}
+
 double reachOf(const Side& s) {
   return s.body ? s.body->reach : s.bound().centre.norm() + s.bound().radius;
 }
@@ -126,7 +132,7 @@ std::optional<double> firstBeyond(const Side& a, const Side& b, double far, doub
   int steps = 0;
   for (double tau = from; tau <= to;) {
     const Kinematics ka = a.at(tau), kb = b.at(tau);
-    const double left = far - gapBetween(a, ka, b, kb, {far + 1e-3}).distance;
+    const double left = wayTo(far, gapBetween(a, ka, b, kb, {far + 1e-3}));
     if (left < 0) return tau == from ? from : whenApart(a, b, far, near, tau);
     if (tau == to) break;
     near = tau;
@@ -238,7 +244,7 @@ void ReleaseWatch::reportReleases() {
       continue;
     }
     w.triangle = gap.triangle;
-    awaitRelease(w, a, b, std::max(0.0, far - gap.distance), time_.now());
+    awaitRelease(w, a, b, std::max(0.0, wayTo(far, gap)), time_.now());
   }
   std::ranges::sort(due);
   for (const auto& [key, time] : due) release(key, time);

@@ -41,7 +41,8 @@ struct Bedroom {
   ContactSide shelf;
   Pose shelfPose;
   std::vector<BodyId> sleepers;
-  std::vector<Vec3> beds;  ///< where they slept
+  std::vector<Vec3> beds;        ///< where they slept
+  std::vector<double> farthest;  ///< that each has been from there since [m]
   Nanoseconds now = 0;
 
   Bedroom(Carrier c, Lying lying, Solid kind, double gravityLasts = 0) : carrier(c) {
@@ -103,6 +104,8 @@ struct Bedroom {
       const Nanoseconds to = start + fromSeconds(i / rate);
       w.advance(now, to);
       now = to;
+      for (std::size_t k = 0; k < beds.size(); ++k)
+        farthest[k] = std::max(farthest[k], (w.state(sleepers[k]).p - beds[k]).norm());
     }
   }
   bool asleep() const {
@@ -112,6 +115,7 @@ struct Bedroom {
   bool settles() {
     for (int i = 0; i < 40 && !asleep(); ++i) play(0.5);
     for (const BodyId b : sleepers) beds.push_back(w.state(b).p);
+    farthest.assign(beds.size(), 0);
     return asleep();
   }
   void moveShelf(const Pose& end, bool jump = false) {
@@ -129,9 +133,8 @@ struct Bedroom {
     Pose X = w.pose(sleepers[i]);
     play(0.5, [&] { X.p.y() += 0.1, w.moveHeld(sleepers[i], X); });
   }
-  bool noticed(std::size_t i, double gone = kGone) const {
-    return (w.state(sleepers[i]).p - beds[i]).norm() > gone;
-  }
+  /// What the shelf has turned into may be pushed out again to about where it was.
+  bool noticed(std::size_t i, double gone = kGone) const { return farthest[i] > gone; }
 };
 
 /// What happens to the shelf, to a field, or to the sleeper below another.
