@@ -15,9 +15,11 @@ double riseTime(double g, double u, double b) {
 }
 
 /// When a height h over a surface, that changes at the rate u, falls to zero under b; 0 if it has, infinity
-/// if it does not within `most`.
+/// if it does not within `most`, as of what goes along the surface.
 double ballFallTime(double h, double u, double b, double most) {
   constexpr double kLeaves = 1e-9;  ///< so deep it has just bounced [m]
+  constexpr double kAlong = 1e-12;  ///< slower it does not come nearer [m/s]
+  if (h <= 0 && h > -kLeaves && u > -kAlong && b >= 0) return kNever;
   if (h <= 0 && !(u > 0 && h > -kLeaves)) return 0;
   h = std::max(h, 0.0);
   const double d = u * u - 2 * b * h;

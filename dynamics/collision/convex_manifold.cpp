@@ -6,9 +6,10 @@
 namespace stadion {
 namespace {
 
-constexpr double kFlat = 0.9999;      ///< a face this square to the normal carries a patch
-constexpr std::size_t kMost = 16;     ///< points of a pair
-constexpr double kUpright = 0.99999;  ///< a disc nearer to flat lies on points that turn with it
+constexpr double kFlat = 0.9999;        ///< a face this square to the normal carries a patch
+constexpr double kFlatEdge = 1 - 1e-9;  ///< cosine between faces that are one
+constexpr std::size_t kMost = 16;       ///< points of a pair
+constexpr double kUpright = 0.99999;    ///< a disc nearer to flat lies on points that turn with it
 constexpr double kWall = 0.2;  ///< share of its size by which a body may be behind a face that it touches
 
 struct Corner {
@@ -174,7 +175,9 @@ void planeManifold(const ConvexCore& a, const Vec3& n, double level, double marg
   thin(points, before, 8);
 }
 
-bool meshNormal(const ConvexCore& a, const ConvexCore& face, const Triangle& t, ConvexGap& gap) {
+bool meshNormal(const ConvexCore& a, const ConvexCore& face, const TriangleTree& tree, std::uint32_t triangle,
+                ConvexGap& gap) {
+  const Triangle& t = tree.triangles()[triangle];
   const double facing = face.normal.dot(gap.normal);
   if (std::fabs(facing) > kFlat) return true;
   // Which edge or corner is it that sticks out here?
@@ -191,9 +194,13 @@ bool meshNormal(const ConvexCore& a, const ConvexCore& face, const Triangle& t, 
   if (edge < 0 || !t.merged[static_cast<std::size_t>(edge)]) return true;
   const Vec3 n = facing < 0 && face.normal.dot(a.middle() - face.v[0]) < 0 ? Vec3(-face.normal) : face.normal;
   const double depth = a.extent(-n) + n.dot(face.v[0]);
-  // Far behind that face it has not come through it: the face stands on it like a wall.
+  // Far behind that face it has not come through it: the face stands on it like a wall. But an edge in the
+  // middle of a flat part does not touch it.
   const double across = std::min(a.extent(n) + a.extent(-n), (face.v[1] - face.v[0]).norm());
-  if (depth > kWall * across) return true;
+  if (depth > kWall * across) {
+    const std::int32_t next = t.next[static_cast<std::size_t>(edge)];
+    return next < 0 || tree.triangles()[static_cast<std::size_t>(next)].normal.dot(t.normal) < kFlatEdge;
+  }
   gap.normal = n;
   gap.distance = -depth;
   gap.onA = gap.onB = a.support(-n) - a.radius * n;
@@ -218,7 +225,7 @@ void meshManifold(const ConvexCore& a, const MeshShape& mesh, const Pose& X, dou
     ConvexGap g = convexGap(a, face, behind ? Vec3(-face.normal) : face.normal);
     if (!(g.distance < margin)) return;
     const std::size_t first = points.size();
-    const bool own = meshNormal(a, face, t, g);
+    const bool own = meshNormal(a, face, mesh.tree, i, g);
     convexManifold(a, face, g, margin, (i + 1) * 8192, points);
     for (std::size_t k = points.size(); k-- > first;) {
       ManifoldPoint& p = points[k];

@@ -26,6 +26,7 @@ void meshManifold(const ConvexCore& a, const MeshShape& mesh, const Pose& X_RM, 
 
 /// The direction from the triangle to the body: the face's own where an edge is merged away. False: some
 /// other triangle speaks for this place.
-bool meshNormal(const ConvexCore& a, const ConvexCore& face, const Triangle& t, ConvexGap& gap);
+bool meshNormal(const ConvexCore& a, const ConvexCore& face, const TriangleTree& tree, std::uint32_t triangle,
+                ConvexGap& gap);
 
 }  // namespace stadion

@@ -355,7 +355,7 @@ private:
   void searchPiece(double begin, double end) {
     double until = end;
     mesh_.tree.eachOverlapping(sweptBox(begin, end), [&](std::uint32_t i) {
-      auto t = touchOf(mesh_.tree.triangles()[i], begin, until);
+      auto t = touchOf(i, begin, until);
       if (!t || (best_ && t->tau >= best_->tau)) return;
       t->gap.triangle = static_cast<std::int32_t>(i);
       best_ = t;
@@ -363,7 +363,7 @@ private:
     });
   }
 
-  std::optional<Touch> touchOf(const Triangle& face, double begin, double until) {
+  std::optional<Touch> touchOf(std::uint32_t face, double begin, double until) {
     placed_ = false;
     return advance(
         a_, &b_, a_.acceleration + b_.acceleration, begin, until, tolerance_, count_,
@@ -375,15 +375,15 @@ private:
   }
 
   /// Moves body and face to tau.
-  void place(const Triangle& face, double tau) {
+  void place(std::uint32_t face, double tau) {
     coreOf(*body_.shape, a_.moveTo(tau, origin_), a_.core);
     if (placed_ && meshSide_.still()) return;
-    b_.core = coreOf(face, b_.moveTo(tau, origin_));
+    b_.core = coreOf(mesh_.tree.triangles()[face], b_.moveTo(tau, origin_));
     if (!placed_) guess_ = a_.core.middle() - b_.core.middle();
     placed_ = true;
   }
 
-  ConvexGap gapTo(const Triangle& face, std::optional<double>& level) {
+  ConvexGap gapTo(std::uint32_t face, std::optional<double>& level) {
     ConvexGap g;
     if (gapOverFace(a_.core, b_.core, kFar * a_.reach, g) && g.distance > 1e-6) {
       if (meshSide_.still()) level = g.normal.dot(g.onB);
@@ -391,7 +391,7 @@ private:
     }
     g = convexGap(a_.core, b_.core, guess_, kRough);
     guess_ = g.normal;
-    if (g.distance < 1e-6) meshNormal(a_.core, b_.core, face, g);
+    if (g.distance < 1e-6) meshNormal(a_.core, b_.core, mesh_.tree, face, g);
     return g;
   }
 
@@ -514,7 +514,7 @@ Gap meshGapBetween(const Shape& a, const Pose& X_WA, const MeshShape& mesh, cons
         const Triangle& t = mesh.tree.triangles()[i];
         const ConvexCore face = coreOf(t, Pose{});
         ConvexGap g = convexGap(c, face, middle - face.middle());
-        if (g.distance < 0) meshNormal(c, face, t, g);
+        if (g.distance < 0) meshNormal(c, face, mesh.tree, i, g);
         if (g.distance < best.distance)
           best = {g.distance, g.onB, g.normal, false, static_cast<std::int32_t>(i)};
       });

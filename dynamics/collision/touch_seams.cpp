@@ -15,6 +15,7 @@ constexpr double kSteep = 0.5;       ///< cosine below which a contact stands ac
 constexpr double kAlong = 2e-3;      ///< how far the surface is followed [m]
 constexpr double kInPlane = 0.1;     ///< share of a way by which it may leave a plane
 constexpr double kOwn = 1e-9;        ///< sine of the angle between normals that are the same
+constexpr double kStraight = 1e-3;   ///< sine of the angle between two ways along one surface
 constexpr double kOnePlace = 1e-6;   ///< points that are nearer to each other count once [m]
 
 /// The point of the solid that is nearest to x.
@@ -96,14 +97,20 @@ std::optional<Vec3> normalOver(const Bearing& a, const Bearing& b, const Vec3& u
   const Vec3 lean = kAlong * (apart - up * up.dot(apart)).normalized();
   const auto surfaceOf = [&](const Bearing& p, const Vec3& way) {
     double away = 0;
-    return nearestTo(p.gap.point + way + kAlong * up, *p.shape, p.X_WN, 3 * kAlong, away);
+    return nearestTo(p.gap.point + way + kAlong * up, *p.shape, p.X_WN, 4 * kAlong, away);
   };
   const auto follows = [](const Vec3& from, const Vec3& to, const Vec3& way) {
     return way.dot(to - from) > 0.5 * way.squaredNorm();
   };
   const Vec3 onA = surfaceOf(a, -lean), onB = surfaceOf(b, lean);
   if (!follows(a.gap.point, onA, -lean) || !follows(b.gap.point, onB, lean)) return {};
-  const Vec3 across = onB - onA, along = kAlong * across.cross(up).normalized();
+  // They make up one surface only if both go on straight from one to the other.
+  const Vec3 across = onB - onA;
+  const auto isStraight = [&](const Vec3& way) {
+    return way.cross(across).norm() < kStraight * way.norm() * across.norm();
+  };
+  if (!isStraight(onA - surfaceOf(a, -2 * lean)) || !isStraight(surfaceOf(b, 2 * lean) - onB)) return {};
+  const Vec3 along = kAlong * across.cross(up).normalized();
   Vec3 normal = up - across * (across.dot(up) / across.squaredNorm());
   for (const Vec3& way : {along, Vec3(-along)})
     if (const Vec3 beside = surfaceOf(a, way - lean); follows(onA, beside, way)) {

@@ -13,6 +13,10 @@ bool isHeld(const Side& s) {
   return s.body && s.body->mode == BodyMode::Held;
 }
 
+bool isMesh(const Side& s) {
+  return std::holds_alternative<MeshShape>(*s.shape);
+}
+
 }  // namespace
 
 /// The last tau at which it is known where a side is.
@@ -56,8 +60,10 @@ void Foresight::predictPair(const Side& a, const Side& b, double tau) {
     const ContactMemory::Key key = ContactMemory::keyOf(a.key, b.key);
     if (memory_.touching(key)) {
       const double known = std::min({time_.now(), time_.windowEnd(), knownUntil(a), knownUntil(b)});
+      // On a straight way a convex pair that has parted does not meet again.
+      const bool mayMeetAgain = a.guided() || b.guided() || isMesh(a) || isMesh(b);
       const auto parted =
-          a.guided() || b.guided() ? firstBeyond(a, b, kCarriedApart, tau, known) : std::optional<double>();
+          mayMeetAgain ? firstBeyond(a, b, kCarriedApart, tau, known) : std::optional<double>();
       if (!parted) return;
       memory_.setTouching(key, false);
       tau = *parted;

@@ -29,6 +29,8 @@ public:
   void predict(Collider& c, double tau);
   /// Predicts contacts from tau on for all changed motions.
   void predictChanged(double tau);
+  /// A pair that no contact moves has touched at tau: it may part and meet again before its motion turns.
+  void predictAgain(const Side& a, const Side& b, double tau) { predictPair(a, b, tau); }
 
   /// Makes the arcs of a lazy body up to tau.
   void catchUp(RigidBody& b, double tau) {

@@ -184,6 +184,7 @@ void Impacts::touchImmovable(const Collision& at) {
   ContactMemory::Waiting* waiting = record(at, at.x, 0);
   memory_.setTouching(at.key, true);
   if (waiting) releases_.foreseeRelease(*waiting, at.tau, at.touch.gap.triangle);
+  foresight_.predictAgain(*objects_.side(at.pa), *objects_.side(at.pb), at.tau);
 }
 
 /// The tip of `a` goes into the other side.

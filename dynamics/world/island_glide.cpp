@@ -34,6 +34,10 @@ void stretch(ContactIsland& s, double probe, double seconds) {
 
 }  // namespace
 
+bool IslandStep::isMesh(ContactSide p) const {
+  return std::holds_alternative<MeshShape>(*objects_.side(p)->shape);
+}
+
 /// Returns how long the slip at a contact stays as it is, at most `most`; 0 if not at all. Adds to `way` the
 /// pieces that the contact point reaches.
 double IslandStep::glideAt(const ContactIsland& s, const FoundContact& f, double probe, double most,
@@ -42,6 +46,7 @@ double IslandStep::glideAt(const ContactIsland& s, const FoundContact& f, double
   const Vec3 n = f.gap.normal, u = s.start[c.a].v - s.start[c.b].v,
              a = (s.end[c.a].v - s.end[c.b].v - u) / probe;
   const double un = u.dot(n), an = a.dot(n);
+  if (isMesh(f.a) || isMesh(f.b)) return 0;  // other parts of it may be in the way
   if (un < -kGlideStill || an < -kBalanced) return 0;  // what nears it may hit it
   if (un > kGlideStill || an > kBalanced || c.impulse[0] <= 0) return most;
   const Vec3 ut = u - un * n, at = a - an * n;

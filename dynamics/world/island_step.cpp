@@ -64,6 +64,8 @@ void resistRolling(ContactIsland& s) {
     const Vec3 arm = m.p - f.gap.point;
     const Vec3 u = m.velocityAt(f.gap.point), slip = u - f.gap.normal * f.gap.normal.dot(u);
     const bool rolls = slip.norm() < kRolls * w * radius;
+    // As in the closed forms (ball_motion.h). A ball that is pushed out of something turns as little as it can.
+    if (ball && !rolls && f.gap.distance > -kTouching) return;
     const double carried = rolls ? (arm - axis * axis.dot(arm)).squaredNorm() / m.inverseMass : 0;
     const Vec3 change = std::min(most / (inertia + carried), w) * inertia * turn;
     m.omega -= change;
@@ -160,8 +162,9 @@ bool IslandStep::solveIsland(ContactIsland& s, std::vector<SolverBody>& solverBo
 }
 
 /// What is an impact: approaches that end now, with restitution if they are fast.
-void IslandStep::stopApproaches(ContactIsland& s) const {
+void IslandStep::stopApproaches(ContactIsland& s, double tau) {
   bool any = false;
+  std::vector<double> approach(s.found.size(), 0);  // [m/s]
   std::vector<SolverContact> hits;
   std::vector<std::int32_t> hitOf(s.found.size(), -1);
   for (const FoundContact& f : s.found) {
@@ -175,6 +178,7 @@ void IslandStep::stopApproaches(ContactIsland& s) const {
     const double closing = -c.velocity(s.start)[0];
     c.floor = closing > kRestitutionSpeed ? f.surface.restitution * closing : 0;
     any = any || closing > kApproach;
+    approach[static_cast<std::size_t>(&f - s.found.data())] = closing;
     hits.push_back(c);
   }
   if (!any) return;
@@ -196,6 +200,33 @@ void IslandStep::stopApproaches(ContactIsland& s) const {
   const std::vector<SolverBody> before = s.start;
   solveIsland(s, s.start, hits, Effort::Moving);
   if (!s.carried) boundWork(s.set.size(), before, s.start, {}, 0);
+  recordImpacts(s, hits, hitOf, approach, tau);
+}
+
+/// Pairs that meet in this step have an impact, at their fastest point.
+void IslandStep::recordImpacts(const ContactIsland& s, const std::vector<SolverContact>& hits,
+                               const std::vector<std::int32_t>& hitOf, const std::vector<double>& closing,
+                               double tau) {
+  for (std::size_t first = 0, end = 0; first < s.found.size(); first = end) {
+    std::size_t fastest = first;
+    double impulse = 0;
+    for (end = first;
+         end < s.found.size() && s.found[end].a == s.found[first].a && s.found[end].b == s.found[first].b;
+         ++end) {
+      if (closing[end] > closing[fastest]) fastest = end;
+      if (hitOf[end] >= 0) impulse += hits[static_cast<std::size_t>(hitOf[end])].impulse[0];
+    }
+    const FoundContact& f = s.found[fastest];
+    const ContactMemory::Key key = ContactMemory::keyOf(f.a, f.b);
+    if (!(closing[fastest] > kRestitutionSpeed) || !(impulse > 0) || memory_.touching(key)) continue;
+    const bool awaited = std::isfinite(objects_.body(key.second)->releaseDistance);
+    if (awaited) releases_.releaseBefore(key, tau);
+    const Vec3 outwards = key.second == f.a.id ? f.gap.normal : Vec3(-f.gap.normal);
+    ContactMemory::Waiting* waiting = memory_.impact(key, time_.timeAt(tau), f.gap.point, outwards,
+                                                     closing[fastest], impulse, time_.frame(), awaited);
+    memory_.setTouching(key, true);
+    if (waiting) releases_.foreseeRelease(*waiting, tau, f.gap.triangle);
+  }
 }
 
 /// Rolling resistance may stop a body from rocking on its rims. Then the step is solved once more without
@@ -368,7 +399,7 @@ double IslandStep::stepOf(const ContactIsland& s, double tau, double h) const {
 
 void IslandStep::advance(ContactIsland& s, double tau, double h) {
   begin(s, tau);
-  stopApproaches(s);
+  stopApproaches(s, tau);
   const double last = glide(s, tau, h);
   if (last == kForGood) {
     for (std::size_t i = 0; i < s.set.size(); ++i) {

@@ -6,6 +6,7 @@
 #include "dynamics/contact/contact_area.h"
 #include "dynamics/contact/contact_solver.h"
 #include "dynamics/world/contact_finder.h"
+#include "dynamics/world/release_watch.h"
 #include "dynamics/world/waking.h"
 
 #include <vector>
@@ -44,10 +45,11 @@ struct ContactIsland {
 
 class IslandStep {
 public:
-  IslandStep(const WorldObjects& objects, const FieldSet& fields, ContactMemory& memory, BodyArcs& arcs,
-             FlushSurfaces& surfaces, Waking& waking, ContactFinder& finder)
-      : objects_(objects), fields_(fields), memory_(memory), arcs_(arcs), surfaces_(surfaces),
-        waking_(waking), finder_(finder) {}
+  IslandStep(const WorldTime& time, const WorldObjects& objects, const FieldSet& fields,
+             ContactMemory& memory, ReleaseWatch& releases, BodyArcs& arcs, FlushSurfaces& surfaces,
+             Waking& waking, ContactFinder& finder)
+      : time_(time), objects_(objects), fields_(fields), memory_(memory), releases_(releases), arcs_(arcs),
+        surfaces_(surfaces), waking_(waking), finder_(finder) {}
 
   /// Advances the island by h seconds from tau, or by less if its motion asks for it.
   void advance(ContactIsland& island, double tau, double h);
@@ -61,7 +63,9 @@ private:
   bool isDriven(ContactSide p) const;
   bool solveIsland(ContactIsland& island, std::vector<SolverBody>& solverBodies,
                    std::vector<SolverContact>& contacts, Effort effort) const;
-  void stopApproaches(ContactIsland& island) const;
+  void stopApproaches(ContactIsland& island, double tau);
+  void recordImpacts(const ContactIsland& island, const std::vector<SolverContact>& hits,
+                     const std::vector<std::int32_t>& hitOf, const std::vector<double>& closing, double tau);
   bool solveStep(ContactIsland& island, double tau, double h, Effort effort) const;
   void moveFreely(ContactIsland& island, const std::vector<SolverBody>& guess, double tau, double h,
                   bool first) const;
@@ -75,10 +79,13 @@ private:
   void concludeFreely(RigidBody& b, const SolverBody& start, double tau);
   void noteQuiet(RigidBody& b, const SolverBody& start, const SolverBody& end, double tau, double h) const;
   bool settleOnFace(RigidBody& b, const FoundContact& only, double tau);
+  bool isMesh(ContactSide p) const;
 
+  const WorldTime& time_;
   const WorldObjects& objects_;
   const FieldSet& fields_;
   ContactMemory& memory_;
+  ReleaseWatch& releases_;
   BodyArcs& arcs_;
   FlushSurfaces& surfaces_;
   Waking& waking_;

@@ -65,7 +65,7 @@ public:
   Arrivals arrivals_{time_,    objects_, fields_, memory_, active_,
                      changes_, boxes_,   arcs_,   waking_, recoveries_};
   ContactFinder finder_{grid_, objects_, fields_, boxes_, foresight_};
-  IslandStep step_{objects_, fields_, memory_, arcs_, surfaces_, waking_, finder_};
+  IslandStep step_{time_, objects_, fields_, memory_, releases_, arcs_, surfaces_, waking_, finder_};
   Piles piles_{time_, grid_, objects_, fields_, memory_, active_, boxes_, arcs_, foresight_, waking_};
   ContactIslands islands_{time_,   grid_,   queue_, objects_, active_,  foresight_,
                           waking_, finder_, step_,  piles_,   counters_};

@@ -157,5 +157,93 @@ TEST(Slits, ABallKeepsItsSpinFromOneKindOfPieceToAnother) {
       }
 }
 
+/// A cube on two slabs that meet at x = 0, the second one `step` higher.
+struct TwoSlabs {
+  World w;
+  BodyId body = 0;
+  Vec3 v{1, 0, 0};
+  std::size_t impacts = 0;
+  double first = 0;  ///< impact [s]
+
+  TwoSlabs(Ground from, Ground onto, double step, Solid kind, double half) {
+    const FieldId g = addGravity(w);
+    addPiece(w, from, {}, -2, 0, -2, 2, 0, {0.0, 0.0, 0.0});
+    addPiece(w, onto, {}, 0, 2, -2, 2, step, {0.0, 0.0, 0.0});
+    BodyDef d = solidBody(w, kind, half, 10);
+    const Vec3 size = Vec3::Constant(half);
+    std::vector<Vec3> corners;
+    for (int i = 0; i < 8; ++i)
+      corners.emplace_back((i & 1 ? 1 : -1) * half, (i & 2 ? 1 : -1) * half, (i & 4 ? 1 : -1) * half);
+    d.shape = kind == Solid::Box      ? w.addShape(BoxShape{{}, size})
+              : kind == Solid::Convex ? w.addShape(*convexHull(corners))
+                                      : w.addShape(MeshShape(TriangleTree(boxMesh(size))));
+    d.mass = massOfBox({}, size, 1).withMass(10);
+    d.pose.p = {-0.35 - half, -0.437, half};
+    d.v = v, d.surface = {0.0, 0.0, 0.0};
+    body = addSolid(w, g, d);
+  }
+  void slide(double seconds, double rate) {
+    play(w, seconds, rate, [&](double) {
+      for (const ContactEvent& e : w.events())
+        if (e.kind == ContactEvent::Kind::Impact && ++impacts == 1) first = toSeconds(e.time);
+    });
+  }
+};
+
+TEST(Slits, ASolidKeepsItsSpeedFromOneKindOfSlabToAnother) {
+  for (const Ground from : {Ground::Boxes, Ground::Convexes, Ground::ClosedMeshes, Ground::OpenMeshes})
+    for (const Ground onto : {Ground::Boxes, Ground::Convexes, Ground::ClosedMeshes, Ground::Sheets})
+      for (const Solid kind : {Solid::Box, Solid::Convex, Solid::Mesh}) {
+        SCOPED_TRACE(std::string(nameOf(kind)) + " from " + nameOf(from) + " onto " + nameOf(onto));
+        TwoSlabs scene(from, onto, 0, kind, 0.1);
+        scene.slide(1, 60);
+        EXPECT_LT((scene.w.state(scene.body).v - scene.v).norm(), 1e-7);
+        EXPECT_EQ(scene.impacts, 0u);
+      }
+}
+
+TEST(Slits, LevelsThatDifferByAFewHundredthsOfAMillimetreCostNoSpeed) {
+  for (const Ground onto : kTiles)
+    for (const Solid kind : {Solid::Box, Solid::Convex})
+      for (const double step : {2e-5, 5e-5, 9e-5, -5e-5}) {
+        SCOPED_TRACE(std::string(nameOf(kind)) + " onto " + nameOf(onto) + " " + std::to_string(step));
+        TwoSlabs scene(Ground::Boxes, onto, step, kind, 0.15);
+        scene.slide(1.2, 240);
+        EXPECT_NEAR(scene.w.state(scene.body).v.x(), 1, 1e-3);
+      }
+}
+
+TEST(Slits, AWallThatASlidingSolidRunsAgainstIsAnImpact) {
+  for (const Ground onto : kTiles)
+    for (const Solid kind : {Solid::Box, Solid::Convex, Solid::Mesh})
+      for (const double rate : {25.0, 60.0, 240.0}) {
+        SCOPED_TRACE(std::string(nameOf(kind)) + " against " + nameOf(onto) + " " + std::to_string(rate));
+        TwoSlabs scene(Ground::Boxes, onto, 0.3, kind, 0.15);
+        scene.slide(1, rate);
+        EXPECT_EQ(scene.impacts, 1u);
+        EXPECT_NEAR(scene.first, 0.35, 1e-6);
+        EXPECT_NEAR(scene.w.state(scene.body).p.x(), -0.15, 1e-5);
+      }
+}
+
+TEST(Slits, ABallRollsAlongTheLineWhereTwoTilesMeetAsBesideIt) {
+  const auto roll = [](double aside) {
+    World w;
+    const FieldId g = addGravity(w);
+    addPiece(w, Ground::Boxes, {}, -1, 0, -5, 5, 0, {0.2, 0.0, 0.01});
+    addPiece(w, Ground::Boxes, {}, 0, 1, -5, 5, 0, {0.2, 0.0, 0.01});
+    BallSpec spec;
+    spec.radius = 0.25, spec.friction = 0.2, spec.rolling = 0.01;
+    spec.p = {aside, -2, 0.25}, spec.v = {0, 3, 0};
+    const BodyId b = addBall(w, g, spec);
+    play(w, 1, 60);
+    return w.state(b);
+  };
+  const BodyState on = roll(0), beside = roll(0.2);
+  EXPECT_NEAR(on.p.y(), beside.p.y(), 5e-4);
+  EXPECT_NEAR(on.v.y(), beside.v.y(), 1e-3);
+  EXPECT_NEAR(on.omega.x(), beside.omega.x(), 4e-3);
+}
+
 }  // namespace
 }  // namespace stadion
