@@ -32,6 +32,15 @@ public:
   }
 
   void write(const std::string& name, const std::string& content) { root_.write(name, content); }
+  /// Writes a file that is newer than what has been built.
+  void edit(const std::string& name, const std::string& content) {
+    write(name, content);
+    makeNewer(name);
+  }
+  /// Time stamps of files are some milliseconds coarse, and a build here takes no longer.
+  void makeNewer(const std::string& name) {
+    fs::last_write_time(path(name), fs::file_time_type::clock::now() + std::chrono::seconds(1));
+  }
   std::string path(const std::string& name) const { return root_.path() / name; }
 
   ProgramResult start(std::vector<std::string> arguments, std::vector<std::string> environment = {},
@@ -96,7 +105,7 @@ TEST(ProgramLauncher, AChangedSourceIsBuiltAgain) {
   Checkout checkout;
   checkout.start({"nodes"});
   checkout.forgetCalls();
-  checkout.write("engine/new.cpp", "// more\n");
+  checkout.edit("engine/new.cpp", "// more\n");
   checkout.start({"nodes"});
   EXPECT_TRUE(has(checkout.calls(), "--build")) << checkout.calls();
 }
@@ -106,6 +115,7 @@ TEST(ProgramLauncher, ARemovedSourceIsBuiltAgain) {
   checkout.start({"nodes"});
   checkout.forgetCalls();
   fs::remove(checkout.path("engine/x.cpp"));
+  checkout.makeNewer("engine");
   checkout.start({"nodes"});
   EXPECT_TRUE(has(checkout.calls(), "--build")) << checkout.calls();
 }
@@ -240,7 +250,7 @@ TEST(ProgramLauncher, AnOutdatedBuildThatCannotBeRenewedIsNotStarted) {
   checkout.forgetCalls();
   fs::remove(checkout.path("build/.lock"));
   fs::create_directory(checkout.path("build/.lock"));
-  checkout.write("engine/new.cpp", "// more\n");
+  checkout.edit("engine/new.cpp", "// more\n");
   const ProgramResult r = checkout.start({"nodes"});
   EXPECT_EQ(r.status, 2);
   EXPECT_EQ(r.out, "");
