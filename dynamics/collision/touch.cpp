@@ -21,8 +21,8 @@ struct Local {
   std::int32_t triangle;
 };
 
-constexpr double kNoWay =
-    1e-12;  ///< points as near as this have no direction from each other but rounding's [m]
+/// Below this distance [m], the direction between two points is only rounding error.
+constexpr double kNoWay = 1e-12;
 
 Local towards(const Vec3& c, const Vec3& q, double r, const Vec3& fallback) {
   const Vec3 d = c - q;

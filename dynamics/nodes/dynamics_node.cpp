@@ -77,7 +77,7 @@ void DynamicsNode::addCollidee(Part& part, ObjectNode& object, Scene& scene) {
   node->hold(scene, scene.placements().world(part.placement));
 }
 
-/// With which velocities its script lets it start.
+/// Returns the start velocities from the script, in World.
 DynamicsNode::Velocity DynamicsNode::startOf(const DynObjectNode& node, const Scene& scene) const {
   const Placements& placements = scene.placements();
   const Quat q_WP = poseOf(placements.world(placements.parent(node.placement()))).q;

@@ -24,9 +24,9 @@ constexpr milliseconds kLookEvery{10};    // whether the run gives up, and wheth
 constexpr milliseconds kHangs{5000};      // without using the processor, where every frame counts
 constexpr milliseconds kHangsLive{1000};  // where others must not wait
 constexpr milliseconds kStopped{250};     // if somebody has stopped it
-// A driver that goes round in circles is busy, too: for one frame it may take so much longer than any before.
-constexpr int kTooLong = 20;                  // times
-constexpr milliseconds kSpins{60'000};        // and at least so long, where every frame counts
+// A driver in an endless loop is busy, too. A frame that takes this many times as long as any before it hangs,
+constexpr int kTooLong = 20;
+constexpr milliseconds kSpins{60'000};        // if it takes at least this long, where every frame counts
 constexpr milliseconds kSpinsLive{3000};      // where others must not wait
 constexpr milliseconds kSpinsFirst{600'000};  // while it is not known what a frame takes
 constexpr milliseconds kForEver{24 * 3600 * 1000};
@@ -45,18 +45,18 @@ struct PerWallProcessRenderer::Wall {
   std::atomic<int> pid = 0;
   wall_process::Restarts restarts;
 
-  // By which it is known whether it hangs.
-  double processor = -1;      ///< [s]
-  Clock::time_point since{};  ///< when it had used that much, at first
+  // These say whether it hangs.
+  double processor = -1;      ///< processor time that it has used [s]
+  Clock::time_point since{};  ///< time at which it had first used that much
 
-  Clock::time_point began{};              ///< it was given what it is at
-  std::optional<milliseconds> longest{};  ///< that a frame has taken, of any process
+  Clock::time_point began{};              ///< time of its present order
+  std::optional<milliseconds> longest{};  ///< longest frame of any process
 
   // Where the newest frame counts.
   wall_process::AnswerDeadline deadline;
-  bool warm = false;         ///< the process has drawn; what is first takes its compilers, too
+  bool warm = false;         ///< the process has drawn; its first frame includes compiling shaders
   bool waitedFor = true;     ///< false: the other walls go on without it until it answers
-  Clock::time_point lost{};  ///< when they began to
+  Clock::time_point lost{};  ///< time since which they go on without it
 };
 
 PerWallProcessRenderer::PerWallProcessRenderer(PerWallProcessParts parts)

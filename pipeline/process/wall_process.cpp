@@ -1,4 +1,5 @@
 #include "pipeline/process/wall_process.h"
+
 #include "engine/base/installed_files.h"
 
 #include <algorithm>
@@ -219,7 +220,7 @@ bool WallProcess::receive(std::chrono::milliseconds atMost) {
   char bytes[sizeof(AnswerHead) + kLongestText];
   const ssize_t got = ::recv(socket_.get(), bytes, sizeof bytes, MSG_DONTWAIT);
   if (got < 0 && (errno == EINTR || errno == EAGAIN)) return false;
-  if (got <= 0) {  // it is ending; of what, is known when it has
+  if (got <= 0) {  // it is ending; the reason is known once it has ended
     if (const auto status = process_->wait(atMost)) noteEnd(sentenceOf(*status));
     return false;
   }
@@ -227,7 +228,7 @@ bool WallProcess::receive(std::chrono::milliseconds atMost) {
   const bool whole = got >= static_cast<ssize_t>(sizeof head);
   if (whole) std::memcpy(&head, bytes, sizeof head);
   if (!whole || head.magic != kMagic || head.textBytes != static_cast<std::size_t>(got) - sizeof head) {
-    noteEnd("said what makes no sense");
+    noteEnd("sent an invalid answer");
     return false;
   }
   answer_ = head;

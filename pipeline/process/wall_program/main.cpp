@@ -80,7 +80,7 @@ void goWithTheShow() {
 /// The wall, or the view of it, that this process draws.
 class DrawnWall {
 public:
-  /// Why there is none, or nothing.
+  /// Returns the reason if it cannot open; else nothing.
   std::optional<std::string> open(const OrderHead& order, const std::array<int, 3>& segments);
   void draw(const OrderHead& order);
   void read() { answer(Order::Read, readPictures()); }
@@ -171,7 +171,7 @@ void DrawnWall::rename(std::vector<DrawItem>& items) const {
     if (const auto at = ids_.find(item.mesh); at != ids_.end()) item.mesh = at->second;
 }
 
-/// What stands still came with an earlier list, perhaps.
+/// Renames the meshes of objects that stand still, which may have come with an earlier list.
 void DrawnWall::renameStill() {
   for (std::size_t i = 0; i < kShadowRings; ++i) {
     auto& still = list_.shadows.rings[i].still;
