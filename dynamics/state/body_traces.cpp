@@ -63,7 +63,7 @@ void BodyTraces::noteHeld(RigidBody& b, double tau) {
     return addPart(b, ArcPiece::straight(time_.instantAt(tau), k.pose, k.v, k.omega));
   }
   for (std::size_t i = b.grip.held.partAfter(tau);
-       i < b.grip.held.arcs.size() && b.grip.held.arcs[i].tau < time_.now(); ++i) {
+       i < b.grip.held.arcs.size() && b.grip.held.arcs[i].tau < time_.partEnd(); ++i) {
     ArcPiece part = b.grip.held.arcs[i];
     const double early = tau - part.tau;
     if (early > 0) {
@@ -83,7 +83,7 @@ void BodyTraces::begin(bool continues) {
   if (goesOn) return;
   for (RigidBody* b : list_) {
     if (!continues) b->trace.arcs.clear();
-    note(*b, time_.from());
+    note(*b, time_.partStart());
   }
 }
 
@@ -91,13 +91,13 @@ void BodyTraces::begin(bool continues) {
 /// on, besides those of its first part. A body that is hit meanwhile is noted from then on.
 void BodyTraces::find(bool goesOn) {
   constexpr double kUsualPull = 10;  // [m/s2]
-  const double span = 2 * (time_.now() - time_.from()) + 0.02;
+  const double span = 2 * (time_.partEnd() - time_.partStart()) + 0.02;
   if (!goesOn)
     for (RigidBody* b : list_) b->trace.awaited = false;
   const auto mayGo = [&](const RigidBody* b) {
     if (!b || standsStill(b->mode)) return 0.0;
     if (b->mode == BodyMode::Held) return 1e300;
-    const MotionBound bound = b->boundOver(time_.from(), time_.from());
+    const MotionBound bound = b->boundOver(time_.partStart(), time_.partStart());
     return (bound.speedAt(b->reach) + std::max(kUsualPull, bound.acceleration) * span) * span;
   };
   for (const ContactMemory::Waiting& w : memory_.waiting()) {
@@ -110,7 +110,7 @@ void BodyTraces::find(bool goesOn) {
       one->trace.awaited = true;
       if (one->trace.traced || !one->trace.arcs.empty()) continue;
       list_.push_back(one);
-      if (goesOn) note(*one, time_.from());
+      if (goesOn) note(*one, time_.partStart());
     }
   }
   std::erase_if(list_, [](RigidBody* b) {

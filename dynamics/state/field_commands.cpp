@@ -45,7 +45,7 @@ void FieldCommands::finish(FieldId field) {
     if (c.field == field && c.when <= time_.t1()) due.push_back(c);
   std::erase_if(commands_, [&](const Command& c) { return c.field == field; });
   for (const Command& c : due)
-    if (c.kind == Command::Kind::Unhook || !c.on) execute(c, time_.now());
+    if (c.kind == Command::Kind::Unhook || !c.on) execute(c, time_.partEnd());
 }
 
 void FieldCommands::forgetBody(BodyId id) {
@@ -109,7 +109,7 @@ void FieldCommands::followFields() {
     if (!concerned || !b.enabled) continue;
     // A pile's step goes on. So does a step that ends at once, since a part of a frame may be as short.
     if (b.mode == BodyMode::Contact &&
-        (b.contact.inPile || b.contact.dueAge - b.age(time_.from()) <= kShortestStep))
+        (b.contact.inPile || b.contact.dueAge - b.age(time_.partStart()) <= kShortestStep))
       continue;
     stir(b);
   }

@@ -129,7 +129,7 @@ std::optional<EvenPull> FieldSet::evenPullOn(const RigidBody& b) const {
 }
 
 double FieldSet::knownFor(const RigidBody& b, double tau) const {
-  return tau < time_.now() && feelsChange(b) ? time_.now() - tau : kAtAllTimes;
+  return tau < time_.partEnd() && feelsChange(b) ? time_.partEnd() - tau : kAtAllTimes;
 }
 
 double FieldSet::timeToPass(const RigidBody& b, const Vec3& p, const Vec3& v, double more) const {

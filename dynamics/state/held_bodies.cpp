@@ -14,7 +14,7 @@ void HeldBodies::add(RigidBody& b) {
   if (std::ranges::find(list_, &b) == list_.end()) list_.push_back(&b);
   b.grip.held.arcs.clear();
   b.grip.nextArcs.clear();
-  b.grip.held.set(b.pose, b.pose, time_.now(), 0);
+  b.grip.held.set(b.pose, b.pose, time_.partEnd(), 0);
   b.grip.carried.clear();
   b.grip.accumulated.setZero();
 }
@@ -24,7 +24,7 @@ void HeldBodies::dropReleased() {
 }
 
 void HeldBodies::carryFields(RigidBody& b, std::vector<FieldId> fields) const {
-  if (b.grip.carried.empty()) b.grip.accumulatedTo = time_.instantAt(time_.now());
+  if (b.grip.carried.empty()) b.grip.accumulatedTo = time_.instantAt(time_.partEnd());
   b.grip.carried = std::move(fields);
 }
 
@@ -50,7 +50,7 @@ void HeldBodies::endTouches() {
   const auto look = [&](const ContactMemory::Key& key) {
     if (!memory_.touching(key)) return;
     const auto a = objects_.side(key.first), b = objects_.side({true, key.second});
-    if (a && b && bothCarried(*a, *b) && gapBetween(*b, *a, time_.now(), {1e-3}).distance > kCarriedApart)
+    if (a && b && bothCarried(*a, *b) && gapBetween(*b, *a, time_.partEnd(), {1e-3}).distance > kCarriedApart)
       apart.push_back(key);
   };
   for (const RigidBody* b : list_)

@@ -45,7 +45,8 @@ Aabb sweptBody(const RigidBody& b, double tau, double to) {
 void SweptBoxes::sweep(RigidBody& b, double tau) {
   if (!b.enabled) return bodies_.remove(b);
   if (b.mode == BodyMode::Held) {
-    b.swept = sweptBox(Side::of(b), std::max(tau, time_.from()), std::max({tau, time_.from(), time_.now()}));
+    b.swept = sweptBox(Side::of(b), std::max(tau, time_.partStart()),
+                       std::max({tau, time_.partStart(), time_.partEnd()}));
   } else {
     const double end = b.pathAge - b.age0;
     Aabb box = sweptBody(b, tau, std::max(tau, std::min(time_.windowEnd(), end)));
@@ -66,7 +67,7 @@ void SweptBoxes::sweep(RigidBody& b, double tau) {
 void SweptBoxes::sweep(Collider& c) {
   if (!c.enabled) return colliders_.remove(c);
   if (c.motion.moving) {
-    c.swept = sweptBox(Side::of(c), time_.from(), std::max(time_.from(), time_.now()));
+    c.swept = sweptBox(Side::of(c), time_.partStart(), std::max(time_.partStart(), time_.partEnd()));
   } else {
     constexpr double margin = 2e-5;  // so that a body that touches it at load is seen
     c.swept = boundingBox(*c.shape, c.motion.end);
@@ -78,7 +79,7 @@ void SweptBoxes::sweep(Collider& c) {
 
 void SweptBoxes::sweep(ChangedMotions& changed) {
   changed.sortBodies();
-  for (RigidBody* b : changed.bodies()) sweep(*b, time_.from());
+  for (RigidBody* b : changed.bodies()) sweep(*b, time_.partStart());
   sortBodiesIfCrowded();
   sortCollidersIfCrowded();
 }

@@ -42,8 +42,8 @@ public:
   std::uint64_t frame() const { return frame_; }  ///< counts frames
   Nanoseconds t0() const { return t0_; }          ///< start of the part
   Nanoseconds t1() const { return t1_; }          ///< end of the part; between frames, of the last one
-  double from() const { return from_; }           ///< tau of t0
-  double now() const { return now_; }             ///< tau of t1; may lie beyond the window
+  double partStart() const { return from_; }      ///< tau of t0
+  double partEnd() const { return now_; }         ///< tau of t1; may lie beyond the window
 
   Nanoseconds origin() const { return origin_; }  ///< start of the window
   Nanoseconds window() const { return window_; }  ///< length of the window

@@ -36,11 +36,12 @@ void Arrivals::wakeWithin(ContactSide arrived) {
   boxes_.eachBody(self.body ? self.body->swept : self.collider->swept, [&](RigidBody& o) {
     if (o.mode != BodyMode::Rest || !o.enabled || &o == self.body || !objects_.mayTouch(Side::of(o), self))
       return;
-    if (gapBetween(Side::of(o), self, time_.from(), {0.01}).distance < -kTouchesAtLoad) woken.push_back(&o);
+    if (gapBetween(Side::of(o), self, time_.partStart(), {0.01}).distance < -kTouchesAtLoad)
+      woken.push_back(&o);
   });
   for (RigidBody* o : woken) {
-    waking_.enterContact(*o, time_.from());
-    waking_.wakeOnto({true, o->id}, time_.from());
+    waking_.enterContact(*o, time_.partStart());
+    waking_.wakeOnto({true, o->id}, time_.partStart());
   }
 }
 
@@ -53,7 +54,7 @@ void Arrivals::placeFresh(const std::vector<ContactSide>& arrived) {
   std::vector<Arrival> placed;
   const auto look = [&](const Side& self, const Side& other, std::vector<std::pair<Side, Gap>>* touching) {
     if (!objects_.mayTouch(self, other)) return;
-    const Gap g = gapBetween(self, other, time_.from(), {0.01});
+    const Gap g = gapBetween(self, other, time_.partStart(), {0.01});
     if (!(g.distance < kTouchesAtLoad)) return;
     memory_.setTouching(ContactMemory::keyOf(self.key, other.key), true);
     if (touching) touching->emplace_back(other, g);
@@ -81,7 +82,7 @@ void Arrivals::placeFresh(const std::vector<ContactSide>& arrived) {
     for (const PenetrationRecovery& w : s.body->grip.recoveries)
       memory_.setTouching(ContactMemory::keyOf({false, w.of}, {true, s.body->id}), true);
     if (!s.body->grip.recoveries.empty())
-      waking_.enterContact(*s.body, time_.from());
+      waking_.enterContact(*s.body, time_.partStart());
     else if (!s.touching.empty())
       place(*s.body, s.touching);
   }
@@ -90,7 +91,7 @@ void Arrivals::placeFresh(const std::vector<ContactSide>& arrived) {
 /// A body that appeared touching these: what it does next.
 void Arrivals::place(RigidBody& b, const std::vector<std::pair<Side, Gap>>& touching) {
   if (b.mode != BodyMode::Flight) return;
-  const double tau = time_.from();
+  const double tau = time_.partStart();
   const Kinematics k = b.at(tau);
   const auto& [other, gap] = touching.front();
   const double away = k.v.dot(gap.normal);

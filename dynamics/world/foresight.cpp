@@ -24,20 +24,20 @@ double Foresight::knownUntil(const Side& s) const {
   const GuidedMotion* motion = s.motion();
   if (!motion) return s.body->until;
   if (s.collider && !motion->moving) return time_.windowEnd();
-  return motion->guided() ? std::min(time_.now(), motion->nextTurn()) : time_.now();
+  return motion->guided() ? std::min(time_.partEnd(), motion->nextTurn()) : time_.partEnd();
 }
 
 /// Posts the next turn of a guided motion within this frame: contacts are predicted again then.
 void Foresight::pushTurn(ContactSide p, const GuidedMotion& motion, double tau) {
   const double turns = std::max(tau, motion.nextTurn() + kTurnTolerance);
-  if (!motion.guided() || !(turns <= std::min(time_.now(), time_.windowEnd()))) return;
+  if (!motion.guided() || !(turns <= std::min(time_.partEnd(), time_.windowEnd()))) return;
   queue_.postHorizon(turns, p, objects_.versionOf(p));
 }
 
 void Foresight::pushHorizon(const RigidBody& b) {
-  if (b.mode == BodyMode::Held) return pushTurn({true, b.id}, b.grip.held, time_.from());
+  if (b.mode == BodyMode::Held) return pushTurn({true, b.id}, b.grip.held, time_.partStart());
   if (!(b.until <= time_.windowEnd()) || b.mode == BodyMode::Contact) return;
-  queue_.postHorizon(std::max(b.until, time_.from()), {true, b.id}, b.version);
+  queue_.postHorizon(std::max(b.until, time_.partStart()), {true, b.id}, b.version);
 }
 
 void Foresight::predictPair(const Side& a, const Side& b, double tau) {
@@ -59,7 +59,7 @@ void Foresight::predictPair(const Side& a, const Side& b, double tau) {
     if (!isHeld(a) && !isHeld(b)) return;
     const ContactMemory::Key key = ContactMemory::keyOf(a.key, b.key);
     if (memory_.touching(key)) {
-      const double known = std::min({time_.now(), time_.windowEnd(), knownUntil(a), knownUntil(b)});
+      const double known = std::min({time_.partEnd(), time_.windowEnd(), knownUntil(a), knownUntil(b)});
       // On a straight way a convex pair that has parted does not meet again.
       const bool mayMeetAgain = a.guided() || b.guided() || isMesh(a) || isMesh(b);
       const auto parted =

@@ -46,7 +46,7 @@ double IslandStep::glideAt(const ContactIsland& s, const FoundContact& f, double
   const Vec3 n = f.gap.normal, u = s.start[c.a].v - s.start[c.b].v,
              a = (s.end[c.a].v - s.end[c.b].v - u) / probe;
   const double un = u.dot(n), an = a.dot(n);
-  if (isMesh(f.a) || isMesh(f.b)) return 0;  // other parts of it may be in the way
+  if (isMesh(f.a) || isMesh(f.b)) return 0;            // other parts of it may be in the way
   if (un < -kGlideStill || an < -kBalanced) return 0;  // what nears it may hit it
   if (un > kGlideStill || an > kBalanced || c.impulse[0] <= 0) return most;
   const Vec3 ut = u - un * n, at = a - an * n;

@@ -23,7 +23,7 @@ void PenetrationRecoveries::noteFreePlaces() {
   for (RigidBody* b : held_.list()) {
     if (b->mode != BodyMode::Held) continue;
     const Side self = Side::of(*b);
-    const Vec3 middle = b->poseAt(time_.now()) * b->bound.centre;
+    const Vec3 middle = b->poseAt(time_.partEnd()) * b->bound.centre;
     Aabb box;
     box.include(middle);
     box.include(b->grip.freePlace);
@@ -33,7 +33,8 @@ void PenetrationRecoveries::noteFreePlaces() {
     boxes_.eachCollider(box, [&](const Collider& c) {
       const Side thing = Side::of(c);
       if (!free || !c.enabled || !objects_.mayTouch(self, thing)) return;
-      free = !overlaps(self, thing, time_.now()) && !wentInto(thing, time_.now(), b->grip.freePlace, middle);
+      free = !overlaps(self, thing, time_.partEnd()) &&
+             !wentInto(thing, time_.partEnd(), b->grip.freePlace, middle);
     });
     if (free) b->grip.freePlace = middle;
   }
@@ -44,7 +45,7 @@ void PenetrationRecoveries::find(RigidBody& b) {
   b.grip.recoveries.clear();
   if (!b.grip.letGo) return;
   b.grip.letGo = false;
-  const double tau = time_.from();
+  const double tau = time_.partStart();
   const Kinematics k = b.at(tau);
   if (fields_.accelerationAt(b, k.p, k.v, tau).isZero(0)) return;
   const Side self = Side::of(b);

@@ -151,7 +151,7 @@ std::optional<Nanoseconds> ReleaseWatch::whenParted(const ContactMemory::Waiting
   if (!isNoted(*objects_.side(w.pair.first)) || !isNoted(*objects_.side({true, w.pair.second}))) return {};
   PastSide a(*objects_.side(w.pair.first), {time_.origin(), 0}),
       b(*objects_.side({true, w.pair.second}), {time_.origin(), 0});
-  const double from = std::max({time_.from(), time_.tauOf(w.seen), a.begins(), b.begins()});
+  const double from = std::max({time_.partStart(), time_.tauOf(w.seen), a.begins(), b.begins()});
   if (!(from < tau)) return {};
   std::vector<double> turns{from, tau};
   a.addTurns(turns);
@@ -230,21 +230,21 @@ void ReleaseWatch::reportReleases() {
       due.emplace_back(w.pair, std::max(w.look, time_.t0()));
       continue;
     }
-    if (stillNear(w, time_.now())) continue;
+    if (stillNear(w, time_.partEnd())) continue;
     const bool noted = isNoted(a) && isNoted(b);
-    if (const auto parted = noted ? whenParted(w, time_.now()) : std::nullopt) {
+    if (const auto parted = noted ? whenParted(w, time_.partEnd()) : std::nullopt) {
       due.emplace_back(w.pair, *parted);
       continue;
     }
     const double far = b.body->releaseDistance;
-    const Gap gap = gapBetween(b, a, time_.now(), {far + 1e-3, 0.7 * far, w.triangle});
+    const Gap gap = gapBetween(b, a, time_.partEnd(), {far + 1e-3, 0.7 * far, w.triangle});
     if (gap.distance > far) {
       const double from = std::max({time_.tauOf(w.seen), arcStart(a), arcStart(b)});
-      due.emplace_back(w.pair, time_.timeAt(whenApart(b, a, far, from, time_.now())));
+      due.emplace_back(w.pair, time_.timeAt(whenApart(b, a, far, from, time_.partEnd())));
       continue;
     }
     w.triangle = gap.triangle;
-    awaitRelease(w, a, b, std::max(0.0, wayTo(far, gap)), time_.now());
+    awaitRelease(w, a, b, std::max(0.0, wayTo(far, gap)), time_.partEnd());
   }
   std::ranges::sort(due);
   for (const auto& [key, time] : due) release(key, time);

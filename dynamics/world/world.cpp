@@ -81,7 +81,7 @@ BodyId World::addBody(const BodyDef& d) {
   const Pose X_WC = b.pose * b.X_NC;
   const Quat& q = X_WC.q;
   const Vec3 L = q * b.inertia.cwiseProduct(q.conjugate() * d.omega);
-  core_->arcs_.startFlight(b, core_->time_.now(), X_WC.p, d.v, q, L);
+  core_->arcs_.startFlight(b, core_->time_.partEnd(), X_WC.p, d.v, q, L);
   return b.id;
 }
 
@@ -102,7 +102,7 @@ ColliderId World::addCollider(const ColliderDef& d) {
   Collider& c = core_->objects_.addCollider(d.shape);
   c.surface = d.surface;
   c.now = unit(d.pose);
-  c.move(c.now, c.now, core_->time_.now(), 0);
+  c.move(c.now, c.now, core_->time_.partEnd(), 0);
   core_->changes_.mark(c.id);
   return c.id;
 }
@@ -149,7 +149,7 @@ bool World::enableCollider(ColliderId id, bool on) {
   core_->changes_.mark(id);
   if (!on) {
     core_->boxes_.remove(*c);
-    core_->waking_.wakeOnto({false, id}, core_->time_.now());
+    core_->waking_.wakeOnto({false, id}, core_->time_.partEnd());
     core_->memory_.forget({false, id});
   }
   return true;
@@ -162,15 +162,15 @@ bool World::enableBody(BodyId id, bool on) {
   if (on) {
     b->enabled = b->fresh = true;
     const Pose X_WC = b->pose * b->X_NC;
-    core_->arcs_.startFlight(*b, core_->time_.now(), X_WC.p, Vec3::Zero(), X_WC.q, Vec3::Zero());
+    core_->arcs_.startFlight(*b, core_->time_.partEnd(), X_WC.p, Vec3::Zero(), X_WC.q, Vec3::Zero());
     return true;
   }
   b->enabled = false;
   core_->boxes_.remove(*b);
-  core_->arcs_.freeze(*b, core_->time_.now());
+  core_->arcs_.freeze(*b, core_->time_.partEnd());
   b->support.on = {};
   b->contact.touching.clear();
-  core_->waking_.wakeOnto({true, id}, core_->time_.now());
+  core_->waking_.wakeOnto({true, id}, core_->time_.partEnd());
   core_->memory_.forget({true, id});
   return true;
 }
@@ -178,8 +178,8 @@ bool World::enableBody(BodyId id, bool on) {
 bool World::ignorePair(ContactSide a, ContactSide b, bool on) {
   core_->objects_.ignore(a, b, on);
   if (on) {
-    core_->waking_.wakeOnto(a, core_->time_.now());
-    core_->waking_.wakeOnto(b, core_->time_.now());
+    core_->waking_.wakeOnto(a, core_->time_.partEnd());
+    core_->waking_.wakeOnto(b, core_->time_.partEnd());
   }
   return true;
 }
@@ -202,7 +202,7 @@ bool World::removeField(FieldId id) {
   switchField(id, false, core_->time_.t1());
   // Without a frame in between, no body may go on feeling it.
   core_->commands_.finish(id);
-  core_->restartStirred(core_->time_.now());
+  core_->restartStirred(core_->time_.partEnd());
   core_->fields_.erase(id);
   return true;
 }
@@ -265,31 +265,31 @@ bool World::Core::putBody(RigidBody& b, const Pose& X_WN, const Vec3& v, const V
   b.grip.recoveries.clear();
   const Pose X_WC = b.pose * b.X_NC;
   memory_.forget({true, b.id});
-  arcs_.startFlight(b, time_.now(), X_WC.p, v, X_WC.q,
+  arcs_.startFlight(b, time_.partEnd(), X_WC.p, v, X_WC.q,
                     X_WC.q * b.inertia.cwiseProduct(X_WC.q.conjugate() * omega));
   // Reports a body that is in trouble again at once, too.
   if (b.mode == BodyMode::Quarantined) active_.add(b);
-  waking_.wakeOnto({true, b.id}, time_.now());
+  waking_.wakeOnto({true, b.id}, time_.partEnd());
   return true;
 }
 
 bool World::push(BodyId id, const Vec3& impulse, const Vec3& at) {
   RigidBody* b = core_->objects_.body(id);
   if (!b || !impulse.allFinite() || !at.allFinite() || !b->movable()) return false;
-  SolverBody m = solverBodyOf(*b, core_->time_.now());
+  SolverBody m = solverBodyOf(*b, core_->time_.partEnd());
   m.apply(impulse, at);
-  core_->impacts_.afterImpulse(*b, m, core_->time_.now(), false);
+  core_->impacts_.afterImpulse(*b, m, core_->time_.partEnd(), false);
   return true;
 }
 
 bool World::holdBody(BodyId id) {
   RigidBody* b = core_->objects_.body(id);
   if (!b || b->mode == BodyMode::Quarantined) return false;
-  core_->arcs_.freeze(*b, core_->time_.now());
+  core_->arcs_.freeze(*b, core_->time_.partEnd());
   b->support.on = {};
   b->contact.touching.clear();
   b->grip.recoveries.clear();
-  core_->waking_.wakeOnto({true, id}, core_->time_.now());
+  core_->waking_.wakeOnto({true, id}, core_->time_.partEnd());
   core_->held_.add(*b);
   return true;
 }
@@ -314,10 +314,10 @@ bool World::moveHeld(BodyId id, const Pose& end, bool teleport) {
     b->trace.put = b->trace.traced || b->trace.awaited;
     b->pose = unit(end);
     core_->releases_.forgetSlack({true, id});
-    b->grip.held.set(b->pose, b->pose, core_->time_.now(), 0);
+    b->grip.held.set(b->pose, b->pose, core_->time_.partEnd(), 0);
     b->grip.freePlace = b->pose * b->bound.centre;
     b->fresh = true;
-    core_->waking_.wakeOnto({true, id}, core_->time_.now());
+    core_->waking_.wakeOnto({true, id}, core_->time_.partEnd());
   }
   b->grip.held.start = b->pose;
   b->grip.held.end = unit(end);
@@ -355,7 +355,7 @@ bool World::pause(Nanoseconds from, Nanoseconds to, bool continues) {
 bool World::traceBody(BodyId id, bool on) {
   RigidBody* b = core_->objects_.body(id);
   if (!b) return false;
-  if (b->trace.traced != on) core_->traces_.trace(*b, on, b->trace.awaited, core_->time_.now());
+  if (b->trace.traced != on) core_->traces_.trace(*b, on, b->trace.awaited, core_->time_.partEnd());
   return true;
 }
 
@@ -473,7 +473,7 @@ std::uint64_t World::recoveryDigest() const {
 double World::separation(ContactSide a, ContactSide b) const {
   const auto sa = core_->objects_.side(a), sb = core_->objects_.side(b);
   if (!sa || !sb) return std::numeric_limits<double>::infinity();
-  return gapBetween(*sa, *sb, core_->time_.now()).distance;
+  return gapBetween(*sa, *sb, core_->time_.partEnd()).distance;
 }
 
 const World::Counters& World::counters() const {

@@ -71,11 +71,11 @@ public:
                           waking_, finder_, step_,  piles_,   counters_};
 
 private:
-  void newFrame();
   void beginFrame();
+  void beginPart();
   void runEvents(double until);
   void fetchNext() const;
-  void endFrame();
+  void endPart();
   void sample(RigidBody& b);
   void expel(RigidBody& b);
   void turnByFrame();

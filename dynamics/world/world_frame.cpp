@@ -42,7 +42,7 @@ void World::Core::restartStirred(double tau) {
   commands_.restartStirred([&](RigidBody& b) { waking_.restart(b, tau); });
 }
 
-void World::Core::newFrame() {
+void World::Core::beginFrame() {
   time_.nextFrame();
   counters_ = {};
   memory_.beginFrame();
@@ -51,7 +51,7 @@ void World::Core::newFrame() {
 
 /// All clocks are put forward; a new window begins with them.
 void World::Core::pause(Nanoseconds to, bool continues) {
-  if (!continues) newFrame();
+  if (!continues) beginFrame();
   const Nanoseconds gap = to - time_.t1();
   traces_.pause(continues);
   if (gap == 0) return;
@@ -70,31 +70,31 @@ void World::Core::pause(Nanoseconds to, bool continues) {
 void World::Core::advance(Nanoseconds from, Nanoseconds to, bool continues) {
   time_.beginPart(from, to);
   if (!continues) {
-    newFrame();
+    beginFrame();
     if (turnsByFrame_) turnByFrame();
   }
   traces_.begin(continues);
-  beginFrame();
+  beginPart();
   while (time_.t1() - time_.origin() >= time_.window()) {
     runEvents(time_.windowEnd());
     for (RigidBody* b : active_) foresight_.catchUp(*b, time_.windowEnd());
     const bool idle = active_.empty() && commands_.empty() && changes_.colliders().empty();
     openWindow(idle ? time_.t1() / WorldTime::kWindow * WorldTime::kWindow : time_.origin() + time_.window());
   }
-  runEvents(time_.now());
-  endFrame();
+  runEvents(time_.partEnd());
+  endPart();
 }
 
-void World::Core::beginFrame() {
+void World::Core::beginPart() {
   changes_.setImmediate(false);
-  const double seconds = time_.now() - time_.from();
+  const double seconds = time_.partEnd() - time_.partStart();
   held_.dropReleased();
   for (RigidBody* b : held_.list()) {
-    b->grip.held.set(b->grip.held.start, b->grip.held.end, time_.from(), seconds);
+    b->grip.held.set(b->grip.held.start, b->grip.held.end, time_.partStart(), seconds);
     b->grip.held.arcs.swap(b->grip.nextArcs);
     b->grip.nextArcs.clear();
-    b->grip.held.follow({time_.origin(), 0}, time_.from(), time_.now());
-    traces_.noteHeld(*b, time_.from());
+    b->grip.held.follow({time_.origin(), 0}, time_.partStart(), time_.partEnd());
+    traces_.noteHeld(*b, time_.partStart());
     b->trace.put = false;
     ++b->version;
     changes_.mark(*b);
@@ -102,29 +102,29 @@ void World::Core::beginFrame() {
   changes_.sortColliders();
   for (const ColliderId id : changes_.colliders())
     if (Collider* c = objects_.collider(id)) {
-      c->move(c->now, c->next.value_or(c->now), time_.from(), seconds);
+      c->move(c->now, c->next.value_or(c->now), time_.partStart(), seconds);
       c->next.reset();
       c->motion.arcs.swap(c->nextArcs);
       c->nextArcs.clear();
-      c->motion.follow({time_.origin(), 0}, time_.from(), time_.now());
+      c->motion.follow({time_.origin(), 0}, time_.partStart(), time_.partEnd());
       ++c->version;
       boxes_.sweep(*c);
     }
-  commands_.apply(time_.from());
+  commands_.apply(time_.partStart());
   commands_.followFields();
-  restartStirred(time_.from());
+  restartStirred(time_.partStart());
   boxes_.sweep(changes_);  // boxes before predictions, so that these see all bodies
   arrivals_.placeAll();
   for (const RigidBody* b : held_.list())
-    if (b->grip.held.moving) waking_.wakeOnto({true, b->id}, time_.from());
+    if (b->grip.held.moving) waking_.wakeOnto({true, b->id}, time_.partStart());
   for (const ColliderId id : changes_.colliders())
     if (Collider* c = objects_.collider(id); c && c->enabled && (c->motion.moving || c->disturbed)) {
-      waking_.wakeOnto({false, id}, time_.from());
+      waking_.wakeOnto({false, id}, time_.partStart());
       c->disturbed = false;
     }
   boxes_.sweep(changes_);
   changes_.setImmediate(true);
-  foresight_.predictChanged(time_.from());
+  foresight_.predictChanged(time_.partStart());
 }
 
 void World::Core::runEvents(double until) {
@@ -172,22 +172,22 @@ void World::Core::fetchNext() const {
 
 /// The body has left the world, between its arc's start or the frame's, and now.
 void World::Core::expel(RigidBody& b) {
-  double in = std::max(time_.from(), -b.age0), out = time_.now();
+  double in = std::max(time_.partStart(), -b.age0), out = time_.partEnd();
   const bool left = inBounds(b.poseAt(in));
   while (left && out - in > 1e-10) {
     const double middle = 0.5 * (in + out);
     if (!(in < middle && middle < out)) break;
     (inBounds(b.poseAt(middle)) ? in : out) = middle;
   }
-  arcs_.quarantine(b, left ? in : time_.now(),
+  arcs_.quarantine(b, left ? in : time_.partEnd(),
                    left ? "it went beyond all bounds (10^12 m)" : "its pose became undefined");
   if (left) b.pose = b.poseAt(in);
 }
 
 /// Computes the pose of the body at the end of the frame.
 void World::Core::sample(RigidBody& b) {
-  foresight_.catchUp(b, time_.now());
-  const Pose X = b.poseAt(time_.now());
+  foresight_.catchUp(b, time_.partEnd());
+  const Pose X = b.poseAt(time_.partEnd());
   if (inBounds(X))
     b.pose = X;
   else
@@ -200,13 +200,13 @@ void World::Core::sample(RigidBody& b) {
   b.active = !standsStill(b.mode);
 }
 
-void World::Core::endFrame() {
+void World::Core::endPart() {
   if (!held_.list().empty()) {
-    held_.accumulate(time_.now());
+    held_.accumulate(time_.partEnd());
     recoveries_.noteFreePlaces();
   }
   if (!memory_.waiting().empty())
-    for (RigidBody* b : active_) foresight_.catchUp(*b, time_.now());
+    for (RigidBody* b : active_) foresight_.catchUp(*b, time_.partEnd());
   held_.endTouches();
   releases_.reportReleases();
   if (!std::ranges::is_sorted(memory_.events(), {}, &ContactEvent::time))
@@ -231,15 +231,15 @@ void World::Core::beginWindow(Nanoseconds at) {
   time_.openWindow(at, foresight_.nextWindow());
   foresight_.beginWindow();
   const Instant start{time_.origin(), 0};
-  const double from = std::max(0.0, time_.from());
+  const double from = std::max(0.0, time_.partStart());
   for (RigidBody& b : objects_.bodies()) {
     b.age0 = start.since(b.since);
     b.until = b.validAge - b.age0;
-    b.grip.held.begin = time_.from();
+    b.grip.held.begin = time_.partStart();
     b.grip.held.rebase(start);
   }
   for (Collider& c : objects_.colliders()) {
-    c.motion.begin = time_.from();
+    c.motion.begin = time_.partStart();
     c.motion.rebase(start);
   }
   waking_.scheduleDue(from);
@@ -249,14 +249,14 @@ void World::Core::beginWindow(Nanoseconds at) {
 /// A window begins: the world looks ahead for all active bodies.
 void World::Core::openWindow(Nanoseconds at) {
   beginWindow(at);
-  foresight_.fillWindow(std::max(0.0, time_.from()));
+  foresight_.fillWindow(std::max(0.0, time_.partStart()));
 }
 
 void World::Core::turnByFrame() {
   for (RigidBody* b : active_) {
     if (!b->flight || !b->flight->jerks() || b->mode != BodyMode::Flight || !b->enabled) continue;
-    foresight_.catchUp(*b, time_.from());
-    arcs_.turnByBias(*b, time_.from());
+    foresight_.catchUp(*b, time_.partStart());
+    arcs_.turnByBias(*b, time_.partStart());
     changes_.mark(*b);
   }
 }
