@@ -11,11 +11,14 @@ namespace stadion {
 namespace {
 
 constexpr std::size_t kMostPoints = 8;  ///< points of a pair
-constexpr double kSunk = 0.1;           ///< share of a mesh's size by which it may have sunk into another
-constexpr double kSheet = 0.2;          ///< the same into an open mesh
-constexpr double kTurnedAway = 1e-3;    ///< cosine above which a face looks away
-constexpr double kParallel = 1e-5;      ///< sine of the angle between edges that do not cross
-constexpr double kSame = 1e-6;          ///< distances that differ less are equal [m]
+constexpr double kSunk = 0.1;            ///< share of a mesh's size by which it may have sunk into another
+constexpr double kSheet = 0.2;           ///< the same into an open mesh
+constexpr double kTurnedAway = 1e-3;     ///< cosine above which a face looks away
+constexpr double kParallel = 1e-5;       ///< sine of the angle between edges that do not cross
+constexpr double kHollow = 1e-3;         ///< sine of the angle by which faces at a hollow edge rise
+constexpr double kSunkIntoWall = 1e-3;   ///< beyond a hollow edge, a corner is over the floor up to here [m]
+constexpr double kFlat = 1e-5;           ///< sine of the angle of an edge that is none
+constexpr double kSame = 1e-6;           ///< distances that differ less are equal [m]
 
 /// One of the two meshes, in the frame of B, in which the search is done.
 struct Body {
@@ -167,15 +170,35 @@ private:
     return (p.array() >= box.lo.array()).all() && (p.array() <= box.hi.array()).all();
   }
 
+  /// The axis of the mesh that a face's normal is nearest to, with its sign: a number below 6. A corner may touch
+  /// several faces, and each of these contacts has its own forces.
+  static std::uint32_t mainAxisOf(const Body& faces, const Vec3& n) {
+    const Vec3 local = faces.X.q.conjugate() * n;
+    Eigen::Index axis = 0;
+    local.cwiseAbs().maxCoeff(&axis);
+    return static_cast<std::uint32_t>(2 * axis + (local[axis] < 0 ? 1 : 0));
+  }
+  /// Whether x is not over triangle t, because it lies beyond its edge m. A wall may stand there: what has sunk into
+  /// the wall is still over the floor.
+  static bool isBeyondEdge(const Body& faces, const Triangle& t, std::size_t m, const Vec3& n,
+                           const Vec3& x) {
+    const Vec3 inwards = t.normal.cross(t.v[(m + 1) % 3] - t.v[m]);
+    const double inside = inwards.dot(x - t.v[m]) / inwards.norm();
+    if (inside >= -1e-9) return false;
+    const std::int32_t next = t.next[m];
+    if (next < 0 || inside < -kSunkIntoWall) return true;
+    const Triangle& other = faces.tree.triangles()[static_cast<std::size_t>(next)];
+    const double side = n.dot(t.normal);
+    return !(side * inwards.dot(faces.X.q * other.normal) > kHollow * inwards.norm());
+  }
+
   void cornerOverFace(const Body& corners, std::uint32_t c, const Vec3& x, const Body& faces,
                       const Triangle& t, const Vec3& n, double sunk, std::int32_t triangle, bool flipped) {
     const double height = n.dot(x - t.v[0]);
     if (!(height < margin_) || height < -sunk) return;
-    for (std::size_t m = 0; m < 3; ++m) {
-      const Vec3 e = t.v[(m + 1) % 3] - t.v[m];
-      if (t.normal.cross(e).dot(x - t.v[m]) < -1e-9 * e.norm()) return;
-    }
-    const std::uint32_t key = (flipped ? 1u << 30 : 0u) + c;
+    for (std::size_t m = 0; m < 3; ++m)
+      if (isBeyondEdge(faces, t, m, n, x)) return;
+    const std::uint32_t key = (flipped ? 1u << 30 : 0u) + (mainAxisOf(faces, n) << 27) + c;
     for (std::size_t f = 0; f < keys_.size(); ++f)  // on a seam it is over both faces
       if (keys_[f] == key && found_[f].gap.normal.dot(flipped ? Vec3(-n) : n) > 0.999) return;
     if (!corners.facesAgainst(c, n) || (height < 0 && !faces.nothingNearer(x, -height))) return;
@@ -207,8 +230,8 @@ private:
     e.out[1] = other.cross(e.d).normalized();
     const Vec3 normals = side * (t.normal + other);
     e.up = normals.squaredNorm() > 0.01 ? normals : Vec3(e.out[0] + e.out[1]);
-    // From behind it sticks out where it is hollow in front.
-    return side > 0 || e.out[0].dot(other) * side > 1e-5;
+    // A hollow edge sticks out nowhere, but it does from behind.
+    return e.out[0].dot(other) * side > (side > 0 ? -kFlat : kFlat);
   }
 
   void edgesCross(std::size_t i, const Edge& a, std::size_t j, const Edge& b) {

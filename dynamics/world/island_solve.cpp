@@ -167,7 +167,8 @@ bool IslandStep::solveStep(ContactIsland& s, double tau, double h, Effort effort
     c.impulse.setZero();
     for (const WarmStart& p : s.set[c.a]->contact.warmStarts)
       if (p.key == key) c.impulse = std::min(h, p.step) * (basisAround(n).transpose() * p.force);
-    if (c.patch >= 0) c.impulse.tail<2>().setZero();  // its area's now
+    // Its area rubs now, or nothing does. What has turned may have had its force along this face.
+    if (c.patch >= 0 || (c.friction == 0 && !c.area)) c.impulse.tail<2>().setZero();
     step.push_back(c);
   };
   for (const FoundContact& f : s.found) begins(f.contact, f.key, f.gap.normal);

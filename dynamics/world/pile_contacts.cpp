@@ -46,7 +46,7 @@ void Piles::addContact(const RigidBody& b, ContactSide other, const Surface& sur
     if (p.key == note.key) {
       const Vec3 impulse = std::min(step.pile.h, p.step) * p.force;
       c.pressed = std::max(0.0, impulse.dot(c.n));
-      c.tangential = impulse - impulse.dot(c.n) * c.n;
+      if (c.friction > 0) c.tangential = impulse - impulse.dot(c.n) * c.n;
     }
   RigidBody* o = other.isBody ? objects_.body(other.id) : nullptr;
   if (o && step.has(*o)) {

@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <random>
+
 namespace stadion {
 namespace {
 
@@ -81,6 +83,32 @@ TEST(ConcaveMesh, NothingLeavesAClosedRoom) {
         play(w, 3, 60, [&](double) { farthest = std::max(farthest, w.pose(b).p.cwiseAbs().maxCoeff()); });
         EXPECT_LT(farthest, 1.8);
       }
+}
+
+// Its lowest corner touches three faces of the room. No contact may begin with the force of another one.
+TEST(ConcaveMesh, ASlipperyBodyComesToRestInACorner) {
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> unit(-1, 1);
+  for (int run = 0; run < 40; ++run) {
+    SCOPED_TRACE(run);
+    World w;
+    const FieldId g = addGravity(w);
+    Patchwork mesh;
+    roomInto(mesh, Vec3::Constant(1.8));
+    if (run % 2) mesh.box(Vec3::Constant(-2), Vec3::Constant(2));
+    w.addCollider({w.addShape(mesh.shape()), {}, {0.0, 0.0, 0.0}});
+    BodyDef d = cubeOf(w, Solid::Mesh, 0.3);
+    d.pose.p = {0.5 * unit(random), 0.5 * unit(random), 0.5 * unit(random)};
+    d.v = {4 * unit(random), 4 * unit(random), 2 * unit(random)};
+    const BodyId b = addSolid(w, g, d);
+    double farthest = 0;
+    play(w, 4, run % 4 < 2 ? 25 : 60,
+         [&](double) { farthest = std::max(farthest, w.pose(b).p.cwiseAbs().maxCoeff()); });
+    EXPECT_LT(farthest, 1.5 + 2e-5);
+    if (w.pose(b).p.head<2>().cwiseAbs().minCoeff() > 1.499) {
+      EXPECT_LT(w.state(b).v.norm(), 1e-3);
+    }
+  }
 }
 
 TEST(ConcaveMesh, EachWallThatIsPassedIsMetAtEveryRate) {
