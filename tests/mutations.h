@@ -12,7 +12,7 @@ struct Mutations {
   std::uint64_t seed = 0;
 };
 
-/// `usual` many with seed 0; under STADION_FULL 10 000. STADION_MUTATIONS and STADION_SEED count more.
+/// `usual` many with seed 0; under STADION_FULL 10 000. STADION_MUTATIONS and STADION_SEED override both.
 inline Mutations mutations(int usual) {
   Mutations m{std::getenv("STADION_FULL") ? 10'000 : usual, 0};
   if (const char* count = std::getenv("STADION_MUTATIONS")) m.count = std::atoi(count);

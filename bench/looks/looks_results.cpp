@@ -10,10 +10,10 @@ namespace stadion::bench {
 namespace {
 
 constexpr double kAlike = 1.02;       ///< errors that differ by less are the same
-constexpr double kBetterCost = 2;     ///< of the better rung: most, of the default's
-constexpr double kBetterError = 0.8;  ///< of the better rung: most, of the default's
-constexpr double kFilledCost =
-    3;  ///< of the filled stadium with ten times the triangles: most, of the other's
+constexpr double kBetterCost = 2;     ///< largest cost of the better rung, as a multiple of the default's
+constexpr double kBetterError = 0.8;  ///< largest error of the better rung, as a multiple of the default's
+/// Largest cost of the filled stadium, with ten times the triangles, as a multiple of the other's.
+constexpr double kFilledCost = 3;
 
 /// A measure by which less is nearer.
 struct Measure {

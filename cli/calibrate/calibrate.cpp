@@ -181,7 +181,7 @@ void addCalibrateCommand(CLI::App& app, int& code) {
       "names another file, or none), for this processor, number of cores and build of Mesa. stadion run "
       "takes\n"
       "it for --wall-workers auto, --pin auto and the rasteriser's threads, and says so in its summary;\n"
-      "LP_NUM_THREADS in the environment counts more. Best on a machine that has nothing else to do.");
+      "LP_NUM_THREADS in the environment overrides it. Best on a machine that has nothing else to do.");
   command->callback([o, &code] { code = calibrate(*o); });
 }
 

@@ -1,7 +1,7 @@
 #pragma once
 /// Values that describe bodies and colliders: ids, surfaces, definitions, modes, states, contact events.
 ///
-/// Frames   node poses X_WN in World, right-handed, +Z up; C is a body's centre of mass with its principal
+/// Frames   node poses X_WN in World W, right-handed, +Z up; N is the node's own frame. C is a body's centre of mass with its principal
 ///          axes.
 /// Units    metres, seconds, kilograms; times in show nanoseconds.
 

@@ -11,7 +11,7 @@ SolverBody solverBodyOf(const RigidBody& b, double tau) {
     return {0, Mat3::Zero(), k.p, k.v, k.omega, k.pose.q * b.X_NC.q};
   }
   const Quat q = b.orientation(tau);
-  SolverBody m{b.inverseMass, Mat3::Zero(), b.position(tau), b.velocity(tau), b.turning(tau, q), q};
+  SolverBody m{b.inverseMass, Mat3::Zero(), b.position(tau), b.velocity(tau), b.angularVelocity(tau, q), q};
   const Vec3 inverse = b.inertia.cwiseInverse();
   if (inverse.x() == inverse.y() && inverse.y() == inverse.z()) {
     m.inverseInertia = inverse.x() * Mat3::Identity();

@@ -249,19 +249,18 @@ struct RigidBody : RigidMotion, BodyMatter {
   bool torqued() const {
     return mode == BodyMode::Contact && contact.dueAge > 0 && spin.kind != Spin::Kind::Driven;
   }
-  /// Angular momentum now.
-  Vec3 momentum(double tau) const {
+  Vec3 angularMomentum(double tau) const {
     if (!torqued()) return spin.angularMomentum(spinAge(tau));
     const double share = std::clamp(2 * age(tau) / contact.dueAge - 1, -1.0, 1.0);
     return spin.L + share * (contact.endL - spin.L);
   }
-  /// Angular velocity that belongs to it.
-  Vec3 turning(double tau) const { return turning(tau, orientation(tau)); }
-  Vec3 turning(double tau, const Quat& q) const {  ///< if the orientation is known already
+  /// The angular velocity that belongs to the angular momentum.
+  Vec3 angularVelocity(double tau) const { return angularVelocity(tau, orientation(tau)); }
+  Vec3 angularVelocity(double tau, const Quat& q) const {  ///< if the orientation is known already
     if (!torqued()) return spin.angularVelocity(spinAge(tau), q);
     const Vec3 inverse = inertia.cwiseInverse();
-    if (inverse.x() == inverse.y() && inverse.y() == inverse.z()) return inverse.x() * momentum(tau);
-    return q * inverse.cwiseProduct(q.conjugate() * momentum(tau));
+    if (inverse.x() == inverse.y() && inverse.y() == inverse.z()) return inverse.x() * angularMomentum(tau);
+    return q * inverse.cwiseProduct(q.conjugate() * angularMomentum(tau));
   }
   /// X_WN alone.
   Pose poseAt(double tau) const {

@@ -62,11 +62,11 @@ Gap ballGap(const Vec3& centre, double radius, const Shape& shape, const Pose& X
             DistanceLimits limits = {});
 
 /// Returns the first contact in [from, to] of sides that approach; nothing if they stay apart. Adds the
-/// number of computed distances to `iterations`.
+/// number of computed distances to `distances`.
 std::optional<Touch> firstTouch(const Side& a, const Side& b, double from, double to,
-                                std::uint64_t& iterations);
+                                std::uint64_t& distances);
 
-/// Distance now, for release events and reports. Normal from b to a.
+/// The gap at `tau`, for release events and reports. Its normal points from b to a.
 Gap gapBetween(const Side& a, const Side& b, double tau, DistanceLimits limits = {});
 /// Returns the gap between sides whose poses at tau are known.
 Gap gapBetween(const Side& a, const Kinematics& ka, const Side& b, const Kinematics& kb,

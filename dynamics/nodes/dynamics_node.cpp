@@ -433,7 +433,7 @@ bool DynamicsNode::afterStep(FrameContext& frame) {
       frame.scene.impacts().note(
           {node->self(), {}, state.p, state.clock + (state.clockRest > 0 ? 1 : 0), true});
     if (same)
-      frame.scene.touch(*node);
+      frame.scene.markChanged(*node);
     else
       node->hold(frame.scene, withScale(state.pose, frame.scene.placements().world(part.placement)));
   }

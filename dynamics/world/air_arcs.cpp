@@ -72,7 +72,7 @@ void BodyArcs::setSpin(RigidBody& b, double tau, const Spin& spin) {
 
 void BodyArcs::turnByBias(RigidBody& b, double tau) {
   const Quat q_WA = biased(b.flight->bias, b.orientation(tau) * b.q_CA, b.velocity(tau), 0);
-  const Vec3 L = b.momentum(tau);
+  const Vec3 L = b.angularMomentum(tau);
   setSpin(b, tau, Spin::free((q_WA * b.q_CA.conjugate()).normalized(), L, b.inertia));
 }
 

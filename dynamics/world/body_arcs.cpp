@@ -174,7 +174,7 @@ bool BodyArcs::flyOn(RigidBody& b, double tau) {
   if (age < b.pathAge - 1e-9) {
     const Quat q = b.orientation(tau);
     setSpin(b, tau,
-            b.flight ? spinFrom(b, tau, {b.position(tau), b.velocity(tau), q, b.momentum(tau)})
+            b.flight ? spinFrom(b, tau, {b.position(tau), b.velocity(tau), q, b.angularMomentum(tau)})
                      : Spin::free(q, b.spin.L, b.inertia));
     return false;
   }

@@ -60,8 +60,8 @@ public:
 
   template <class Fields>
   void state(Fields& f) {
-    f("looks", predictions_.arcs), f("collider looks", predictions_.colliders),
-        f("body looks", predictions_.bodies);
+    f("predicted arcs", predictions_.arcs), f("pairs with colliders", predictions_.colliders),
+        f("pairs of bodies", predictions_.bodies);
   }
 
 private:

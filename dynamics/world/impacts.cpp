@@ -51,7 +51,7 @@ void Impacts::strikeInPile(RigidBody& b, const SolverBody& m, double tau) {
   const Quat q = b.orientation(tau);
   const double left = b.contact.dueAge - b.age(tau), quiet = b.contact.quietTime;
   const Vec3 a = left > 0 && b.path.isParabola() ? Vec3(2 * b.path.c[2]) : Vec3(Vec3::Zero());
-  const Vec3 before = b.turning(tau), L = b.momentum(tau);
+  const Vec3 before = b.angularVelocity(tau), L = b.angularMomentum(tau);
   const Vec3 more = q * b.inertia.cwiseProduct(q.conjugate() * (m.omega - before));
   const Vec3 end = b.contact.endL + more;
   Spin spin = Spin::free(q, left > 0 ? Vec3(0.5 * (L + more + end)) : Vec3(L + more), b.inertia);

@@ -285,7 +285,7 @@ bool IslandStep::settleOnFace(RigidBody& b, const FoundContact& only, double tau
       face.ends(b.position(tau), b.velocity(tau)) || inFold(b, *c, face, tau))
     return false;
   b.support = face;
-  BallStart s{b.position(tau), b.velocity(tau), b.turning(tau), b.orientation(tau)};
+  BallStart s{b.position(tau), b.velocity(tau), b.angularVelocity(tau), b.orientation(tau)};
   s.v -= face.normal * face.normal.dot(s.v);
   arcs_.startOnFace(b, tau, s, false, false);
   return true;

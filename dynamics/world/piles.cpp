@@ -100,7 +100,7 @@ void Piles::join(RigidBody& b, PileStep& step) {
   m.round = b.centred;
   m.bound = b.bound.radius;
   m.middle = m.round ? m.p : Vec3(b.poseAt(tau) * b.bound.centre);
-  const Vec3 L = b.momentum(tau);
+  const Vec3 L = b.angularMomentum(tau);
   c.v = b.velocity(tau);
   c.inverseMass = b.inverseMass;
   Mat3 inverse = Mat3::Zero();
@@ -193,7 +193,7 @@ void Piles::conclude(PileStep& step) {
     const std::span list(lists.of.data() + lists.begin[i], lists.begin[i + 1] - lists.begin[i]);
     if (!noteNeighbours(step, i, list, near)) {
       const Quat q = b.orientation(tau);
-      const Vec3 L = b.momentum(tau);
+      const Vec3 L = b.angularMomentum(tau);
       waking_.wakeOnto({true, b.id}, tau);
       arcs_.startFlight(b, tau, step.members[i].p, pile.start[i].v, q, L);
       foresight_.predict(b, tau);
@@ -210,7 +210,7 @@ void Piles::conclude(PileStep& step) {
 /// whether or not their motion pays for it.)
 void Piles::dissolve(const std::vector<RigidBody*>& due, double tau) {
   for (RigidBody* b : due) {
-    const Vec3 L = b->momentum(tau);
+    const Vec3 L = b->angularMomentum(tau);
     if (b->contact.dueAge > 0)
       arcs_.setArc(*b, tau, Path::parabola(b->position(tau), b->velocity(tau), Vec3::Zero()),
                    Spin::free(b->orientation(tau), L, b->inertia), grid_.islandStep(), BodyMode::Contact);

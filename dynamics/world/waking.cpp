@@ -29,7 +29,7 @@ void Waking::enterContact(RigidBody& b, double tau) {
 /// What acts on the body changes: its step ends here and a new one begins, from what it does now.
 void Waking::cutStep(RigidBody& b, double tau) {
   if (b.mode != BodyMode::Contact) return;
-  const Vec3 L = b.momentum(tau);
+  const Vec3 L = b.angularMomentum(tau);
   arcs_.setArc(b, tau, Path::parabola(b.position(tau), b.velocity(tau), Vec3::Zero()),
                Spin::free(b.orientation(tau), L, b.inertia), grid_.islandStep(), BodyMode::Contact);
   b.contact.endL = L;

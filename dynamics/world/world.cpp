@@ -175,13 +175,12 @@ bool World::enableBody(BodyId id, bool on) {
   return true;
 }
 
-bool World::ignorePair(ContactSide a, ContactSide b, bool on) {
+void World::ignorePair(ContactSide a, ContactSide b, bool on) {
   core_->objects_.ignore(a, b, on);
   if (on) {
     core_->waking_.wakeOnto(a, core_->time_.partEnd());
     core_->waking_.wakeOnto(b, core_->time_.partEnd());
   }
-  return true;
 }
 
 void World::setBodiesCollide(bool on) {
@@ -416,8 +415,8 @@ BodyState World::state(BodyId id) const {
   s.v = b->path.velocity(age);
   s.q = b->spin.orientation(age - b->spinStart);
   const double tau = age - b->age0;
-  s.omega = b->turning(tau);
-  s.L = b->momentum(tau);
+  s.omega = b->angularVelocity(tau);
+  s.L = b->angularMomentum(tau);
   return s;
 }
 

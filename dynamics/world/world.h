@@ -76,8 +76,7 @@ public:
   /// Switches a body. While it is off, it takes part in nothing. It starts from rest when it is on again.
   bool enableBody(BodyId id, bool on);
   /// Sets whether a pair never collides (selfcollide off, or a body and the geometry that carries it).
-  /// Returns true.
-  bool ignorePair(ContactSide a, ContactSide b, bool ignored);
+  void ignorePair(ContactSide a, ContactSide b, bool ignored);
   /// Sets whether bodies collide with each other; on by default.
   void setBodiesCollide(bool on);
   /// Divides the steps of lasting contact and of pulled balls on faces by 1, 2, 4, 8 or 16. This is more

@@ -20,9 +20,8 @@ public:
   void reset() { begun_ = false; }
   /// The next measurement, dt [s] after the one before; dt > 0 but for the first.
   Pose pass(const Pose& measured, double dt);
-  /// How it moves [m/s], [rad/s], in the axes of the pose's outer frame.
-  const Vec3& velocity() const { return v_; }
-  const Vec3& rotation() const { return w_; }
+  const Vec3& velocity() const { return v_; }         ///< [m/s], in the axes of the pose's outer frame
+  const Vec3& angularVelocity() const { return w_; }  ///< [rad/s], likewise
 
 private:
   double share(double dt, double speed) const;

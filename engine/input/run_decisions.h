@@ -46,7 +46,7 @@ public:
   /// Continues after the frame `last`.
   FrameClock(double rate, const TimeSignature& last, std::map<std::uint64_t, Nanoseconds> decided = {});
 
-  /// The next frame, `ticks` after the previous one; a decision made earlier counts more.
+  /// The next frame, `ticks` after the previous one; a decision made earlier overrides `ticks`.
   TimeSignature next(std::uint64_t ticks = 1);
   /// The next frame, so much show time after the previous one, whatever the ticks; the ones after it are on
   /// ticks again. For slow motion. Expects a step of at least 1 ns.

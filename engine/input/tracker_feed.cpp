@@ -203,9 +203,9 @@ bool TrackerFeed::axis(std::string_view name, Nanoseconds clock, std::int64_t in
 Pose TrackerFeed::extrapolated(const Channel& c, Nanoseconds clock, Nanoseconds ahead) const {
   const double t = std::clamp(toSeconds(clock - c.last), 0.0, rig_.predict);
   const Pose X{c.X_RT.p + t * c.filter.velocity(),
-               (det::expRotation(t * c.filter.rotation()) * c.X_RT.q).normalized()};
+               (det::expRotation(t * c.filter.angularVelocity()) * c.X_RT.q).normalized()};
   if (ahead <= 0) return X;
-  const Vec3 &v = c.filter.velocity(), &w = c.filter.rotation();
+  const Vec3 &v = c.filter.velocity(), &w = c.filter.angularVelocity();
   return forecast(X, v, w, toSeconds(ahead), {lagAt(rig_, v.norm()), lagAt(rig_, w.norm())});
 }
 

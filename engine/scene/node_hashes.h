@@ -21,7 +21,7 @@ namespace stadion {
 class NodeHashes {
 public:
   /// Marks a node whose state changed outside its own cycle; rehash() hashes it again.
-  void touch(Node& node) {
+  void markChanged(Node& node) {
     if (std::exchange(node.scheduleState().touched, true)) return;
     touched_.push_back(&node);
   }

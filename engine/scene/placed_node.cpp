@@ -19,7 +19,7 @@ void PlacedNode::onLeave(Scene& scene) {
 }
 
 void PlacedNode::aboutToChange(Scene& scene) {
-  scene.touch(*this);
+  scene.markChanged(*this);
   makeMovable(scene);
 }
 
@@ -31,7 +31,7 @@ void PlacedNode::makeMovable(Scene& scene) {
 
 void PlacedNode::leaveFleet(Scene& scene) {
   X_PN_ = scene.placements().local(placement_);
-  scene.touch(*this);
+  scene.markChanged(*this);
 }
 
 bool PlacedNode::place(Scene& scene, const Affine& X_WN) {

@@ -123,15 +123,18 @@ public:
   /// Show time at the end of this frame; while a load enters, the exact time of its entry.
   Nanoseconds now() const { return time_.now; }
   Nanoseconds frameStart() const { return time_.start; }
+  /// Sends the message of a notification; it arrives at `when` plus the notification's delay.
   void post(const Node& sender, const Notification& n, Nanoseconds when);
+  /// Reports an event to the run's output. No node receives it.
   void note(NodeRef node, Event event, Nanoseconds when, std::optional<double> figure = {});
   /// Tells the author what the show did about a node, with its name and where it is declared.
   void warn(const Node& about, const std::string& what);
   /// Says that a node's state changed outside its own cycle.
-  void touch(Node& node) { hashes_.touch(node); }
+  void markChanged(Node& node) { hashes_.markChanged(node); }
   void moveRig(const Pose& X_WR);
   /// Asks for a sub-scene. It is installed at show time `at` (see LoadRequests). Returns its number.
   std::uint32_t requestLoad(const std::string& file, NodeRef owner, Nanoseconds at);
+  /// Asks that the sub-scene leaves at show time `at`.
   void requestUnload(std::uint32_t number, Nanoseconds at);
 
 private:

@@ -128,11 +128,11 @@ void GlRenderer::drawView(const DrawView& from, std::uint32_t index, FrameProbe*
     return;
   }
   pieces_.beginView(from, index);
-  const bool begun = small_.draw(from, index, turn, probe);
+  const bool hasSmallObjects = small_.draw(from, index, turn, probe);
   scene_.setView(index, view);
   scene_.bindView(index);
   gl_.Disable(GL_FRAMEBUFFER_SRGB);  // the shaders encode
-  beginPicture(index, begun);
+  beginPicture(index, hasSmallObjects);
   opaque_.draw(from, index, small_);
   transparent_.drawOpaqueParts(index);
   pieces_.part(Span::Sky, [&] {
@@ -146,8 +146,8 @@ void GlRenderer::drawView(const DrawView& from, std::uint32_t index, FrameProbe*
   totals_[index].add(counts());
 }
 
-/// Alone, clearing is writing the whole picture to memory. In a view drawn whole that is done once, with what
-/// comes next: it is a part of what the sky takes alone.
+/// Measured alone, clearing costs as much as writing the whole picture. In a real view it is done together with
+/// the first pass. So its time counts as the sky's.
 void GlRenderer::beginPicture(std::uint32_t view, bool withSmallObjects) {
   if (!withSmallObjects) return buffers_.begin(view);
   const SmallObjectRasterizer& picture = small_.picture();
@@ -168,7 +168,7 @@ void GlRenderer::drawNothing() {
   gl_.Disable(GL_SCISSOR_TEST);
 }
 
-/// Those of the last view.
+/// Reports the counts of the last view.
 void GlRenderer::reportCounts(FrameProbe& probe) const {
   probe.counted(Count::Calls, counts().calls);
   probe.counted(Count::Instances, counts().instances);

@@ -122,7 +122,7 @@ FrameLoopOutcome FrameLoop::run() {
   // The caller may be at the bottom of a thread, so exceptions must not leave.
   attempt("the frame loop", kAllWalls, kNoFrame, [&]() -> Failure {
     options_.mode == Mode::Sequential ? runSequential() : runPipelined();
-    return {};
+    return kNoFailure;
   });
   outcome_.missedTicks = pacer_.missed();
   outcome_.stopped = stopped_;
@@ -130,7 +130,7 @@ FrameLoopOutcome FrameLoop::run() {
 }
 
 template <class Wait>
-auto FrameLoop::waited(Span what, std::uint64_t frame, std::size_t wall, const Wait& wait) {
+auto FrameLoop::timedWait(Span what, std::uint64_t frame, std::size_t wall, const Wait& wait) {
   const SpanScope span(probe_, what, frame, numberOf(wall));
   return wait();
 }
@@ -145,7 +145,7 @@ void FrameLoop::runSequential() {
     std::optional<FrameOrder> order;
     well = attempt("App", kAllWalls, nextIndex_, [&]() -> Failure {
       order = nextOrder();
-      return Failure();
+      return kNoFailure;
     });
     if (!order) break;
     auto ticket = appStage(*order, 0);
@@ -186,7 +186,8 @@ void FrameLoop::Pipeline::app() {
   if (!isWarm && !opened_.arrive([] {})) return;
   while (const auto order = loop_.nextOrder()) {
     slots_.limitInFlight(loop_.mostInFlight(), loop_.wallsLeft());
-    const auto slot = loop_.waited(Span::ForSlot, kNoFrame, kAllWalls, [&] { return slots_.beginWrite(); });
+    const auto slot =
+        loop_.timedWait(Span::ForSlot, kNoFrame, kAllWalls, [&] { return slots_.beginWrite(); });
     if (!slot) return;
     const auto ticket = loop_.appStage(*order, *slot);
     if (!ticket) break;
@@ -197,12 +198,13 @@ void FrameLoop::Pipeline::app() {
 }
 
 // A wall leases a slot only once it has an empty list. So the walls of a room never lease more than the two
-// frames after the one shown last, and App always finds the third slot.
+// frames after the one shown last, and App finds the third slot at once. If every
+// frame is drawn, App waits for it.
 void FrameLoop::Pipeline::cull(std::size_t wall) {
   const auto nextLease = [&] { return slots_.lease(wall); };
   const auto emptyList = [&] { return queues_[wall].takeEmpty(); };
-  while (DrawList* list = loop_.waited(Span::ForList, kNoFrame, wall, emptyList)) {
-    const auto lease = loop_.waited(Span::ForFrame, kNoFrame, wall, nextLease);
+  while (DrawList* list = loop_.timedWait(Span::ForList, kNoFrame, wall, emptyList)) {
+    const auto lease = loop_.timedWait(Span::ForFrame, kNoFrame, wall, nextLease);
     if (!lease) break;
     if (!loop_.cullStage(wall, lease->slot, lease->ticket, *list)) return;
     list->filling->finish(!slots_.release(*lease));
@@ -214,7 +216,7 @@ void FrameLoop::Pipeline::draw(std::size_t wall) {
   if (!openTogether(wall)) return;
   const auto next = [&] { return queues_[wall].takeHanded(); };
   bool isWarm = false;
-  while (DrawList* list = loop_.waited(Span::ForDraw, kNoFrame, wall, next)) {
+  while (DrawList* list = loop_.timedWait(Span::ForDraw, kNoFrame, wall, next)) {
     if (list->ticket.drawn && !std::exchange(isWarm, true) && !warmUpTogether(wall, *list)) return;
     if (!list->filling->isVoid() && !loop_.drawStage(wall, *list)) return;
     if (list->filling->isCutShort()) return;
@@ -234,7 +236,7 @@ bool FrameLoop::Pipeline::warmUpTogether(std::size_t wall, DrawList& list) {
   std::call_once(warming_, [&] { warmUpBegan_ = Clock::now(); });
   if (list.filling->isWhole() && !loop_.warmUpStage(wall, list)) return false;
   const auto end = [&] { warmUpEnded_ = Clock::now(); };
-  if (!loop_.waited(Span::ForWalls, kNoFrame, wall, [&] { return warm_.arrive(end); })) return false;
+  if (!loop_.timedWait(Span::ForWalls, kNoFrame, wall, [&] { return warm_.arrive(end); })) return false;
   list.ticket.delay(warmUpEnded_ - warmUpBegan_);  // equal on all walls, since it is one frame
   return true;
 }
@@ -243,7 +245,7 @@ bool FrameLoop::Pipeline::warmUpTogether(std::size_t wall, DrawList& list) {
 bool FrameLoop::Pipeline::awaitWarmWalls() {
   const Clock::time_point began = Clock::now();
   const auto end = [&] { warmUpEnded_ = Clock::now(); };
-  if (!loop_.waited(Span::ForSlot, kNoFrame, kAllWalls, [&] { return warm_.arrive(end); })) return false;
+  if (!loop_.timedWait(Span::ForSlot, kNoFrame, kAllWalls, [&] { return warm_.arrive(end); })) return false;
   loop_.warmedUp(Clock::now() - began);
   return true;
 }
@@ -255,7 +257,7 @@ bool FrameLoop::Pipeline::swapTogether(std::size_t wall, const FrameTicket& tick
     slots_.noteShown();
   };
   const auto arrive = [&] { return swap_.arrive(show); };
-  return loop_.waited(Span::ForWalls, ticket.signature.frame, wall, arrive) && shown;
+  return loop_.timedWait(Span::ForWalls, ticket.signature.frame, wall, arrive) && shown;
 }
 
 void FrameLoop::Pipeline::run() {
@@ -264,7 +266,7 @@ void FrameLoop::Pipeline::run() {
     threads.emplace_back([this, what, wall, work = std::move(work)] {
       loop_.attempt(what, wall, kNoFrame, [&]() -> Failure {
         work();
-        return Failure();
+        return kNoFailure;
       });
       stopIfBroken();
     });
@@ -276,7 +278,7 @@ void FrameLoop::Pipeline::run() {
       start("Draw", wall, [this, wall] { drawThenClose(wall); });
     }
     start("App", kAllWalls, [this] { app(); });
-    return Failure();
+    return kNoFailure;
   });
   stopIfBroken();
   for (std::thread& t : threads) t.join();
@@ -285,7 +287,7 @@ void FrameLoop::Pipeline::run() {
 void FrameLoop::Pipeline::drawThenClose(std::size_t wall) {
   loop_.attempt("Draw", wall, kNoFrame, [&]() -> Failure {
     draw(wall);
-    return Failure();
+    return kNoFailure;
   });
   stopIfBroken();
   loop_.closeStage(wall);
@@ -304,11 +306,11 @@ std::optional<FrameOrder> FrameLoop::nextOrder() {
   if (nextIndex_ == 0 && stopRequested_) stopped_ = ended_ = true;
   if (ended_ || broken_) return std::nullopt;
   if (options_.orders && !options_.orders->leads()) return leadersOrder();
-  const std::uint64_t ticks = waited(Span::ForTick, nextIndex_, kAllWalls, [&] { return pacer_.wait(); });
+  const std::uint64_t ticks = timedWait(Span::ForTick, nextIndex_, kAllWalls, [&] { return pacer_.wait(); });
   if (!takeCommands()) return std::nullopt;
   const double speed = options_.playback && begun_ ? options_.playback->takeFrame(lastSignature_.time) : 1;
   // A continued show that is past its last frame ends once this frame has been shown.
-  if (speed == 0 || isPastEnd()) return issued({lastSignature_, {}, standstill()});
+  if (speed == 0 || isPastEnd()) return issue({lastSignature_, {}, standstill()});
   // A single step is one tick, however long the last frame took.
   const bool single = options_.playback && options_.playback->paused();
   TimeSignature now = signatureAfter(single ? 1 : ticks, speed);
@@ -317,7 +319,7 @@ std::optional<FrameOrder> FrameLoop::nextOrder() {
   ++nextIndex_;
   begun_ = true;
   lastSignature_ = now;
-  return issued({now});
+  return issue({now});
 }
 
 Standstill FrameLoop::standstill() const {
@@ -326,7 +328,7 @@ Standstill FrameLoop::standstill() const {
 }
 
 // Returns the frame to be shown, and whether it is the last. On the leader, also sends it to all hosts.
-FrameOrder FrameLoop::issued(FrameOrder order) {
+FrameOrder FrameLoop::issue(FrameOrder order) {
   if (options_.controls) order.presentation = options_.controls->state().presentation;
   // A waiting show plays its first frame, and a paused one each single step. Then time stands still again.
   const bool stands =
@@ -340,7 +342,7 @@ FrameOrder FrameLoop::issued(FrameOrder order) {
 
 // Returns the leader's order.
 std::optional<FrameOrder> FrameLoop::leadersOrder() {
-  auto order = waited(Span::ForTick, nextIndex_, kAllWalls, [&] { return options_.orders->next(); });
+  auto order = timedWait(Span::ForTick, nextIndex_, kAllWalls, [&] { return options_.orders->next(); });
   if (!order) {
     if (stopRequested_) stopped_ = true;
     return std::nullopt;
@@ -452,7 +454,7 @@ std::optional<FrameTicket> FrameLoop::appStage(const FrameOrder& order, std::siz
   if (order.still != Standstill::None) {
     const auto still = [&]() -> Failure {
       stages_.still(now, slot);
-      return Failure();
+      return kNoFailure;
     };
     if (!attemptGuarded("App", kAllWalls, now.frame, still)) return std::nullopt;
     ticket.last = ended_ = options_.orders ? order.last : noneFollows();
@@ -464,7 +466,7 @@ std::optional<FrameTicket> FrameLoop::appStage(const FrameOrder& order, std::siz
     const StageSpan span(times_.app, probe_, Span::App, now.frame);
     const auto app = [&]() -> Failure {
       stages_.app(now, slot);
-      return Failure();
+      return kNoFailure;
     };
     if (!attemptGuarded("App", kAllWalls, now.frame, app)) return std::nullopt;
   }
@@ -483,7 +485,7 @@ bool FrameLoop::cullStage(std::size_t wall, std::size_t slot, const FrameTicket&
     const StageSpan span(times_.cull[wall], probe_, Span::Cull, frame, numberOf(wall));
     const auto cull = [&]() -> Failure {
       stages_.cull(wall, slot, list);
-      return Failure();
+      return kNoFailure;
     };
     well = attemptGuarded("Cull", wall, frame, cull);
   }
@@ -518,7 +520,7 @@ void FrameLoop::warmedUp(Clock::duration took) {
 void FrameLoop::closeStage(std::size_t wall) {
   attempt("closing", wall, kNoFrame, [&]() -> Failure {
     stages_.closeWall(wall);
-    return Failure();
+    return kNoFailure;
   });
 }
 
@@ -538,7 +540,8 @@ Failure FrameLoop::drawWall(std::size_t wall, DrawList& list) {
   options_.watch->keep(wall, list);
   if (Failure f = stages_.draw(wall, list)) return f;
   const auto wrong = options_.watch->inList(wall, list);
-  return wrong ? Failure(reasonOf(stageText("Draw", wall, list.ticket.signature.frame), *wrong)) : Failure();
+  if (!wrong) return kNoFailure;
+  return reasonOf(stageText("Draw", wall, list.ticket.signature.frame), *wrong);
 }
 
 bool FrameLoop::swapStage(const FrameTicket& ticket) {

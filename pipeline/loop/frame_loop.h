@@ -109,9 +109,9 @@ private:
   std::optional<FrameOrder> nextOrder();
   std::optional<FrameOrder> leadersOrder();
   Standstill standstill() const;  ///< the reason for which show time stands still
-  FrameOrder issued(FrameOrder order);
+  FrameOrder issue(FrameOrder order);
   template <class Wait>
-  auto waited(Span what, std::uint64_t frame, std::size_t wall, const Wait& wait);
+  auto timedWait(Span what, std::uint64_t frame, std::size_t wall, const Wait& wait);
   bool takeCommands();
   std::size_t mostInFlight() const;
   std::size_t wallsLeft() const;

@@ -168,10 +168,10 @@ void ShowStages::cull(std::size_t wall, std::size_t slot, DrawList& list) {
 }
 
 Failure ShowStages::openWall(std::size_t wall) {
-  if (!wallRenderer_) return {};
+  if (!wallRenderer_) return kNoFailure;
   if (Failure f = wallRenderer_->open(wall)) return f;
   if (wall == 0) drawnBy_ = wallRenderer_->drawnBy(wall);
-  return {};
+  return kNoFailure;
 }
 
 Failure ShowStages::warmUp(std::size_t wall, const DrawList& list) {
@@ -183,7 +183,7 @@ bool ShowStages::wantsDrawn(const FrameTicket& ticket) const {
 }
 
 Failure ShowStages::draw(std::size_t wall, const DrawList& list) {
-  if (!wallRenderer_) return {};
+  if (!wallRenderer_) return kNoFailure;
   Drawn& drawn = drawn_[wall];
   drawn.views = 0;  // until it is finished there is no picture
   began_ = list.ticket.began;
@@ -215,7 +215,7 @@ Failure ShowStages::readPictures(std::size_t wall) {
     if (Failure f = wallRenderer_->read(wall, view, p.rgba)) return f;
   }
   drawn.read = true;
-  return {};
+  return kNoFailure;
 }
 
 void ShowStages::closeWall(std::size_t wall) {
@@ -234,7 +234,7 @@ Failure ShowStages::swap(const TimeSignature& now) {
     swaps_.note(std::chrono::steady_clock::now() - began);
   if (parts_.shown) parts_.shown();
   if (parts_.sink && parts_.sink->wants(now)) return parts_.sink->take(now, pictures_);
-  return {};
+  return kNoFailure;
 }
 
 }  // namespace stadion

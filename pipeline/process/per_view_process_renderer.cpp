@@ -139,7 +139,7 @@ using Failures = std::array<Failure, DrawList::kMostViews>;
 Failure firstOf(Failures& failures) {
   for (Failure& f : failures)
     if (f) return std::move(f);
-  return {};
+  return kNoFailure;
 }
 
 std::string nameOf(const std::string& wall, std::size_t view, std::size_t views) {

@@ -89,7 +89,7 @@ Failure PerWallProcessRenderer::start(Wall& wall) {
   if (const auto why = wall.process.start())
     return Reason("wall " + wall.name + ": no process draws it: " + *why);
   wall.pid = wall.process.pid();
-  return {};
+  return kNoFailure;
 }
 
 /// The process crashed, or must end. Reports the first crash, and once that more follow.
@@ -155,7 +155,7 @@ Failure PerWallProcessRenderer::answered(Wall& wall) {
   if (answer.failed) return Reason("wall " + wall.name + ": " + wall.process.text());
   if (answer.to == wall_process::Order::Open) wall.description = wall.process.text();
   if (answer.to == wall_process::Order::Draw) hasDrawn(wall, answer.totals);
-  return {};
+  return kNoFailure;
 }
 
 /// Counts the picture, whether or not it came in time.
@@ -247,7 +247,7 @@ Failure PerWallProcessRenderer::lookAfter(Wall& wall) {
   }
   if (wall.process.state() == State::Down && wall.restarts.due(Clock::now()))
     if (const Failure f = start(wall)) died(wall, "could not be started (" + f->message + ")");
-  return {};
+  return kNoFailure;
 }
 
 /// Waits as long as the walls beside may wait: not for one that somebody has stopped, and as long again for
@@ -314,7 +314,7 @@ Failure PerWallProcessRenderer::read(std::size_t index, std::uint32_t view, std:
     return Reason("wall " + wall.name + ": its picture is lost: the process that draws it " +
                   (wall.process.state() == State::Down ? wall.process.end() : std::string("hung")));
   std::memcpy(rgba.data(), picture.data(), rgba.size());
-  return {};
+  return kNoFailure;
 }
 
 void PerWallProcessRenderer::close(std::size_t index) {

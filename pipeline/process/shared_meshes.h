@@ -2,7 +2,8 @@
 /// The meshes of a show as bytes, in memory that all wall processes map. A mesh is there once, while a
 /// process uses it.
 ///
-/// Layout   a mesh file (engine/asset/mesh_file.h), then its simplified levels.
+/// Layout   the size of the mesh file (8 bytes), the file (engine/asset/mesh_file.h), the number of simplified
+///          levels, the levels.
 /// Threads  any, at once. Expects that a mesh stays in the store until take() returns.
 
 #include "engine/asset/mesh_store.h"

@@ -68,7 +68,7 @@ std::filesystem::path wallProgram() {
 
 WallProcess::WallProcess(WallProcessSetting setting, const MeshStore& meshes, SharedMeshes& shared)
     : setting_(std::move(setting)), meshes_(meshes), sharedMeshes_(shared),
-      list_("stadion-list", kListReserve), pictures_("stadion-pictures", kPictureReserve) {
+      listBytes_("stadion-list", kListReserve), pictures_("stadion-pictures", kPictureReserve) {
   pictures_.growTo(pictureBytes(setting_));
 }
 
@@ -93,7 +93,8 @@ std::optional<std::string> WallProcess::start() {
   head.rasteriserThreads = setting_.rasteriserThreads;
   head.quality = setting_.quality;
   head.processors = setting_.processors;
-  const std::array<int, 3> segments{list_.descriptor(), sharedMeshes_.descriptor(), pictures_.descriptor()};
+  const std::array<int, 3> segments{listBytes_.descriptor(), sharedMeshes_.descriptor(),
+                                    pictures_.descriptor()};
   order(head, segments);
   return {};
 }
@@ -150,7 +151,7 @@ void WallProcess::draw(const DrawList& list, OrderHead head) {
   head.order = Order::Draw;
   reads_ = head.read;
   holdsPictures_ = false;
-  head.listBytes = write(list, news, known_, list_);
+  head.listBytes = write(list, news, known_, listBytes_);
   state_ = State::Busy;
   order(head);
 }

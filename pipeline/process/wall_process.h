@@ -109,7 +109,7 @@ private:
   std::unique_ptr<ChildProcess> process_ = std::make_unique<ChildProcess>();
   std::vector<std::unique_ptr<ChildProcess>> dying_;  ///< killed; no call waits for their end
   FileDescriptor socket_;
-  SharedSegment list_, pictures_;
+  SharedSegment listBytes_, pictures_;
   State state_ = State::Down;
   StillKeys known_;
   std::unordered_map<MeshId, Sent> sent_;

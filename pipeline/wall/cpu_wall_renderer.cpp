@@ -22,7 +22,7 @@ Failure CpuWallRenderer::open(std::size_t wall) {
   auto made = CpuRenderer::create(room_, size.width, size.height, parts_.rung);
   if (!made) return Reason(made.error());
   renderers_[wall] = std::move(made.value());
-  return {};
+  return kNoFailure;
 }
 
 Failure CpuWallRenderer::warmUp(std::size_t wall, const DrawList& list) {

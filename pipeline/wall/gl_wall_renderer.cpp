@@ -26,7 +26,7 @@ Failure GlWallRenderer::open(std::size_t wall) {
   contexts_.renderer(wall).forgetTotals();
   // Not before: with the first context the rasteriser starts threads, which are bound as this one is.
   if (wall < parts_.processors.size()) parts_.processors[wall].bindThisThread();
-  return {};
+  return kNoFailure;
 }
 
 Failure GlWallRenderer::warmUp(std::size_t wall, const DrawList& list) {

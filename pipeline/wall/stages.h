@@ -45,7 +45,9 @@ struct Reason {
   NodeRef node{};  ///< the node that it is about; invalid: none
 };
 
-using Failure = std::optional<Reason>;  ///< nothing = all is well
+/// The result of a step that can fail: why it failed, or kNoFailure.
+using Failure = std::optional<Reason>;
+inline constexpr std::nullopt_t kNoFailure = std::nullopt;
 
 class Stages {
 public:
@@ -87,7 +89,7 @@ public:
   virtual Failure warmUp(std::size_t wall, const DrawList& list) {
     (void)wall;
     (void)list;
-    return Failure();
+    return kNoFailure;
   }
   /// Cull may still be filling the list (ListFilling).
   virtual Failure draw(std::size_t wall, const DrawList& list) = 0;

@@ -22,7 +22,7 @@ Failure WallContexts::open(std::size_t wall, GlProvider& provider, const MeshSto
   Context& c = *contexts_[wall];
   if (c.target) {
     if (Failure f = enter(wall)) return f;
-    if (c.renderer && c.width == width && c.height == height && c.quality == quality) return {};
+    if (c.renderer && c.width == width && c.height == height && c.quality == quality) return kNoFailure;
     close(wall);
   }
   auto target = provider.create(width, height);
@@ -35,17 +35,17 @@ Failure WallContexts::open(std::size_t wall, GlProvider& provider, const MeshSto
   c.width = width;
   c.height = height;
   c.quality = quality;
-  return {};
+  return kNoFailure;
 }
 
 Failure WallContexts::enter(std::size_t wall) {
   const std::thread::id me = std::this_thread::get_id();
-  if (contexts_[wall]->currentOn == me) return {};
+  if (contexts_[wall]->currentOn == me) return kNoFailure;
   for (std::size_t other = 0; other < contexts_.size(); ++other)
     if (contexts_[other]->currentOn == me) leave(other);
   if (const auto why = contexts_[wall]->target->makeCurrent()) return Reason(*why);
   contexts_[wall]->currentOn = me;
-  return {};
+  return kNoFailure;
 }
 
 void WallContexts::leave(std::size_t wall) {

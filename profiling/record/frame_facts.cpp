@@ -11,7 +11,7 @@ namespace stadion {
 namespace {
 
 constexpr float kLate = 1.5f;               ///< of the budget
-constexpr float kTold = 0.05f;              ///< [ms] the most expensive node is named from here on
+constexpr float kNamedFrom = 0.05f;         ///< [ms] the most expensive node is named from here on
 constexpr std::uint32_t kManyFaults = 500;  ///< pages; some 2 MB
 
 struct Suspect {
@@ -163,7 +163,7 @@ void judge(FrameFacts& f) {
 }
 
 bool nodeExplains(const FrameFacts& f) {
-  return f.cause == Cause::App && f.nodeMs >= kTold;
+  return f.cause == Cause::App && f.nodeMs >= kNamedFrom;
 }
 
 namespace {

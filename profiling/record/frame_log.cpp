@@ -13,8 +13,6 @@ constexpr std::chrono::milliseconds kNap{2};
 /// Visits of nodes, of some six spans each. Above the first number a frame is light; the second is the
 /// average number of recorded visits.
 constexpr std::uint64_t kManyVisits = 300, kVisitsAFrame = 30;
-/// Nodes that share a span; above this number, shares are sampled less often.
-constexpr std::uint64_t kManyShares = 500;
 constexpr std::chrono::microseconds kExpensive{250};
 
 /// Spans that occur once for each visited node.

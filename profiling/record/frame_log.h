@@ -70,13 +70,17 @@ public:
   virtual void caughtUp() {}
 };
 
+/// Nodes that share a span; above this number, shares are sampled less often.
+constexpr std::uint64_t kManyShares = 500;
+
 struct FrameLogOptions {
   bool samples = true;  ///< shares and drawing too; drawing: as setSamples() says
   bool shares = false;  ///< shares even without drawing
   bool whole = true;    ///< samples of drawing also measure the totals to be explained
   std::uint64_t sampleEvery = 16;
-  std::uint64_t crowdedEvery = 4;  ///< drawing of walls with very many nodes is sampled so much less often
-  std::uint64_t from = 4;          ///< first frame for readers of costs: first use of data is slow
+  /// Drawing of walls with more than kManyShares nodes is sampled so much less often.
+  std::uint64_t crowdedEvery = 4;
+  std::uint64_t from = 4;  ///< first frame for readers of costs: first use of data is slow
 };
 
 class FrameLog final : public FrameProbe {

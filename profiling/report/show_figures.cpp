@@ -7,10 +7,8 @@
 namespace stadion {
 namespace {
 
-/// Walls with this many nodes are sampled less often (frame_log.cpp).
-constexpr std::uint64_t kCrowd = 500;
 /// A scale above this is not due to the nodes.
-constexpr double kMostScaled = 1.5;
+constexpr double kLargestScale = 1.5;
 
 class Figures {
 public:
@@ -143,16 +141,16 @@ private:
       return 0;
     const FrameLogOptions log;
     const std::uint64_t played = profile_.frames() + log.from;
-    std::uint64_t most = 4 * log.sampleEvery;
+    std::uint64_t needed = 4 * log.sampleEvery;
     for (const auto& [eye, seen] : seen_) {
       const auto at = sampled_.find(eye);
       if (at == sampled_.end() || at->second == seen) continue;
-      const std::uint64_t every = log.sampleEvery * (seen > kCrowd ? log.crowdedEvery : 1);
+      const std::uint64_t every = log.sampleEvery * (seen > kManyShares ? log.crowdedEvery : 1);
       const double rounds = static_cast<double>(1 + played / every), margin = 1.25;
       const double all = rounds * static_cast<double>(seen) / static_cast<double>(at->second);
-      most = std::max(most, every * (1 + static_cast<std::uint64_t>(margin * all)));
+      needed = std::max(needed, every * (1 + static_cast<std::uint64_t>(margin * all)));
     }
-    return std::max(most, played + log.sampleEvery);
+    return std::max(needed, played + log.sampleEvery);
   }
 
   /// Adds costs that belong to no node of the script: trackers, and the eyes in front of the walls.
@@ -332,7 +330,7 @@ private:
         continue;  // an eye without a sample must not be counted with the others
       const double alone = nodesOf(key) + partsOf(eye);
       const double factor =
-          alone > 0 && eye.whole.mean() > 0 ? std::min(kMostScaled, eye.whole.mean() / alone) : 1;
+          alone > 0 && eye.whole.mean() > 0 ? std::min(kLargestScale, eye.whole.mean() / alone) : 1;
       for (NodeRow& row : out_.nodes) row.walls[wall].draw[side] *= factor;
       factors_[key] = factor;
     }

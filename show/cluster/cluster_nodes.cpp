@@ -229,7 +229,7 @@ bool ClusterNodes::anyLeft() const {
   return std::ranges::any_of(nodes_, [](const Node& node) { return node.state != State::Ended; });
 }
 
-/// What went wrong counts more than what was asked for.
+/// Returns the exit code: a failure comes before a stop that was asked for.
 int ClusterNodes::code() const {
   const auto failed = std::ranges::find_if(nodes_, hasFailed, &Node::status);
   if (failed != nodes_.end()) return failed->status;

@@ -35,7 +35,7 @@ struct ShowOptions {
   std::uint32_t samples = 0;  ///< for each pixel: 1, 2, 4 or 8; 0 = 4, or 1 in the plain look
   std::string size;           ///< empty = as the wall file says, else 800x600
   double rate = 60;
-  bool rateGiven = false;    ///< true: `rate` was given; false: a recorded run's own rate counts more
+  bool rateGiven = false;    ///< true: `rate` was given; false: a recorded run's own rate overrides it
   std::uint64_t frames = 0;  ///< 0 = by `seconds`
   double seconds = 0;        ///< 0 = to the end of the input
   std::string input;         ///< empty = beside the script if there is one; "none"
@@ -133,7 +133,7 @@ private:
   std::unique_ptr<Loader> loader_;
   std::unique_ptr<Scene> scene_;
   std::unique_ptr<InputDevice> input_;
-  InputDevice* live_ = nullptr;    ///< counts more than input_
+  InputDevice* live_ = nullptr;    ///< used instead of input_, if there is one
   WallFile walls_;                 ///< walls that are drawn here
   std::vector<WallEntry> others_;  ///< the room's others
   ShowOptions options_;

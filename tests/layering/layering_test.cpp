@@ -92,7 +92,7 @@ TEST(Layering, IncludesAreRelativeToTheRoot) {
     }
 }
 
-TEST(Layering, TheFoldersOfAFloorFormNoCycleWithItsImporterProgram) {
+TEST(Layering, NoOtherFolderIncludesTheImporterProgram) {
   for (const std::string& layer : kLayers)
     for (const Line& line : linesBelow(layer))
       if (!line.file.starts_with("engine/asset/importer_program/")) {
@@ -132,7 +132,7 @@ std::vector<std::string> cycleFrom(const Folders& folders, std::vector<std::stri
   return {};
 }
 
-TEST(Layering, TheRoomsOfAFloorFormNoCycle) {
+TEST(Layering, TheFoldersOfALayerFormNoCycle) {
   for (const char* part :
        {"engine", "pipeline", "dynamics", "profiling", "show", "bench", "cli", "assets/generator"}) {
     const Folders folders = foldersOf(part);
@@ -215,7 +215,7 @@ TEST(Layering, NoFolderHasMoreThanFortyFiles) {
   for (const auto& [folder, count] : files) EXPECT_LE(count, kMost) << folder;
 }
 
-TEST(Layering, OnlyTheCommandLineKnowsCli11AndExitCodes) {
+TEST(Layering, OnlyProgramsIncludeCli11) {
   for (const std::string& layer : kLayers) {
     if (layer == "cli") continue;
     for (const Line& line : linesBelow(layer)) {
@@ -244,7 +244,7 @@ std::set<std::string> includersOf(const std::string& prefix) {
   return files;
 }
 
-TEST(Layering, EachForeignLibraryHasItsRoom) {
+TEST(Layering, EachForeignLibraryIsIncludedInFewFiles) {
   using Files = std::set<std::string>;
   // The programs of `bench walls` link what they draw with; the product does not know them.
   const std::string osg = "bench/walls/osg/osg_walls.cpp", floor = "bench/walls/floor/";
@@ -277,7 +277,10 @@ TEST(Layering, EigenIsReadAsMathsSays) {
   bool decided = false;
   for (const std::string& layer : kLayers)
     for (const Line& line : linesBelow(layer)) {
-      if (line.file != file) file = line.file, decided = file == "engine/maths/eigen.h";
+      if (line.file != file) {
+        file = line.file;
+        decided = file == "engine/maths/eigen.h";
+      }
       if (included(line.text, '"', '"') == "engine/maths/eigen.h") decided = true;
       if (!included(line.text, '<', '>').starts_with("Eigen/")) continue;
       EXPECT_TRUE(decided) << line.place() << ": include engine/maths/eigen.h before";

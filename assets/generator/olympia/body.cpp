@@ -45,7 +45,10 @@ Part ofLinen(Clay clay, double count, double hem, double step, Rgb border) {
   part.finish = {"linen", "", 0.9, 0};
   level(part, hem + step, 0.5 * step);
   for (Vertex& v : part.vertices)
-    if (v.p.z < hem + 0.5 * step) v.p.z = hem, v.colour = border;
+    if (v.p.z < hem + 0.5 * step) {
+      v.p.z = hem;
+      v.colour = border;
+    }
   return part;
 }
 

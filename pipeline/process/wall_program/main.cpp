@@ -93,7 +93,7 @@ private:
   std::optional<std::string> openGl(const OrderHead& order);
   std::optional<Diagnostic> readPictures();
   void takeNews();
-  void rename(std::vector<DrawItem>& items) const;
+  void translateMeshIds(std::vector<DrawItem>& items) const;
   void renameStill();
 
   std::unique_ptr<SharedSegment> bytes_, sharedMeshes_, pictures_;
@@ -166,7 +166,7 @@ void DrawnWall::takeNews() {
       ids_[place.id] = meshes_.add(std::move(mesh));
 }
 
-void DrawnWall::rename(std::vector<DrawItem>& items) const {
+void DrawnWall::translateMeshIds(std::vector<DrawItem>& items) const {
   for (DrawItem& item : items)
     if (const auto at = ids_.find(item.mesh); at != ids_.end()) item.mesh = at->second;
 }
@@ -177,7 +177,7 @@ void DrawnWall::renameStill() {
     auto& still = list_.shadows.rings[i].still;
     if (!still || still == still_[i]) continue;
     auto renamed = std::make_shared<std::vector<DrawItem>>(*still);
-    rename(*renamed);
+    translateMeshIds(*renamed);
     still = still_[i] = std::move(renamed);
   }
 }
@@ -186,9 +186,9 @@ void DrawnWall::draw(const OrderHead& order) {
   if (!wall_process::read({bytes_->data(), order.listBytes}, list_, news_))
     return answer(Order::Draw, "the draw list is damaged", true);
   takeNews();
-  rename(list_.opaque);
-  rename(list_.transparent);
-  for (DrawShadowRing& ring : list_.shadows.rings) rename(ring.moving);
+  translateMeshIds(list_.opaque);
+  translateMeshIds(list_.transparent);
+  for (DrawShadowRing& ring : list_.shadows.rings) translateMeshIds(ring.moving);
   renameStill();
   auto problem = order.warmUp ? renderer_->warmUp(list_, {}) : renderer_->draw(list_, {}, nullptr);
   if (!problem && order.read) problem = readPictures();

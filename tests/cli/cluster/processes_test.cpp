@@ -106,7 +106,7 @@ TEST(ProgramClusterProcesses, ACrashIsReportedAlsoWithoutARestart) {
   EXPECT_TRUE(cluster.tells("the others go on")) << cluster.told();
   EXPECT_LT(cluster.node("left"), 0);
   kill(cluster.program(), SIGTERM);
-  EXPECT_EQ(cluster.end(), 128 + SIGKILL) << "a death counts more than that the rest was stopped";
+  EXPECT_EQ(cluster.end(), 128 + SIGKILL) << "the exit code is that of the host that died";
 }
 
 TEST(ProgramClusterProcesses, TheSoundsAreHeardOnce) {

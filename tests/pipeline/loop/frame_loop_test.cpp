@@ -90,7 +90,7 @@ public:
     return CountingStages::draw(wall, list);
   }
   Failure swap(const TimeSignature& now) override {
-    return now.frame >= firstDrawn ? CountingStages::swap(now) : Failure();
+    return now.frame >= firstDrawn ? CountingStages::swap(now) : Failure(kNoFailure);
   }
 
   std::uint64_t firstDrawn = 0;
@@ -382,7 +382,7 @@ public:
     if (wall == 0) drawn.push_back(list.ticket.signature.frame);
     return {};
   }
-  Failure swap(const TimeSignature& now) override { return shown.push_back(now.frame), Failure(); }
+  Failure swap(const TimeSignature& now) override { return shown.push_back(now.frame), kNoFailure; }
   std::vector<std::uint64_t> drawn;
 
 private:

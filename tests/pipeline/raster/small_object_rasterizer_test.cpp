@@ -20,9 +20,11 @@ struct Corners {
   std::vector<unsigned> triangles;
 
   void add(const Vec3& at, const Vec3& colour) {
-    x.push_back(static_cast<float>(at.x())), y.push_back(static_cast<float>(at.y()));
+    x.push_back(static_cast<float>(at.x()));
+    y.push_back(static_cast<float>(at.y()));
     nearness.push_back(static_cast<float>(at.z()));
-    r.push_back(static_cast<float>(colour.x())), g.push_back(static_cast<float>(colour.y()));
+    r.push_back(static_cast<float>(colour.x()));
+    g.push_back(static_cast<float>(colour.y()));
     b.push_back(static_cast<float>(colour.z()));
     triangles.push_back(static_cast<unsigned>(triangles.size()));
   }

@@ -47,7 +47,7 @@ public:
     if (isPlanted(wall, list) && whileDrawing)
       for (std::size_t slot = 0; slot < kSlots; ++slot)
         if (const SlotView view = state_.view(slot); view.written > 0 && view.written % 2 == 0)
-          return whileDrawing(view), Failure();
+          return whileDrawing(view), kNoFailure;
     if (isPlanted(wall, list) && whileDrawingList) whileDrawingList(const_cast<DrawList&>(list));
     return {};
   }
