@@ -59,7 +59,10 @@ public:
                          {"verdict", nameOf(f.verdict)},
                          {"triangles", f.mesh ? Json(f.mesh->indices.size() / 3) : Json()},
                          {"message", f.message},
-                         {"findings", jsonOf(f.notes)}});
+                         {"used", f.inventory.texts(ContentUse::Used)},
+                         {"approximated", f.inventory.texts(ContentUse::Approximated)},
+                         {"left_out", f.inventory.texts(ContentUse::LeftOut)},
+                         {"findings", jsonOf(f.losses)}});
     else
       print(f);
   }
@@ -104,7 +107,9 @@ private:
       std::printf("loaded   %s: %zu triangles\n", f.file.c_str(), f.mesh->indices.size() / 3);
     else
       std::printf("%-7s  %s: %s\n", nameOf(f.verdict), f.file.c_str(), f.message.c_str());
-    for (const Diagnostic& d : f.notes.all()) std::printf("         %s\n", d.message.c_str());
+    for (const ContentUse use : {ContentUse::Used, ContentUse::Approximated, ContentUse::LeftOut})
+      for (const std::string& text : f.inventory.texts(use))
+        std::printf("         %s: %s\n", std::string(stadion::nameOf(use)).c_str(), text.c_str());
   }
 
   bool json_, wrong_ = false;

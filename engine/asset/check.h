@@ -18,7 +18,8 @@ struct AssetFinding {
   AssetVerdict verdict = AssetVerdict::Failed;
   std::string file;            ///< below the folder
   std::string message;         ///< the error; empty when loaded
-  Diagnostics notes;           ///< losses during import
+  ModelInventory inventory;    ///< when loaded: what becomes of the content
+  Diagnostics losses;          ///< what is approximated or left out, as warnings
   const Mesh* mesh = nullptr;  ///< when loaded; valid during the call
 };
 

@@ -11,9 +11,12 @@ namespace {
 constexpr std::array kFormats{
     FormatInfo{ModelFormat::Obj, "obj", "OBJ", "Wavefront Object Importer", UpAxis::Y, 1.0, false, false},
     FormatInfo{ModelFormat::ThreeDs, "3ds", "3DS", "Discreet 3DS Importer", UpAxis::Z, 1.0, false, false},
-    FormatInfo{ModelFormat::Gltf, "gltf", "glTF 2.0", "glTF2 Importer", UpAxis::Y, 1.0, false, true},
-    FormatInfo{ModelFormat::Gltf, "glb", "glTF 2.0", "glTF2 Importer", UpAxis::Y, 1.0, false, true},
+    FormatInfo{ModelFormat::Gltf, "gltf", "glTF 2.0", "", UpAxis::Y, 1.0, false, true},
+    FormatInfo{ModelFormat::Gltf, "glb", "glTF 2.0", "", UpAxis::Y, 1.0, false, true},
     FormatInfo{ModelFormat::Collada, "dae", "COLLADA", "Collada Importer", UpAxis::Y, 1.0, true, false},
+    FormatInfo{ModelFormat::Fbx, "fbx", "FBX", "Autodesk FBX Importer", UpAxis::Y, 0.01, true, false},
+    FormatInfo{ModelFormat::Ply, "ply", "PLY", "Stanford Polygon Library (PLY) Importer", UpAxis::Z, 1.0,
+               false, false},
     FormatInfo{ModelFormat::Stl, "stl", "STL", "Stereolithography (STL) Importer", UpAxis::Z, 1.0, false,
                false},
 };
@@ -42,7 +45,6 @@ constexpr RefusedFormat kRefused[] = {
     {"scn", "TrueSpace"},
     {"csm", "CSM"},
     {"dxf", "DXF"},
-    {"fbx", "FBX"},
     {"hmp", "HMP"},
     {"ifc", "IFC"},
     {"iqm", "IQM"},
@@ -69,7 +71,6 @@ constexpr RefusedFormat kRefused[] = {
     {"off", "OFF"},
     {"ogex", "OpenGEX"},
     {"pk3", "Quake BSP"},
-    {"ply", "PLY"},
     {"pmx", "MMD"},
     {"prj", "3DS project"},
     {"q3o", "Quick3D"},
@@ -122,7 +123,7 @@ std::optional<std::string> refusedFormat(std::string_view fileName) {
 }
 
 std::string allowedFormats() {
-  return "OBJ, 3DS, glTF 2.0 (.gltf, .glb), COLLADA (.dae) and STL";
+  return "OBJ, 3DS, glTF 2.0 (.gltf, .glb), COLLADA (.dae), FBX, PLY and STL";
 }
 
 }  // namespace stadion

@@ -11,11 +11,13 @@
 ///   OBJ       +Y          1 m              states neither; most programs write +Y up
 ///   3DS       +Z          1 m              +Z is 3D Studio's up; the file's master scale is applied
 ///   STL       +Z          1 m              states neither; drawn on the bed of a machine, +Z up
+///   FBX       from file   from file        its settings; without them +Y and 1 cm
+///   PLY       +Z          1 m              states neither; scanners write +Z up
 ///
 /// Turning +Y up into +Z up: (x, y, z) -> (x, -z, y). Turning +X up into +Z up: (x, y, z) -> (-y, -z, x).
-/// Normals in OBJ, glTF and COLLADA files are kept; missing ones, and those of 3DS and STL, are made smooth
-/// except across edges sharper than 40 degrees. Colours of formats without a colour space (OBJ, 3DS, COLLADA)
-/// are taken as sRGB; those of glTF are linear.
+/// Normals in OBJ, glTF, COLLADA, FBX and PLY files are kept; missing ones, and those of 3DS and STL, are made smooth
+/// except across edges sharper than 40 degrees. Colours of formats without a colour space (all
+/// but glTF) are taken as sRGB; those of glTF are linear.
 
 #include <cstdint>
 #include <optional>
@@ -26,16 +28,16 @@ namespace stadion {
 
 enum class UpAxis : std::uint8_t { X, Y, Z };
 
-enum class ModelFormat : std::uint8_t { Obj, ThreeDs, Gltf, Collada, Stl };
+enum class ModelFormat : std::uint8_t { Obj, ThreeDs, Gltf, Collada, Stl, Fbx, Ply };
 
 struct FormatInfo {
   ModelFormat format;
   const char* extension;  ///< lower case, without the dot
   const char* name;       ///< for messages
-  const char* loader;     ///< assimp's name of the loader; no other loader may read such a file
-  UpAxis up;              ///< when neither file nor script says
-  double unit;            ///< [m] likewise
-  bool statesAxes;        ///< the file states up axis and unit itself
+  const char* loader;  ///< assimp's name of the loader, the only one that reads such a file; empty for glTF
+  UpAxis up;           ///< when neither file nor script says
+  double unit;         ///< [m] likewise
+  bool statesAxes;     ///< the file states up axis and unit itself
   bool linearColours;
 };
 
@@ -48,10 +50,10 @@ struct ImportOptions {
 /// By the extension of the file's name, in either case; nullptr if it is not a format for shows.
 const FormatInfo* formatOf(std::string_view fileName);
 
-/// The name of a 3D format that is recognised in order to be refused ("FBX"), or nothing.
+/// The name of a 3D format that is recognised in order to be refused ("Blender"), or nothing.
 std::optional<std::string> refusedFormat(std::string_view fileName);
 
-/// "OBJ, 3DS, glTF 2.0 (.gltf, .glb), COLLADA (.dae) and STL", for messages.
+/// "OBJ, 3DS, glTF 2.0 (.gltf, .glb), COLLADA (.dae), FBX, PLY and STL", for messages.
 std::string allowedFormats();
 
 }  // namespace stadion

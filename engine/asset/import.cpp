@@ -63,11 +63,11 @@ std::string sentence(const ImporterProcess::Answer& answer, const std::string& p
   return line;
 }
 
-void addNotes(const std::string& text, const std::string& path, const SourcePosition& where,
-              Diagnostics& notes) {
-  std::istringstream lines(text);
-  for (std::string line; std::getline(lines, line);)
-    if (!line.empty()) notes.warning(where, "\"" + path + "\": " + line);
+void addLosses(const ModelInventory& inventory, const std::string& path, const SourcePosition& where,
+               Diagnostics& losses) {
+  for (const ContentItem& item : inventory.items())
+    if (item.use != ContentUse::Used)
+      losses.warning(where, "\"" + path + "\": " + std::string(nameOf(item.use)) + ": " + item.text);
 }
 
 }  // namespace
@@ -76,7 +76,7 @@ Importer::Importer(std::filesystem::path program, AssetRoots roots, ImportLimits
     : roots_(std::move(roots)), limits_(limits), process_(std::move(program)) {}
 
 Outcome Importer::load(const std::string& name, const ImportOptions& options, const SourcePosition& where,
-                       Diagnostics* notes) {
+                       Diagnostics* losses, ModelInventory* inventory) {
   const auto fail = [&](std::string message) {
     return Outcome(Diagnostic{Severity::Error, where, std::move(message), {}});
   };
@@ -92,7 +92,9 @@ Outcome Importer::load(const std::string& name, const ImportOptions& options, co
   if (!mesh) return fail("the importer made of \"" + path + "\" " + mesh.error().message);
   mesh.value()->name = name;
   finish(*mesh.value());
-  if (notes) addNotes(answer.text, path, where, *notes);
+  ModelInventory content = ModelInventory::fromText(answer.text);
+  if (losses) addLosses(content, path, where, *losses);
+  if (inventory) *inventory = std::move(content);
   return mesh;
 }
 

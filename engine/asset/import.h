@@ -11,6 +11,7 @@
 
 #include "engine/asset/format.h"
 #include "engine/asset/importer_process.h"
+#include "engine/asset/inventory.h"
 #include "engine/asset/mesh.h"
 #include "engine/asset/roots.h"
 #include "engine/base/diagnostic.h"
@@ -37,10 +38,12 @@ class Importer {
 public:
   Importer(std::filesystem::path program, AssetRoots roots, ImportLimits limits = {});
 
-  /// The mesh in the file `name` below the asset roots. Small losses (a missing texture, triangles without
-  /// area) are no failure; they are added to `notes` as warnings.
+  /// The mesh in the file `name` below the asset roots. Content that is approximated or left out (a missing
+  /// texture, a light, a clip) is no failure: it is added to `losses` as warnings. `inventory` gets all of the
+  /// file's content.
   Result<std::unique_ptr<Mesh>> load(const std::string& name, const ImportOptions& options = {},
-                                     const SourcePosition& where = {}, Diagnostics* notes = nullptr);
+                                     const SourcePosition& where = {}, Diagnostics* losses = nullptr,
+                                     ModelInventory* inventory = nullptr);
 
   /// `stadion-import` of this copy of Stadion (helperProgram).
   static std::filesystem::path installedProgram();

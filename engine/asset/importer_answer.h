@@ -17,7 +17,7 @@ enum class Transfer { Done, Late, Broken, Nonsense };
 
 struct ImporterAnswer {
   ImportStatus status = ImportStatus::Failed;
-  std::string text;                ///< notes, or the reason: printable, but for the ends of its lines
+  std::string text;                ///< the inventory, or the reason: printable, but for the ends of its lines
   std::vector<std::uint8_t> mesh;  ///< not checked yet
 };
 

@@ -27,7 +27,7 @@ public:
 
   struct Answer {
     End end = End::Failed;
-    std::string text;                ///< notes, or the reason
+    std::string text;                ///< the inventory, or the reason
     std::vector<std::uint8_t> mesh;  ///< when Loaded; not checked yet
   };
 

@@ -2,7 +2,7 @@
 /// The messages between the show and its importer program over a pair of stream sockets.
 ///
 /// The show sends a request head together with the descriptor of the asset root, then the name below that
-/// root. The program answers with an answer head, a text (notes, one a line, or the reason of the failure)
+/// root. The program answers with an answer head, a text (the inventory, or the reason of the failure)
 /// and the bytes of the mesh (see mesh_file). Both are the same build, so structs are sent as they are. The
 /// show still trusts nothing it receives.
 
@@ -14,9 +14,9 @@ namespace stadion {
 
 constexpr std::uint32_t kImportMagic = 0x51495453;  // "STIQ"
 constexpr std::uint32_t kAnswerMagic = 0x41495453;  // "STIA"
-constexpr std::uint32_t kImportVersion = 2;
+constexpr std::uint32_t kImportVersion = 3;
 constexpr std::uint32_t kLongestPath = 4096;
-constexpr std::uint32_t kLongestText = 16384;
+constexpr std::uint32_t kLongestText = 65536;
 constexpr std::uint64_t kLongestAnswer = 1ull << 30;
 constexpr int kOutOfMemoryExit = 77;
 

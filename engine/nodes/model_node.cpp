@@ -12,7 +12,7 @@
 namespace stadion {
 namespace {
 
-constexpr std::string_view kModelEndings[] = {"obj", "3ds", "gltf", "glb", "dae", "stl"};
+constexpr std::string_view kModelEndings[] = {"obj", "3ds", "gltf", "glb", "dae", "fbx", "ply", "stl"};
 
 }  // namespace
 
@@ -20,7 +20,7 @@ void lintModel(const Declaration& node, LintScope& scope) {
   const std::string ending = endingOf(node.text("file"));
   if (std::find(std::begin(kModelEndings), std::end(kModelEndings), ending) == std::end(kModelEndings))
     scope.warn(node, "file",
-               fmt::format("\"{}\" is not in a format that is read (.obj, .3ds, .gltf, .glb, .dae, .stl)",
+               fmt::format("\"{}\" is not in a format that is read (.obj, .3ds, .gltf, .glb, .dae, .fbx, .ply, .stl)",
                            node.text("file")));
 }
 

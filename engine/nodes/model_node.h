@@ -14,7 +14,7 @@ inline constexpr std::string_view kUpWords[] = {"x", "y", "z"};
 
 inline constexpr AttributeSpec kObjectFile{.name = "file",
                                            .kind = ValueKind::File,
-                                           .help = "the model: .obj, .3ds, .gltf, .glb, .dae or .stl",
+                                           .help = "the model: .obj, .3ds, .gltf, .glb, .dae, .fbx, .ply or .stl",
                                            .required = true};
 inline constexpr AttributeSpec kObjectDraw{.name = "draw",
                                            .kind = ValueKind::Flag,

@@ -1,13 +1,14 @@
 #pragma once
 /// One model file to one mesh.
 
-#include "engine/asset/importer_program/channel.h"
+#include "engine/asset/importer_program/source/channel.h"
+#include "engine/asset/inventory.h"
 
 namespace stadion::importer {
 
 struct ImportedModel {
   Mesh mesh;
-  std::string notes;  ///< notes for the author, one a line
+  ModelInventory inventory;
 };
 
 /// Throws Refusal when the file is missing, broken or beyond the limits.

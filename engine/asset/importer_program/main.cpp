@@ -4,8 +4,8 @@
 /// request after another, and ends when the show closes its end. A hostile file can thus only harm this
 /// process, under limits, and not the show.
 
-#include "engine/asset/importer_program/geometry.h"
 #include "engine/asset/importer_program/import_model.h"
+#include "engine/asset/importer_program/source/source_scene.h"
 
 #include <fcntl.h>
 #include <sys/resource.h>
@@ -46,7 +46,7 @@ bool serve(int socket, const importer::Request& request) {
   try {
     importer::ImportedModel imported = importer::importModel(request);
     bytes = encode(imported.mesh);
-    text = std::move(imported.notes);
+    text = imported.inventory.asText(kLongestText);
     status = ImportStatus::Loaded;
   } catch (const std::bad_alloc&) {
     endOutOfMemory(socket);

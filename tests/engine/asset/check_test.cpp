@@ -3,6 +3,8 @@
 #include "tests/engine/asset/importing.h"
 
 #include "engine/asset/check.h"
+#include "tests/engine/asset/gltf_builder.h"
+#include "tests/engine/asset/written_models.h"
 #include "tests/mutations.h"
 
 #include <map>
@@ -13,7 +15,7 @@ namespace {
 TEST(AssetCheck, CountsWhatLoadsAndWhatDoesNot) {
   TestFolder folder;
   std::filesystem::copy(models(), folder.path() / "models");
-  folder.write("horse.fbx", "x");
+  folder.write("horse.blend", "x");
   folder.write("notes.txt", "x");
   std::map<std::string, AssetFinding> told;
   const auto counts = checkAssets(Importer::installedProgram(), folder.path(), [&](const AssetFinding& f) {
@@ -74,6 +76,49 @@ private:
   std::uint64_t state_;
 };
 
+/// A GLB with what the reader does most with: a strip, a sparse accessor, small integers, a skin and a clip.
+std::string richGlb() {
+  GltfBuilder b;
+  using B = GltfBuilder;
+  b.square();
+  b.attribute("NORMAL", std::vector<std::int8_t>(16, 64), B::kByte, "VEC3", 4);
+  b.json["bufferViews"].back()["byteStride"] = 4;
+  b.json["accessors"].back()["normalized"] = true;
+  b.attribute("COLOR_0", std::vector<std::uint16_t>(16, 999), B::kUnsignedShort, "VEC4", 4);
+  b.attribute("JOINTS_0", std::vector<std::uint8_t>(16, 0), B::kUnsignedByte, "VEC4", 4);
+  b.attribute("WEIGHTS_0", std::vector<float>(16, 0.25f), B::kFloat, "VEC4", 4);
+  b.primitive()["indices"] = b.accessor(std::vector<std::uint8_t>{0, 1, 3, 2}, B::kUnsignedByte, "SCALAR", 4);
+  b.primitive()["mode"] = 5;
+  const std::vector<std::uint8_t> places{1};
+  const std::vector<float> values{1, 0, 1};
+  const auto placeView = b.view(places.data(), 1), valueView = b.view(values.data(), 12);
+  b.json["accessors"][0]["sparse"] = {
+      {"count", 1},
+      {"indices", {{"bufferView", placeView}, {"componentType", B::kUnsignedByte}}},
+      {"values", {{"bufferView", valueView}}}};
+  const auto times = b.accessor(std::vector<float>{0, 1}, B::kFloat, "SCALAR", 2);
+  const auto moves = b.accessor(std::vector<float>(6, 0.0f), B::kFloat, "VEC3", 2);
+  b.json["nodes"] =
+      nlohmann::json::parse(R"([{"mesh": 0, "skin": 0, "children": [1]}, {"rotation": [0, 0, 1, 0]}])");
+  b.json["skins"] = nlohmann::json::parse(R"([{"joints": [1]}])");
+  b.json["animations"] = {
+      {{"samplers", {{{"input", times}, {"output", moves}}}},
+       {"channels", {{{"sampler", 0}, {"target", {{"node", 1}, {"path", "translation"}}}}}}}};
+  return b.glb();
+}
+
+/// Names and bytes of the models that are damaged.
+std::vector<std::pair<std::string, std::string>> soundModels() {
+  std::vector<std::pair<std::string, std::string>> seeds;
+  for (const char* name : {"arms.obj", "arms.3ds", "arms.gltf", "arms.glb", "arms_zup_cm.dae", "arms.stl",
+                           "mask.gltf", "lamp.gltf"})
+    seeds.emplace_back(name, bytesOf(models() / name));
+  seeds.emplace_back("rich.glb", richGlb());
+  seeds.emplace_back("wedge.fbx", fbxZUpCentimetres());
+  seeds.emplace_back("wedge.ply", plyWedge());
+  return seeds;
+}
+
 TEST(AssetCheck, MutatedModelsNeverHarmTheShow) {
   const auto [count, seed] = mutations(200);
   TestFolder folder;
@@ -83,10 +128,10 @@ TEST(AssetCheck, MutatedModelsNeverHarmTheShow) {
   Importer importer = importerOf(folder.path(), limits);
   Mutator mutate(seed);
   int loaded = 0, failed = 0;
-  const char* names[] = {"arms.obj", "arms.3ds", "arms.gltf", "arms.glb", "arms_zup_cm.dae", "arms.stl"};
+  const auto seeds = soundModels();
   for (int i = 0; i < count; ++i) {
-    const char* name = names[i % 6];
-    folder.write(name, mutate(bytesOf(models() / name)));
+    const auto& [name, bytes] = seeds[static_cast<std::size_t>(i) % seeds.size()];
+    folder.write(name, mutate(bytes));
     const auto mesh = importer.load(name);
     ++(mesh ? loaded : failed);
     if (mesh)

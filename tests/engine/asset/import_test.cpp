@@ -167,11 +167,11 @@ TEST(AssetImport, ErrorsAreOneClearSentence) {
 
 TEST(AssetImport, RefusedFormatsAreNamed) {
   TestFolder folder;
-  folder.write("horse.FBX", "whatever");
+  folder.write("horse.BLEND", "whatever");
   Importer importer = importerOf(folder.path());
-  const auto mesh = importer.load("horse.FBX");
+  const auto mesh = importer.load("horse.BLEND");
   ASSERT_FALSE(mesh);
-  EXPECT_TRUE(contains(mesh.error().message, "FBX")) << mesh.error().message;
+  EXPECT_TRUE(contains(mesh.error().message, "Blender")) << mesh.error().message;
   EXPECT_EQ(importer.started(), 0);
 }
 

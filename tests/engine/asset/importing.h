@@ -5,6 +5,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <chrono>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -49,6 +51,39 @@ private:
 inline std::string bytesOf(const std::filesystem::path& path) {
   std::ifstream file(path, std::ios::binary);
   return {std::istreambuf_iterator<char>(file), {}};
+}
+
+/// One import, with what became of the file's content.
+struct Imported {
+  std::unique_ptr<Mesh> mesh;  ///< null: failed
+  std::string error;
+  ModelInventory inventory;
+  Diagnostics losses;
+
+  bool used(const std::string& text) const { return has(ContentUse::Used, text); }
+  bool approximated(const std::string& text) const { return has(ContentUse::Approximated, text); }
+  bool leftOut(const std::string& text) const { return has(ContentUse::LeftOut, text); }
+  /// All of the inventory, for the message of a test that fails.
+  std::string all() const { return error + inventory.asText(65536); }
+
+private:
+  bool has(ContentUse use, const std::string& text) const {
+    const auto texts = inventory.texts(use);
+    return std::find(texts.begin(), texts.end(), text) != texts.end();
+  }
+};
+
+inline Imported importOf(const std::filesystem::path& folder, const std::string& name,
+                         const ImportOptions& options = {}) {
+  ImportLimits limits;
+  limits.timeout = std::chrono::minutes(1);  // the program may take its time to start on a busy machine
+  Imported imported;
+  auto mesh = importerOf(folder, limits).load(name, options, {}, &imported.losses, &imported.inventory);
+  if (mesh)
+    imported.mesh = std::move(mesh.value());
+  else
+    imported.error = mesh.error().message;
+  return imported;
 }
 
 /// Six times the volume is the sum of the triple products; positive when the triangles face outwards [m³].

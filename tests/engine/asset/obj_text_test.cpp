@@ -2,6 +2,8 @@
 
 #include "tests/engine/asset/importing.h"
 
+#include "engine/asset/mesh_checks.h"
+
 namespace stadion::test {
 namespace {
 

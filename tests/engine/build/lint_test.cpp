@@ -126,7 +126,7 @@ TEST(ScriptLint, ATrackerThatNoDeviceIsCalledIsNamed) {
 }
 
 TEST(ScriptLint, AFormatThatIsNotReadIsNamed) {
-  EXPECT_EQ(warningsOf("object(file=models/Ball.fbx)").size(), 1U);
+  EXPECT_EQ(warningsOf("object(file=models/Ball.blend)").size(), 1U);
   EXPECT_TRUE(warningsOf("object(file=models/Ball.OBJ)").empty());
   EXPECT_EQ(warningsOf("scene(file=arena.txt)").size(), 1U);
 }

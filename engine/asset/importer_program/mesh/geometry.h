@@ -1,21 +1,12 @@
 #pragma once
-/// Flattens assimp's node tree into one list of triangles, and makes an indexed mesh of the list.
+/// Flattens a scene's node tree into one list of triangles, and makes an indexed mesh of the list.
 
+#include "engine/asset/importer_program/source/source_scene.h"
 #include "engine/asset/mesh_file.h"
-#include "engine/maths/maths.h"
 
-#include <assimp/scene.h>
-
-#include <stdexcept>
-#include <string>
 #include <vector>
 
 namespace stadion::importer {
-
-/// The file is refused; the text completes "FILE ...".
-struct Refusal : std::runtime_error {
-  using std::runtime_error::runtime_error;
-};
 
 struct FlatVertex {
   std::array<float, 3> position{};
@@ -35,16 +26,13 @@ struct Flat {
   bool hasUvs = false, hasColours = false;
 };
 
-struct FlattenOptions {
-  Affine toShow;  ///< from the scene's root coordinates to metres, +Z up
+struct FlattenLimits {
   std::uint32_t nodeDepth;
-  MeshLimits limits;
-  bool keepNormals;  ///< false: the file's normals say nothing about smoothness
-  bool linearColours;
+  MeshLimits mesh;
 };
 
 /// Throws Refusal when the scene goes beyond the limits.
-Flat flatten(const aiScene& scene, const FlattenOptions& options);
+Flat flatten(const SourceScene& scene, const FlattenLimits& limits);
 
 struct DroppedTriangles {
   std::size_t notFinite = 0, degenerate = 0;

@@ -1,4 +1,4 @@
-#include "engine/asset/importer_program/geometry.h"
+#include "engine/asset/importer_program/mesh/geometry.h"
 
 #include "engine/asset/mesh_checks.h"
 #include "engine/maths/functions.h"

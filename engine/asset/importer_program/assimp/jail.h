@@ -4,17 +4,12 @@
 #include <assimp/IOSystem.hpp>
 
 #include <cstdint>
+#include <map>
 #include <memory>
-#include <optional>
 #include <string>
 #include <vector>
 
 namespace stadion::importer {
-
-/// Reads a file below the open folder `root`. Names may use either slash. Nothing when there is no such file,
-/// when it lies outside or is longer than `mostBytes`; `why` then says which.
-std::optional<std::vector<std::uint8_t>> readBeneath(int root, std::string path, std::uint64_t mostBytes,
-                                                     std::string* why = nullptr);
 
 class Jail : public Assimp::IOSystem {
 public:
@@ -33,8 +28,7 @@ public:
 private:
   int root_;
   std::uint64_t mostBytes_;
-  std::string replaced_;  ///< path; empty: none
-  std::vector<std::uint8_t> replacement_;
+  std::map<std::string, std::vector<std::uint8_t>> replacements_;  ///< by path
 };
 
 }  // namespace stadion::importer

@@ -1,5 +1,5 @@
 #pragma once
-/// PNG and JPEG pictures to 8-bit RGBA.
+/// PNG, JPEG and WebP pictures to 8-bit RGBA.
 
 #include "engine/asset/mesh_file.h"
 

@@ -1,6 +1,8 @@
-#include "engine/asset/importer_program/obj_text.h"
+#include "engine/asset/importer_program/assimp/obj_text.h"
 
-#include "engine/asset/importer_program/geometry.h"
+#include "engine/asset/importer_program/assimp/obj_statements.h"
+#include "engine/asset/importer_program/source/name_list.h"
+#include "engine/asset/importer_program/source/source_scene.h"
 
 #include <algorithm>
 #include <array>
@@ -11,90 +13,12 @@
 namespace stadion::importer {
 namespace {
 
-constexpr std::size_t kLongestShown = 40;     ///< letters of a wrong word in a message
 constexpr std::size_t kMostWholeDigits = 18;  ///< assimp reads the digits before a point as a 64-bit number
-
-/// A word and its place; line and column count from 1, columns in bytes.
-struct Word {
-  std::string_view text;
-  std::size_t line = 0, column = 0;
-};
 
 [[noreturn]] void refuseAt(const Word& at, const std::string& why) {
   throw Refusal("is wrong in line " + std::to_string(at.line) + ", column " + std::to_string(at.column) +
                 ": " + why);
 }
-
-std::string quoted(std::string_view word) {
-  std::string shown = "\"";
-  for (const char c : word.substr(0, kLongestShown)) shown += c >= ' ' && c <= '~' ? c : '?';
-  return shown + (word.size() > kLongestShown ? "...\"" : "\"");
-}
-
-bool isBlank(char c) {
-  return c == ' ' || c == '\t' || c == '\r' || c == '\f' || c == '\v';
-}
-
-/// Splits the text into statements: the words of a line, and of the lines that a backslash at its end joins.
-class Statements {
-public:
-  explicit Statements(std::string_view text) : text_(text) {}
-
-  /// False at the end of the text.
-  bool next(std::vector<Word>& words) {
-    words.clear();
-    comment_ = {};
-    if (at_ >= text_.size()) return false;
-    while (at_ < text_.size()) {
-      const char c = text_[at_];
-      if (c == '\n') {
-        newLine();
-        return true;
-      }
-      if (c == '#')
-        skipComment();
-      else if (const std::size_t joined = joining(at_); joined > 0) {
-        at_ += joined - 1;
-        newLine();
-      } else if (isBlank(c))
-        ++at_;
-      else
-        words.push_back(word());
-    }
-    return true;
-  }
-
-  /// The comment at the end of the statement; empty: none.
-  std::string_view comment() const { return comment_; }
-
-private:
-  void newLine() {
-    ++at_;
-    ++line_;
-    lineStart_ = at_;
-  }
-  void skipComment() {
-    const std::size_t from = at_;
-    at_ = std::min(text_.find('\n', at_), text_.size());
-    comment_ = text_.substr(from, at_ - from);
-  }
-
-  /// The length of a backslash and the end of its line, 0 if there is none at `at`.
-  std::size_t joining(std::size_t at) const {
-    if (text_[at] != '\\') return 0;
-    const std::string_view rest = text_.substr(at + 1, 2);
-    return rest.starts_with('\n') ? 2 : rest == "\r\n" ? 3 : 0;
-  }
-
-  Word word() {
-    const std::size_t from = at_;
-    while (at_ < text_.size() && !isBlank(text_[at_]) && text_[at_] != '\n' && joining(at_) == 0) ++at_;
-    return {text_.substr(from, at_ - from), line_, from - lineStart_ + 1};
-  }
-
-  std::string_view text_, comment_;
-  std::size_t at_ = 0, line_ = 1, lineStart_ = 0;
-};
 
 /// How many of a kind the file has, and the highest index that a face has named.
 struct IndexKind {
@@ -182,7 +106,7 @@ private:
     const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
     const bool whole = end == digits.data() + digits.size() && !digits.starts_with('-');
     if (!whole || error == std::errc::invalid_argument)
-      refuseAt(word, quoted(word.text) + " is not a number; write it as 0.5, -2 or 1e-3");
+      refuseAt(word, inQuotes(word.text) + " is not a number; write it as 0.5, -2 or 1e-3");
     const std::size_t wholeDigits = std::min(digits.find_first_not_of("0123456789"), digits.size());
     const std::string sign = negative ? "-" : "";
     if (error == std::errc::result_out_of_range)
@@ -196,7 +120,7 @@ private:
   /// Beyond double precision: too small counts as 0, too large is wrong.
   void readExtreme(const Word& word, std::string_view digits) {
     if (digits.find("e-") == std::string_view::npos && digits.find("E-") == std::string_view::npos)
-      refuseAt(word, quoted(word.text) + " is too large");
+      refuseAt(word, inQuotes(word.text) + " is too large");
     change(word.text, "0");
   }
 
@@ -222,11 +146,11 @@ private:
   }
 
   [[noreturn]] static void refuseCorner(const Word& word) {
-    refuseAt(word, quoted(word.text) + " is not the corner of a face; write it as 7, 7/1, 7//3 or 7/1/3");
+    refuseAt(word, inQuotes(word.text) + " is not the corner of a face; write it as 7, 7/1, 7//3 or 7/1/3");
   }
 
   [[noreturn]] static void refuseIndex(const IndexKind& kind, const Word& word) {
-    refuseAt(word, quoted(word.text) + " names a " + kind.name + " that does not exist; there are " +
+    refuseAt(word, inQuotes(word.text) + " names a " + kind.name + " that does not exist; there are " +
                        std::to_string(kind.count));
   }
 
@@ -265,6 +189,14 @@ private:
 };
 
 }  // namespace
+
+std::vector<std::string> materialLibraries(const std::vector<std::uint8_t>& file) {
+  std::vector<std::string> names;
+  Statements statements({reinterpret_cast<const char*>(file.data()), file.size()});
+  for (std::vector<Word> words; statements.next(words);)
+    if (words.size() > 1 && words[0].text == "mtllib") names.emplace_back(restOf(words, 1));
+  return names;
+}
 
 std::optional<std::vector<std::uint8_t>> mendedObj(const std::vector<std::uint8_t>& file) {
   return ObjText(file).mended();

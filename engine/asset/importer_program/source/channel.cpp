@@ -1,4 +1,4 @@
-#include "engine/asset/importer_program/channel.h"
+#include "engine/asset/importer_program/source/channel.h"
 
 #include <sys/socket.h>
 #include <sys/uio.h>

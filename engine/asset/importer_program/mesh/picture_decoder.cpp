@@ -1,7 +1,9 @@
-#include "engine/asset/importer_program/picture.h"
+#include "engine/asset/importer_program/mesh/picture_decoder.h"
 
 #include <png.h>
+#include <webp/decode.h>
 
+#include <algorithm>
 #include <csetjmp>
 #include <cstdio>
 #include <cstring>
@@ -107,6 +109,22 @@ bool decodeJpeg(std::span<const std::uint8_t> bytes, const MeshLimits& limits, s
   return good;
 }
 
+bool decodeWebp(std::span<const std::uint8_t> bytes, const MeshLimits& limits, std::uint64_t& budget,
+                Texture& out, std::string& why) {
+  int width = 0, height = 0;
+  const bool known = WebPGetInfo(bytes.data(), bytes.size(), &width, &height) != 0;
+  why = "is not a sound WebP";
+  if (!known ||
+      !roomFor(static_cast<std::uint64_t>(width), static_cast<std::uint64_t>(height), limits, budget, why))
+    return false;
+  out.width = static_cast<std::uint32_t>(width);
+  out.height = static_cast<std::uint32_t>(height);
+  out.rgba.resize(std::size_t{out.width} * out.height * 4);
+  why = "is not a sound WebP";
+  return WebPDecodeRGBAInto(bytes.data(), bytes.size(), out.rgba.data(), out.rgba.size(), 4 * width) !=
+         nullptr;
+}
+
 bool startsWith(std::span<const std::uint8_t> bytes, std::string_view magic) {
   return bytes.size() >= magic.size() && std::memcmp(bytes.data(), magic.data(), magic.size()) == 0;
 }
@@ -117,10 +135,13 @@ bool decodePicture(std::span<const std::uint8_t> bytes, const MeshLimits& limits
                    Texture& out, std::string& why) {
   if (startsWith(bytes, "\x89PNG")) return decodePng(bytes, limits, budget, out, why);
   if (startsWith(bytes, "\xff\xd8\xff")) return decodeJpeg(bytes, limits, budget, out, why);
+  if (startsWith(bytes, "RIFF") && startsWith(bytes.subspan(std::min<std::size_t>(8, bytes.size())), "WEBP"))
+    return decodeWebp(bytes, limits, budget, out, why);
   why = "is a picture of another format; use PNG or JPEG";
   if (startsWith(bytes, "BM")) why = "is a BMP picture; use PNG or JPEG";
   if (startsWith(bytes, "DDS ")) why = "is a DDS picture; use PNG or JPEG";
   if (startsWith(bytes, "GIF8")) why = "is a GIF picture; use PNG or JPEG";
+  if (startsWith(bytes, "\xabKTX 20")) why = "is a KTX2 picture; use PNG or JPEG";
   return false;
 }
 

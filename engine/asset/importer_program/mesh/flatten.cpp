@@ -1,0 +1,187 @@
+#include "engine/asset/importer_program/mesh/geometry.h"
+
+#include "engine/asset/mesh_checks.h"
+#include "engine/maths/functions.h"
+#include "engine/maths/srgb.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace stadion::importer {
+namespace {
+
+constexpr double kFarthest = 1e7;  // [m] beyond that single precision has lost the metre
+
+bool usable(const std::array<float, 3>& p) {
+  return std::all_of(p.begin(), p.end(),
+                     [](float c) { return std::abs(c) <= static_cast<float>(kFarthest); });
+}
+
+std::uint8_t byteOf(float c) {
+  const float value = std::isfinite(c) ? std::clamp(c, 0.0f, 1.0f) : 1.0f;
+  return static_cast<std::uint8_t>(std::lround(value * 255.0f));
+}
+
+std::uint8_t colourByte(float c, bool linear) {
+  return byteOf(linear && c > 0 ? static_cast<float>(srgbFromLinear(double{c})) : c);
+}
+
+std::array<float, 3> turnedNormal(const Float3& n, const Mat3& cofactors) {
+  const Vec3 turned = cofactors * Vec3(n[0], n[1], n[2]);
+  const double length = turned.norm();
+  if (!std::isfinite(length) || !(length > 1e-30)) return {0, 0, 0};
+  const Vec3 unit = turned / length;
+  return {static_cast<float>(unit.x()), static_cast<float>(unit.y()), static_cast<float>(unit.z())};
+}
+
+// Turns normals, without dividing by the determinant.
+Mat3 cofactorsOf(const Mat3& m) {
+  Mat3 cofactors;
+  for (int c = 0; c < 3; ++c) cofactors.col(c) = m.col((c + 1) % 3).cross(m.col((c + 2) % 3));
+  return m.determinant() < 0 ? Mat3(-cofactors) : cofactors;
+}
+
+// From v counted from the bottom of the picture to v counted from the top, as the rows lie.
+class UvMap {
+public:
+  explicit UvMap(const UvTransform& t) : t_(t), identity_(t == UvTransform{}) {
+    cos_ = det::cos(double{t.rotation});
+    sin_ = det::sin(double{t.rotation});
+  }
+
+  Float2 operator()(const Float2& from) const {
+    if (!isUsable(from)) return {0, 0};
+    const Float2 top{from[0], 1.0f - from[1]};
+    if (identity_) return top;
+    const double u = double{t_.scale[0]} * double{top[0]}, v = double{t_.scale[1]} * double{top[1]};
+    const Float2 to{static_cast<float>(cos_ * u + sin_ * v + double{t_.offset[0]}),
+                    static_cast<float>(cos_ * v - sin_ * u + double{t_.offset[1]})};
+    return isUsable(to) ? to : Float2{0, 0};
+  }
+
+private:
+  static bool isUsable(const Float2& uv) { return std::abs(uv[0]) < 1e6f && std::abs(uv[1]) < 1e6f; }
+  UvTransform t_;
+  bool identity_;
+  double cos_ = 1, sin_ = 0;
+};
+
+class Flattener {
+public:
+  Flattener(const SourceScene& scene, const FlattenLimits& limits) : scene_(scene), limits_(limits) {}
+
+  void visit(const SourceNode& node, const Affine& X_parent, std::uint32_t depth) {
+    if (depth > limits_.nodeDepth)
+      throw Refusal("nests its nodes deeper than " + std::to_string(limits_.nodeDepth));
+    const Affine X = X_parent * node.X_PN;
+    for (const std::uint32_t mesh : node.meshes)
+      for (const SourcePrimitive& primitive : scene_.meshes[mesh].primitives) append(primitive, X);
+    for (const std::uint32_t child : node.children) visit(scene_.nodes[child], X, depth + 1);
+  }
+
+  Flat flat;
+
+private:
+  void append(const SourcePrimitive& part, const Affine& X) {
+    if (part.triangles.empty()) return;
+    if (flat.vertices.size() + part.positions.size() > limits_.mesh.vertices)
+      throw Refusal("has more than " + std::to_string(limits_.mesh.vertices) + " vertices");
+    if (flat.triangles.size() + part.triangles.size() > limits_.mesh.triangles)
+      throw Refusal("has more than " + std::to_string(limits_.mesh.triangles) + " triangles");
+    const auto first = static_cast<std::uint32_t>(flat.vertices.size());
+    appendVertices(part, X);
+    const bool mirrored = X.linear().determinant() < 0;
+    for (std::array<std::uint32_t, 3> corner : part.triangles) {
+      for (std::uint32_t& c : corner) c += first;
+      if (mirrored) std::swap(corner[1], corner[2]);
+      flat.triangles.push_back({corner, part.material});
+    }
+  }
+
+  void appendVertices(const SourcePrimitive& part, const Affine& X) {
+    const Mat3 cofactors = cofactorsOf(X.linear());
+    const UvSource from =
+        part.material < scene_.materials.size() ? uvSourceOf(scene_.materials[part.material]) : UvSource{};
+    const auto& uvs = part.uvs[from.set < 2 && !part.uvs[from.set].empty() ? from.set : 0];
+    const UvMap map(from.transform);
+    const bool normals = scene_.keepNormals && !part.normals.empty();
+    flat.hasUvs |= !uvs.empty();
+    flat.hasColours |= !part.colours.empty();
+    for (std::size_t i = 0; i < part.positions.size(); ++i) {
+      FlatVertex v;
+      const Float3& at = part.positions[i];
+      const Vec3 p = X * Vec3(at[0], at[1], at[2]);
+      for (int k = 0; k < 3; ++k) v.position[k] = static_cast<float>(p[k]) + 0.0f;  // + 0 makes -0 equal to 0
+      if (normals) v.normal = turnedNormal(part.normals[i], cofactors);
+      if (!uvs.empty()) v.uv = map(uvs[i]);
+      if (!part.colours.empty()) v.colour = colour(part.colours[i]);
+      flat.vertices.push_back(v);
+    }
+  }
+
+  std::array<std::uint8_t, 4> colour(const Float4& c) const {
+    const bool linear = scene_.linearColours;
+    return {colourByte(c[0], linear), colourByte(c[1], linear), colourByte(c[2], linear), byteOf(c[3])};
+  }
+
+  const SourceScene& scene_;
+  const FlattenLimits& limits_;
+};
+
+enum class Fault { None, NotFinite, Collapsed, Sliver };
+
+Vec3 vec(const std::array<float, 3>& p) {
+  return {p[0], p[1], p[2]};
+}
+
+Fault faultOf(const Flat& flat, const FlatTriangle& t) {
+  const auto& a = flat.vertices[t.corner[0]].position;
+  const auto& b = flat.vertices[t.corner[1]].position;
+  const auto& c = flat.vertices[t.corner[2]].position;
+  if (!usable(a) || !usable(b) || !usable(c)) return Fault::NotFinite;
+  if (a == b || b == c || c == a) return Fault::Collapsed;
+  const Vec3 ab = vec(b) - vec(a), ac = vec(c) - vec(a);
+  const double longest = std::max({ab.squaredNorm(), ac.squaredNorm(), (ab - ac).squaredNorm()});
+  return ab.cross(ac).norm() > 1e-7 * longest ? Fault::None : Fault::Sliver;
+}
+
+bool closedSurface(const Flat& flat, const std::vector<Fault>& faults) {
+  Mesh shape;
+  for (const FlatVertex& v : flat.vertices) shape.positions.push_back(v.position);
+  for (std::size_t i = 0; i < flat.triangles.size(); ++i)
+    if (faults[i] == Fault::None || faults[i] == Fault::Sliver)
+      shape.indices.insert(shape.indices.end(), flat.triangles[i].corner.begin(),
+                           flat.triangles[i].corner.end());
+  return closed(shape);
+}
+
+}  // namespace
+
+Flat flatten(const SourceScene& scene, const FlattenLimits& limits) {
+  Flattener flattener(scene, limits);
+  for (const std::uint32_t root : scene.roots) flattener.visit(scene.nodes[root], scene.toShow, 0);
+  return std::move(flattener.flat);
+}
+
+DroppedTriangles dropBadTriangles(Flat& flat) {
+  DroppedTriangles dropped;
+  std::vector<Fault> faults;
+  bool slivers = false, notFinite = false;
+  for (const FlatTriangle& t : flat.triangles) {
+    faults.push_back(faultOf(flat, t));
+    slivers |= faults.back() == Fault::Sliver;
+    notFinite |= faults.back() == Fault::NotFinite;
+  }
+  const bool keepSlivers = slivers && !notFinite && closedSurface(flat, faults);
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < flat.triangles.size(); ++i) {
+    dropped.notFinite += faults[i] == Fault::NotFinite;
+    const bool keep = faults[i] == Fault::None || (faults[i] == Fault::Sliver && keepSlivers);
+    dropped.degenerate += !keep && faults[i] != Fault::NotFinite;
+    if (keep) flat.triangles[kept++] = flat.triangles[i];
+  }
+  flat.triangles.resize(kept);
+  return dropped;
+}
+
+}  // namespace stadion::importer
