@@ -78,7 +78,11 @@ private:
               [](const SourcePrimitive& p) { return !p.colours.empty(); });
     addMeshes(ContentUse::LeftOut, "further texture coordinates",
               [&](const SourcePrimitive& p) { return !p.uvs[1 - uvSetOf(p)].empty(); });
-    addMeshes(ContentUse::LeftOut, "tangents", [](const SourcePrimitive& p) { return !p.tangents.empty(); });
+    // They matter to a normal map alone.
+    addMeshes(ContentUse::LeftOut, "tangents", [&](const SourcePrimitive& p) {
+      return !p.tangents.empty() && p.material < scene_.materials.size() &&
+             scene_.materials[p.material].normalMap.given();
+    });
     std::set<std::string> further;
     for (const SourceMesh& mesh : scene_.meshes)
       for (const SourcePrimitive& part : mesh.primitives)
