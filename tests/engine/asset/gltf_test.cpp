@@ -288,7 +288,7 @@ TEST_F(Gltf, WithASparsePartThatIsWrongIsRefused) {
     Builder b;
     b.square();
     const std::vector<float> values{9, 9, 9};
-    const std::vector<std::uint32_t> places{0x42c80000};  // 100 as a float; an element that does not exist
+    const std::vector<std::uint32_t> places{4};  // one more than there are
     const auto placeView = b.view(places.data(), 4), valueView = b.view(values.data(), 12);
     b.json["accessors"][0]["sparse"] = {
         {"count", 1},
