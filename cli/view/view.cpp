@@ -1,11 +1,13 @@
-/// `stadion view SHOW`: plays a show in windows.
+/// `stadion view SHOW`: plays a show in windows, or shows a model alone.
 
 #include "cli/commands.h"
 #include "cli/exit_code.h"
 #include "cli/terminal.h"
 #include "cli/view/view_options.h"
+#include "engine/asset/import.h"
 #include "engine/base/run_stopped.h"
 #include "show/base/stop_signal.h"
+#include "show/view/model_show.h"
 #include "show/view/view_session.h"
 
 #include <CLI/CLI.hpp>
@@ -24,12 +26,24 @@ void print(const ViewReport& report) {
   std::fputs(report.lateFrames.c_str(), stderr);
 }
 
+/// If a model is to be viewed, lets the options name a show of it. The show goes with the result. False if the model
+/// cannot be read.
+bool showModel(ShowOptions& show, std::unique_ptr<ModelShow>& model, Diagnostics& findings) {
+  if (!ModelShow::isModel(show.script)) return true;
+  model = ModelShow::make(show.script, Importer::installedProgram(), findings);
+  if (!model) return false;
+  show.script = model->script();
+  show.assetRoots.push_back(model->assetRoot());
+  return true;
+}
+
 int viewShow(ViewOptions options) try {
   Diagnostics findings;
   const std::atomic<bool>& stop = catchStopSignals();
   TerminalReporter terminal;
+  std::unique_ptr<ModelShow> model;
   std::unique_ptr<ViewSession> session;
-  if (options.complete(findings))
+  if (showModel(options.run.settings.show, model, findings) && options.complete(findings))
     session = ViewSession::open(std::move(options.settings), terminal, findings);
   printFindings(findings);
   if (!session) return kBadInput;
@@ -46,8 +60,8 @@ int viewShow(ViewOptions options) try {
 void addViewCommand(CLI::App& app, int& code, std::optional<unsigned> rasteriserThreads) {
   auto o = std::make_shared<ViewOptions>();
   o->run.settings.draw.rasteriserThreads = rasteriserThreads;
-  CLI::App* command =
-      app.add_subcommand("view", "Play a show in windows, with keyboard and mouse for a visitor");
+  CLI::App* command = app.add_subcommand(
+      "view", "Play a show in windows, with keyboard and mouse for a visitor; or show a model");
   o->addTo(*command);
   command->callback([o, &code] { code = viewShow(*o); });
 }

@@ -31,9 +31,12 @@ void ViewOptions::addTo(CLI::App& command) {
   command.footer(
       keys + "\n--out DIR receives screenshots (F12). --stereo pair needs a driver with a buffer for each "
              "eye.\n\nKeyboard, mouse and gamepad stand in for head, wand and joypad, unless --input FILE "
-             "plays a recorded\nvisitor. A changed script or sub-scene is read again at once: the "
-             "visitor stays where he is, the show restarts,\nwith the same sub-scenes loaded. While "
-             "the script has errors the old show goes on.\nExample:  ./stadion view scripts/kick.evs");
+             "plays a recorded\nvisitor. A changed script, sub-scene or model is read again at once: "
+             "the visitor stays where he is, the show\nrestarts, with the same sub-scenes loaded. While "
+             "the script has errors the old show goes on.\n\nA model file in place of SHOW is shown alone, "
+             "in its true "
+             "size, before the visitor.\nExamples:  ./stadion view scripts/kick.evs\n           ./stadion "
+             "view assets/discus.glb");
 }
 
 bool ViewOptions::complete(Diagnostics& findings) {

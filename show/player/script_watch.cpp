@@ -2,6 +2,7 @@
 
 #include "engine/asset/roots.h"
 #include "engine/script/script_texts.h"
+#include "show/player/script_assets.h"
 
 #include <algorithm>
 #include <utility>
@@ -34,6 +35,7 @@ ScriptWatch::Stamps ScriptWatch::readStamps() const {
   const AssetRoots roots = rootsOf(script_, assetRoots_);
   for (const std::string& part : parts_)
     if (const auto found = roots.open(part)) note(part, found.value().path);
+  for (const std::string& asset : assets_) note(asset, asset);
   return stamps;
 }
 
@@ -61,6 +63,10 @@ std::optional<std::string> ScriptWatch::changed() {
 
 void ScriptWatch::reset() {
   parts_ = ScriptTexts::read(script_, rootsOf(script_, assetRoots_), *types_)->parts();
+  std::vector<NamedFile> assets;
+  addAssetsOf(script_, rootsOf(script_, assetRoots_), *types_, {}, assets);
+  assets_.clear();
+  for (const NamedFile& asset : assets) assets_.push_back(asset.file);
   known_ = seen_ = readStamps();
   stayedFor_ = 0;
 }

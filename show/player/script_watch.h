@@ -1,5 +1,5 @@
 #pragma once
-/// Notices that a script, or a sub-scene that it names, was saved or removed.
+/// Notices that a show's script, or a sub-scene, model, sound or table that its scripts name, was saved or removed.
 ///
 /// It is asked again and again, a few times a second.
 ///
@@ -44,7 +44,8 @@ private:
   std::string script_;
   std::vector<std::string> assetRoots_;
   SharedTypes types_;
-  std::vector<std::string> parts_;  ///< sub-scenes, as scripts name them
+  std::vector<std::string> parts_;   ///< sub-scenes, as scripts name them
+  std::vector<std::string> assets_;  ///< paths of the other files that scripts name
   Stamps known_, seen_;
   int stayedFor_ = 0;  ///< how many times it has been so
 };

@@ -107,6 +107,24 @@ TEST(ProgramView, HelpTellsEveryKey) {
     EXPECT_NE(help.find(key), help.npos) << key;
 }
 
+TEST(ProgramView, ShowsAModelAndTheOneThatIsSavedInItsPlace) {
+  REQUIRE_DISPLAY(display);
+  const TestFolder folder;
+  const std::string model = folder.path() / "model.glb";
+  std::filesystem::copy_file(assetFolder() + "/discus.glb", model);
+  Viewing view(*display, model);
+  ASSERT_TRUE(view.playing());
+  ASSERT_TRUE(view.pressed("F12", "screenshot:"));
+  const auto discus = view.shot(1);
+  std::filesystem::copy_file(assetFolder() + "/athlete_head_dark.glb", model,
+                             std::filesystem::copy_options::overwrite_existing);
+  ASSERT_TRUE(view.program().says(model + " was saved"));
+  ASSERT_TRUE(view.program().says("playing ", 2));
+  ASSERT_TRUE(view.pressed("F12", "screenshot:", 2));
+  EXPECT_NE(view.shot(2).rgba, discus.rgba);
+  view.end();
+}
+
 TEST(ProgramView, PausesGoesFrameByFrameAndSlowly) {
   REQUIRE_DISPLAY(display);
   Viewing view(*display, testShow("desk.evs"));

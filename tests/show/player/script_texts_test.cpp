@@ -105,6 +105,20 @@ TEST_F(SavedScripts, ThatAreGoneAreToldOfAndWhenTheyAreBack) {
   }
 }
 
+TEST(SavedModels, AreToldOfAsWell) {
+  const TestFolder folder;
+  const std::string model = folder.write("wall.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+  folder.write("part.evs", "object( file=wall.obj )\n");
+  ScriptWatch watch(folder.write("show.evs", kShow), {}, standardNodes());
+  std::string said;
+  EXPECT_EQ(asked(watch, said), 0);
+  folder.write("wall.obj", "v 0 0 0\nv 1 0 0\nv 0 2.5 0\nf 1 2 3\n");
+  EXPECT_EQ(asked(watch, said), 2);
+  EXPECT_EQ(said, model + " was saved");
+  watch.reset();
+  EXPECT_EQ(asked(watch, said), 0);
+}
+
 // Editors write another file and put it in the place of the first, which may be away for a moment.
 TEST_F(SavedScripts, ThatAreReplacedAreNotTakenForGone) {
   fs::rename(part_, part_ + "~");
