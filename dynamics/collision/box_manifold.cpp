@@ -116,12 +116,13 @@ void boxManifold(const Pose& A, const Vec3& halfA, const Pose& B, const Vec3& ha
     if (!points.empty()) return;
   }
   // The edges that reach farthest towards each other along n, and are square to it: of bodies deep in each
-  // other, others may be nearer.
-  const auto supportingEdge = [](const Pose& X, const Vec3& half, const Vec3& along, int axis, Vec3& p,
-                                 Vec3& d) {
-    const Vec3 l = X.q.conjugate() * along;
+  // other, others may be nearer. Of edges that reach equally far, the one beside the other box.
+  const auto supportingEdge = [](const Pose& X, const Vec3& half, const Vec3& along, const Vec3& other,
+                                 int axis, Vec3& p, Vec3& d) {
+    const Vec3 l = X.q.conjugate() * along, beside = X.inverse() * other;
     Vec3 c;
-    for (int i = 0; i < 3; ++i) c[i] = l[i] < 0 ? -half[i] : half[i];
+    for (int i = 0; i < 3; ++i)
+      c[i] = (std::fabs(l[i]) > kSquare ? l[i] : beside[i]) < 0 ? -half[i] : half[i];
     c[axis] = -half[axis];
     p = X * c;
     d = X.q * Vec3(2 * half[axis] * Vec3::Unit(axis));
@@ -130,8 +131,8 @@ void boxManifold(const Pose& A, const Vec3& halfA, const Pose& B, const Vec3& ha
   for (int i = 0; i < 3; ++i)
     for (int j = 0; j < 3; ++j) {
       Vec3 p, d, q, e;
-      supportingEdge(A, halfA, -n, i, p, d);
-      supportingEdge(B, halfB, n, j, q, e);
+      supportingEdge(A, halfA, -n, B.p, i, p, d);
+      supportingEdge(B, halfB, n, A.p, j, q, e);
       const Vec3 across = d.cross(e);
       if (across.squaredNorm() < 1e-6 * d.squaredNorm() * e.squaredNorm()) continue;
       if (across.cross(n).squaredNorm() > kSquare * kSquare * across.squaredNorm()) continue;
@@ -140,6 +141,7 @@ void boxManifold(const Pose& A, const Vec3& halfA, const Pose& B, const Vec3& ha
     }
   if (best.distance > 1e299) return;
   const double gap = n.dot(best.a - best.b);
+  if (!edges && (best.a - best.b - gap * n).norm() > kSquare) return;  // they pass each other
   if (gap < margin) points.push_back({{gap, best.b, n, false, -1}, 999});
 }
 

@@ -48,6 +48,31 @@ INSTANTIATE_TEST_SUITE_P(Kinds, SeamsUnder, testing::ValuesIn(kSliders), [](cons
   return name;
 });
 
+// Its corners enter tiles from all sides. In a turned frame rounding decides which faces of a tile look towards it.
+TEST(Seams, ABoxThatSpinsIsCaughtByNone) {
+  const Pose frame{{3, -2, 1}, Quat(Eigen::AngleAxisd(0.7, Vec3(1, 2, 3).normalized()))};
+  for (int run = 0; run < 20; ++run) {
+    SCOPED_TRACE(run);
+    Chance chance(static_cast<unsigned>(run) + 17);
+    const double width = chance.between(0.2, 1.3), length = chance.between(0.2, 0.9);
+    const Vec3 v(chance.between(-1.5, 1.5), chance.between(1, 4), 0);
+    const Surface surface{0.3, 0.0, 0.0};
+    World w;
+    const FieldId g = addGravity(w, frame.q * Vec3(0, 0, -kG));
+    for (double x = -3; x < 3; x += width)
+      for (double y = -1; y < 4; y += length)
+        addPiece(w, Ground::Boxes, frame, x, x + width, y, y + length, 0, surface);
+    BodyDef d = slider(w, Slider::Box);
+    d.v = frame.q * v;
+    d.omega = frame.q * Vec3(0, 0, chance.between(-4, 4));
+    d.pose = frame * d.pose;
+    d.surface = surface;
+    const Slid slid = watchSlide(w, addSolid(w, g, d), frame, 1.2, 60);
+    EXPECT_EQ(slid.events, 0u);
+    EXPECT_LT(std::max(slid.highest - 0.25, 0.25 - slid.lowest), 1e-6);
+  }
+}
+
 TEST(Seams, ObliquelyAcrossCornersOfFourTilesInATurnedFrame) {
   const Vec3 v(0.7, 2.5, 0);
   for (const Slider kind : {Slider::Box, Slider::Convex, Slider::Mesh, Slider::Disc, Slider::Ball})
