@@ -178,6 +178,7 @@ struct BodyContact {
   std::vector<ContactSide> touching;  ///< sides that the body leans on, or nearly; also for a body at rest
   std::vector<ContactSide> leaning;   ///< sides in `touching` that ContactMemory calls touching
   std::vector<WarmStart> warmStarts;  ///< forces of the last step on the points of this body
+  double energyCredit = 0;            ///< energy that contact forces took and may give back [J]
   Vec3 endL = Vec3::Zero();  ///< angular momentum at the end of the step, except for Driven spins [kg m2/s]
   double dueAge = 0;         ///< age at which the solver continues; 0: at once [s]
   bool inPile = false;       ///< a member of a pile, advanced together with the others

@@ -15,8 +15,8 @@ Vec3 spun(const SolverBody& m, const Vec3& w) {
 
 }  // namespace
 
-void boundWork(std::size_t members, const std::vector<SolverBody>& free, std::vector<SolverBody>& end,
-               const std::vector<Vec3>& falls, double allowed) {
+double boundWork(std::size_t members, const std::vector<SolverBody>& free, std::vector<SolverBody>& end,
+                 const std::vector<Vec3>& falls, double allowed) {
   double b = 0, c = 0, size = 0;
   for (std::size_t i = 0; i < members; ++i) {
     const Vec3 dv = end[i].v - free[i].v, dw = end[i].omega - free[i].omega, L = spun(end[i], dw);
@@ -26,25 +26,43 @@ void boundWork(std::size_t members, const std::vector<SolverBody>& free, std::ve
     size += std::fabs(along) + std::fabs(around);
     c += 0.5 * (dv.squaredNorm() / end[i].inverseMass + L.dot(dw));
   }
-  if (b + c <= allowed + kRounding * (size + c)) return;
-  const double a = (-b + std::sqrt(b * b + 4 * c * allowed)) / (2 * c);
+  if (b + c <= allowed + kRounding * (size + c) || !(c > 0)) return b + c;
+  const double a = std::clamp((-b + std::sqrt(std::max(0.0, b * b + 4 * c * allowed))) / (2 * c), 0.0, 1.0);
   for (std::size_t i = 0; i < members; ++i) {
     end[i].v = free[i].v + a * (end[i].v - free[i].v);
     end[i].omega = free[i].omega + a * (end[i].omega - free[i].omega);
   }
+  return a * (b + a * c);
+}
+
+double kineticEnergy(std::size_t members, const std::vector<SolverBody>& bodies) {
+  double energy = 0;
+  for (std::size_t i = 0; i < members; ++i) {
+    const SolverBody& m = bodies[i];
+    energy += 0.5 * (m.v.squaredNorm() / m.inverseMass + m.omega.dot(spun(m, m.omega)));
+  }
+  return energy;
+}
+
+double turningWork(std::size_t members, const std::vector<SolverBody>& start,
+                   const std::vector<SolverBody>& free) {
+  double work = 0;
+  for (std::size_t i = 0; i < members; ++i)
+    work += 0.5 * (start[i].omega.dot(spun(start[i], start[i].omega)) -
+                   free[i].omega.dot(spun(free[i], free[i].omega)));
+  return work;
 }
 
 double pushOutWork(std::size_t members, const std::vector<SolverBody>& start, const std::vector<Vec3>& pull,
                    double h, double speed) {
   if (!(speed > 0)) return 0;
-  double moves = 0, wanted = 0, lifts = 0;
+  double wanted = 0, lifts = 0;
   for (std::size_t i = 0; i < members; ++i) {
     const double m = 1 / start[i].inverseMass;
-    moves += 0.5 * (m * start[i].v.squaredNorm() + start[i].omega.dot(spun(start[i], start[i].omega)));
     wanted += m * speed * speed;
     lifts += m * h * pull[i].norm() * speed;
   }
-  return std::max(0.0, wanted + lifts - moves);
+  return std::max(0.0, wanted + lifts - kineticEnergy(members, start));
 }
 
 }  // namespace stadion

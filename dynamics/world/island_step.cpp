@@ -32,15 +32,20 @@ bool staysWedged(const ContactIsland& s) {
          });
 }
 
-/// The step's forces bring no energy but what takes back overlap.
+/// The step's forces bring no energy but what takes back overlap, and what they took before.
 void boundStep(ContactIsland& s, double h) {
   if (s.carried) return;
   const std::size_t n = s.set.size();
   double speed = 0;
   for (const FoundContact& f : s.found) speed = std::max(speed, f.contact.floor);
-  const double allowed = pushOutWork(n, s.start, s.pull, h, speed);
+  const double pushed = pushOutWork(n, s.start, s.pull, h, speed), turning = turningWork(n, s.start, s.free);
+  double credit = 0;
+  for (const RigidBody* b : s.set) credit += b->contact.energyCredit;
   for (Vec3& a : s.pull) a *= 0.5 * h;
-  boundWork(n, s.free, s.end, s.pull, allowed);
+  const double work = boundWork(n, s.free, s.end, s.pull, pushed + turning + credit) - turning;
+  credit -= work < 0 ? work : std::max(0.0, work - pushed);
+  credit = std::clamp(credit, 0.0, kCredit * kineticEnergy(n, s.end));
+  for (RigidBody* b : s.set) b->contact.energyCredit = credit / static_cast<double>(n);
 }
 
 /// Rolling resistance takes spin, up to c r N, from balls, and from rods and discs that roll.

@@ -145,7 +145,7 @@ static void fieldsOf(RigidBody& b, StateFields& f) {
   f("hooks", b.hooks), f("touching", b.contact.touching), f("leaning", b.contact.leaning),
       f("warm starts", b.contact.warmStarts);
   f("due", b.contact.dueAge), f("in pile", b.contact.inPile), f("wedged", b.contact.wedged),
-      f("unsolved", b.contact.unsolved);
+      f("unsolved", b.contact.unsolved), f("energy credit", b.contact.energyCredit);
   f("sleeps next", b.contact.sleepsNext), f("rests in pile", b.contact.restsInPile),
       f("drift", b.contact.drift), f("twist", b.contact.twist);
   f("slot", b.contact.slot), f("held", b.grip.held), f("carried", b.grip.carried),

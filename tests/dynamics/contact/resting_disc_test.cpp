@@ -76,5 +76,52 @@ TEST(RestingDisc, RollingResistanceDoesNotKeepItFromFallingOver) {
   EXPECT_LT(fallsOverIn(0.35), 1);
 }
 
+/// How far the lowest point of a cylinder is below the floor z = 0 [m].
+double depthOf(const Pose& X, double radius, double half) {
+  const double rise = std::fabs((X.q * Vec3::UnitZ()).z());
+  return radius * std::sqrt(std::max(0.0, 1 - rise * rise)) + half * rise - X.p.z();
+}
+
+double energyOf(const World& w, BodyId b, double mass) {
+  const BodyState s = w.state(b);
+  return 0.5 * mass * s.v.squaredNorm() + 0.5 * s.L.dot(s.omega) + mass * kG * s.p.z();
+}
+
+// Its point of contact runs round the rim. The forces there do no work, but in a step of finite length they do a
+// little, of either sign.
+TEST(RollingCoin, NeitherSinksInNorGainsEnergyAndOnSlipperyGroundKeepsIt) {
+  constexpr double kRadius = 0.3, kHalf = 0.09, kMass = 2;
+  for (const double friction : {0.0, 0.3, 0.8})
+    for (const double lean : {0.4, 0.7, 1.1})
+      for (const double spin : {3.0, 6.0}) {
+        SCOPED_TRACE(testing::Message() << friction << " " << lean << " " << spin);
+        World w;
+        const FieldId g = addGravity(w);
+        addFloor(w, friction, 0);
+        BodyDef d;
+        d.shape = w.addShape(CylinderShape{{}, kRadius, kHalf});
+        d.mass = massOfRound(kRadius, kHalf, kMass);
+        d.surface = {friction, 0.0, 0.0};
+        d.pose.q = Quat(Eigen::AngleAxisd(lean, Vec3::UnitX()));
+        d.pose.p.z() = kRadius * std::sin(lean) + kHalf * std::cos(lean);
+        d.omega.z() = spin;
+        d.v.x() = 0.5;
+        const BodyId b = addSolid(w, g, d);
+        double deepest = 0, first = 0, least = 1e9, rise = 0;
+        play(w, 8, 60, [&](double) {
+          deepest = std::max(deepest, depthOf(w.pose(b), kRadius, kHalf));
+          const double energy = energyOf(w, b, kMass);
+          if (first == 0) first = energy;
+          least = std::min(least, energy);
+          rise = std::max(rise, energy - least);
+        });
+        EXPECT_LT(deepest, 3e-5);
+        EXPECT_LT(rise, 1e-3 * least);
+        if (friction == 0) {
+          EXPECT_GT(least, 0.995 * first);
+        }
+      }
+}
+
 }  // namespace
 }  // namespace stadion
