@@ -28,10 +28,12 @@ void print(const ViewReport& report) {
 
 /// If a model is to be viewed, lets the options name a show of it. The show goes with the result. False if the model
 /// cannot be read.
-bool showModel(ShowOptions& show, std::unique_ptr<ModelShow>& model, Diagnostics& findings) {
+bool showModel(ViewOptions& options, std::unique_ptr<ModelShow>& model, Diagnostics& findings) {
+  ShowOptions& show = options.run.settings.show;
   if (!ModelShow::isModel(show.script)) return true;
   model = ModelShow::make(show.script, Importer::installedProgram(), findings);
   if (!model) return false;
+  options.settings.model = show.script;
   show.script = model->script();
   show.assetRoots.push_back(model->assetRoot());
   return true;
@@ -43,7 +45,7 @@ int viewShow(ViewOptions options) try {
   TerminalReporter terminal;
   std::unique_ptr<ModelShow> model;
   std::unique_ptr<ViewSession> session;
-  if (showModel(options.run.settings.show, model, findings) && options.complete(findings))
+  if (showModel(options, model, findings) && options.complete(findings))
     session = ViewSession::open(std::move(options.settings), terminal, findings);
   printFindings(findings);
   if (!session) return kBadInput;

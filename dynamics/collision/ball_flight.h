@@ -35,7 +35,7 @@ struct BallFlight {
 
   struct Stay {
     double seconds = 0;  ///< time for which the gap is at most `far` [s]
-    /// Then it is `far` off the face that was the last below it; else something ended there.
+    /// True: after `seconds` the ball is `far` from the last face below it. False: the face or the search ended first.
     bool sure = false;
     std::int32_t triangle = -1;  ///< triangle of a mesh that was the last one below the ball; else -1
   };

@@ -8,12 +8,12 @@
 namespace stadion {
 namespace {
 
-constexpr int kMostLooks = 400;  ///< by steps that are certain to pass nothing
-constexpr int kHurried = 1000;   ///< parts of the way in which the search continues after that
-constexpr int kPatience = 6;     ///< looks until planes that turn are tried
-constexpr double kEven = 1e-8;   ///< points that reach as far but for this touch together [m]
-constexpr double kRough = 1e-5;  ///< accuracy of distances on the way
-constexpr double kFar = 0.05;    ///< of the body's reach: farther off a face its plane will do
+constexpr int kMostLooks = 400;           ///< by steps that are certain to pass nothing
+constexpr int kFallbackSteps = 1000;      ///< parts of the way in which the search continues after that
+constexpr int kPatience = 6;              ///< looks until planes that turn are tried
+constexpr double kSupportTie = 1e-8;      ///< points that reach as far but for this touch together [m]
+constexpr double kGapAccuracy = 1e-5;     ///< accuracy of distances on the way
+constexpr double kFaceOnlyBeyond = 0.05;  ///< of the body's reach: farther off a face its plane will do
 
 double reachOf(const Side& s) {
   return s.body ? s.body->reach : s.bound().centre.norm() + s.bound().radius;
@@ -81,7 +81,7 @@ struct Mover {
   }
   Vec3 velocityAt(const Vec3& x) const { return v + omega.cross(x - p); }
 
-  /// The greatest of (n + s w x n) . (x - o + s v_x) over the body, less what is of s^2, and its rate of
+  /// The greatest of (n + s w x n) . (x - o + s v_x) over the body without terms of s^2, and its rate of
   /// change; `w x n` is given.
   [[gnu::always_inline]] double farthest(const Vec3& n, const Vec3& tilt, const Vec3& o, double s,
                                          double& rate) const {
@@ -115,7 +115,7 @@ struct Lower {
     level = b->farthest(n, tilt, o, 0, rise);
     b = nullptr;
   }
-  /// The same with the direction turning, for no longer than `most`: of what is of s^2 and more, tilt . v is
+  /// The same with the direction turning, for no longer than `most`: of the terms of s^2 and above, tilt . v is
   /// bounded by the speeds of all points, and the direction grows a little.
   Lower(const Mover& movingA, const Mover& movingB, const Vec3& normal, double bound, const Vec3& w,
         const Vec3& about)
@@ -267,7 +267,7 @@ std::optional<Touch> advance(Mover& a, Mover* b, double acceleration, double fro
     place(at);
     return measure(level);
   };
-  for (int i = 0; i < kMostLooks + 2 * kHurried; ++i) {
+  for (int i = 0; i < kMostLooks + 2 * kFallbackSteps; ++i) {
     std::optional<double> level;
     ConvexGap g = look(tau, level);
     if (i > kMostLooks && g.distance < -tolerance && apart < tau) {
@@ -281,7 +281,7 @@ std::optional<Touch> advance(Mover& a, Mover* b, double acceleration, double fro
     if (gap <= tolerance) {
       if (closingRate(f) < 0) {
         Vec3 x = g.onB;
-        if (!pointed(a.core, g.normal, kEven)) {
+        if (!pointed(a.core, g.normal, kSupportTie)) {
           points.clear();
           patch(g, points);
           contactPoint(a, b, points, g.distance, x);
@@ -297,7 +297,7 @@ std::optional<Touch> advance(Mover& a, Mover* b, double acceleration, double fro
     double step = safeTime(f, gap, left, outside);
     if (b && i >= kPatience && step < left) step = turningTime(a, *b, g, gap, acceleration, left, step);
     if (step >= left) return {};
-    if (i >= kMostLooks) step = std::max(step, std::min(left, (to - from) / kHurried));
+    if (i >= kMostLooks) step = std::max(step, std::min(left, (to - from) / kFallbackSteps));
     tau += std::max(step, gap > 0 ? 1e-16 : 1e-9);
     if (!(tau <= to)) return {};
   }
@@ -385,11 +385,11 @@ private:
 
   ConvexGap gapTo(std::uint32_t face, std::optional<double>& level) {
     ConvexGap g;
-    if (gapOverFace(a_.core, b_.core, kFar * a_.reach, g) && g.distance > 1e-6) {
+    if (gapOverFace(a_.core, b_.core, kFaceOnlyBeyond * a_.reach, g) && g.distance > 1e-6) {
       if (meshSide_.still()) level = g.normal.dot(g.onB);
       return g;
     }
-    g = convexGap(a_.core, b_.core, guess_, kRough);
+    g = convexGap(a_.core, b_.core, guess_, kGapAccuracy);
     guess_ = g.normal;
     if (g.distance < 1e-6) meshNormal(a_.core, b_.core, mesh_.tree, face, g);
     return g;
@@ -428,11 +428,11 @@ std::optional<Touch> convexTouch(const Side& sa, const Side& sb, double from, do
       },
       [&](std::optional<double>& level) {
         ConvexGap g;
-        if (gapOverFace(a.core, b.core, kFar * a.reach, g)) {
+        if (gapOverFace(a.core, b.core, kFaceOnlyBeyond * a.reach, g)) {
           if (sb.still()) level = g.normal.dot(g.onB);
           return g;
         }
-        g = convexGap(a.core, b.core, guess, kRough);
+        g = convexGap(a.core, b.core, guess, kGapAccuracy);
         guess = g.normal;
         return g;
       },

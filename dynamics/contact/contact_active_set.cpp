@@ -9,17 +9,18 @@
 namespace stadion {
 namespace {
 
-constexpr double kTrace = 1e-9;       ///< regularisation, relative to the diagonal
-constexpr double kExact = 1e-13;      ///< residual at which the linear solution is done [m/s]
-constexpr double kRound = 1e-12;      ///< violations below this are rounding [m/s]
-constexpr int kMostCorrections = 24;  ///< of a choice at most ...
-constexpr int kTogether = 5;          ///< ... and those of all points at once; they may go round in circles
+constexpr double kRegularisation = 1e-9;  ///< regularisation, relative to the diagonal
+constexpr double kExact = 1e-13;          ///< residual at which the linear solution is done [m/s]
+constexpr double kRound = 1e-12;          ///< violations below this are rounding [m/s]
+constexpr int kMostCorrections = 24;      ///< most corrections of the active set
+constexpr int kJointCorrections =
+    5;  ///< corrections of all points at once; they may cycle, so later only the worst one is corrected
 constexpr double kAreaAgrees = 1e-8;  ///< friction of an area is right to this, relative to its strength
 constexpr double kNearly = 0.5;    ///< a direction that is off by less is improved by Newton's method [rad]
 constexpr double kUnsolved = 1e3;  ///< a residual as of points that contradict each other: they explode [m/s]
-constexpr std::size_t kDense = 48;   ///< so many unknowns are solved for with all in one block
-constexpr std::size_t kAlways = 48;  ///< points for which it is worked out at least once
-constexpr double kAssembly = 30;     ///< multiplications for each coefficient, and for what is done with it
+constexpr std::size_t kMostDenseUnknowns = 48;  ///< up to so many unknowns are solved for in one block
+constexpr std::size_t kAlwaysTriedPoints = 48;  ///< for so many points a solution is tried, whatever it costs
+constexpr double kAssembly = 30;  ///< multiplications for each coefficient, and for what is done with it
 
 bool isFinite(const SolverBody& m) {
   return m.v.allFinite() && m.omega.allFinite();
@@ -31,7 +32,7 @@ ContactActiveSet::ContactActiveSet(std::vector<SolverBody>& solverBodies,
                                    std::vector<SolverContact>& contacts, const std::vector<ContactRow>& rows)
     : m_(solverBodies), c_(contacts), rows_(rows), order_(contacts.size()) {
   std::iota(order_.begin(), order_.end(), 0u);
-  if (contacts.size() <= kDense / 3) return;
+  if (contacts.size() <= kMostDenseUnknowns / 3) return;
   std::vector<LeaningPair> pairs;
   const auto side = [&](std::uint32_t i) {
     return m_[i].inverseMass > 0 ? i : static_cast<std::uint32_t>(m_.size());
@@ -103,7 +104,7 @@ void ContactActiveSet::listSlip(std::uint32_t contact) {
 }
 
 /// Friction of an area at its limit follows the slip by Newton's method, once that is nearly known: across
-/// it, in the two directions in which it matters, a change of friction goes with so much change of the slip.
+/// it, in the two directions in which it matters, friction is linear in the slip.
 void ContactActiveSet::listArea(std::uint32_t contact) {
   const SolverContact& c = c_[contact];
   const Vec3 flow = flow_[contact];
@@ -180,11 +181,11 @@ ContactAxis ContactActiveSet::along(const Unknown& u) const {
 }
 
 bool ContactActiveSet::isDense() const {
-  return unknowns_.size() <= kDense;
+  return unknowns_.size() <= kMostDenseUnknowns;
 }
 
-/// How much work the unknowns are; where their rows begin.
-double ContactActiveSet::residual() {
+/// Finds where each row of the system begins (`firsts_`). Returns the multiplications that a solution takes.
+double ContactActiveSet::planRows() {
   const std::size_t n = unknowns_.size();
   if (isDense()) return static_cast<double>(n * n) * (kAssembly + static_cast<double>(n) / 3);
   firsts_.resize(n);
@@ -225,7 +226,7 @@ double ContactActiveSet::changeBy(std::size_t row, std::size_t column) const {
 bool ContactActiveSet::assemble() {
   const std::size_t n = unknowns_.size();
   const auto extra = [&](std::size_t i, double diagonal) {
-    return kTrace * std::fabs(diagonal) + unknowns_[i].soft + 1e-300;
+    return kRegularisation * std::fabs(diagonal) + unknowns_[i].soft + 1e-300;
   };
   r_.resize(static_cast<Eigen::Index>(n));
   if (!isDense()) {
@@ -262,7 +263,7 @@ void ContactActiveSet::solveFor(Eigen::VectorXd& r) {
 }
 
 /// Solves and refines; returns the residual left [m/s].
-double ContactActiveSet::solve() {
+double ContactActiveSet::solveLinearly() {
   double before = 1e300;
   for (int pass = 0; pass < 8; ++pass) {
     for (std::size_t i = 0; i < unknowns_.size(); ++i) {
@@ -423,15 +424,15 @@ bool ContactActiveSet::trySolving(double& work) {
   speed_.assign(c_.size(), 0);
   for (int i = 0; i < kMostCorrections; ++i) {
     listUnknowns();
-    work -= residual();
-    if (work < 0 && (i > 0 || c_.size() > kAlways)) return false;
+    work -= planRows();
+    if (work < 0 && (i > 0 || c_.size() > kAlwaysTriedPoints)) return false;
     double left = 0;
     if (!unknowns_.empty()) {
       if (!assemble()) return false;
-      left = solve();
+      left = solveLinearly();
     }
     if (!(left < kUnsolved)) return false;
-    if (correctActiveSet(i >= kTogether)) return left < 1e-10 && std::ranges::all_of(m_, isFinite);
+    if (correctActiveSet(i >= kJointCorrections)) return left < 1e-10 && std::ranges::all_of(m_, isFinite);
   }
   return false;
 }

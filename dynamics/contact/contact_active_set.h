@@ -38,11 +38,11 @@ private:
   void readActiveSet();
   void listUnknowns();
   bool isDense() const;
-  double residual();
+  double planRows();
   double changeBy(std::size_t row, std::size_t column) const;
   bool assemble();
   void solveFor(Eigen::VectorXd& r);
-  double solve();
+  double solveLinearly();
   bool correctActiveSet(bool singly);
   bool correctFriction(double largest);
   bool correctArea(std::size_t contact);

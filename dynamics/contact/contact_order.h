@@ -10,13 +10,13 @@
 
 namespace stadion {
 
-/// Two bodies that lean on each other; indices of `bodies` and above are of what nothing moves.
+/// Two bodies that lean on each other. An index of `bodies` or more stands for something fixed.
 using LeaningPair = std::array<std::uint32_t, 2>;
 
 /// The place of each body in that order.
 std::vector<std::uint32_t> placesInLine(std::size_t bodies, std::span<const LeaningPair> pairs);
 
-/// Multiplications, about, that a direct solution takes for flat contacts between these pairs.
+/// Returns roughly how many multiplications a direct solution takes for flat contacts between these pairs.
 double workOfLine(std::size_t bodies, std::span<const LeaningPair> pairs);
 
 }  // namespace stadion

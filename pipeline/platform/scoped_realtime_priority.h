@@ -4,8 +4,8 @@
 /// How     Such a thread waits and answers, and computes next to nothing. If the system permits it (root, or
 ///         RLIMIT_RTPRIO), it becomes a real-time thread of the lowest priority. Otherwise the scheduler is
 ///         asked for short turns (`sched_runtime` of sched_setattr(2)), which may interrupt long ones; Linux
-///         honours this from 6.12 on. Neither gives a thread a greater share of a processor. Nesting one at a
-///         time on a thread.
+///         honours this from 6.12 on. Neither gives a thread a greater share of a processor. Do not nest
+///         two on one thread.
 /// Left    threads with another policy than the usual one are unchanged.
 /// Errors  none: if the system refuses both, the thread runs as before.
 
@@ -18,9 +18,8 @@ class ScopedRealtimePriority {
 public:
   enum class For {
     This,
-    ThoseItStarts
-  };  ///< ThoseItStarts: threads started meanwhile, for their whole
-      ///< lives
+    ThoseItStarts,  ///< threads that the caller starts meanwhile, for their whole lives
+  };
 
   explicit ScopedRealtimePriority(For threads = For::This);
   ~ScopedRealtimePriority();

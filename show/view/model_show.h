@@ -1,10 +1,11 @@
 #pragma once
 /// A show of one model, for `stadion view MODEL`.
 ///
-/// The model stands in the world as its file places it, in its true size. The visitor stands south of it and looks
-/// north (+Y) at its middle, so far away that the front wall shows all of it.
+/// The model stands in the world as its file places it, in its true size. The visitor stands south of it and
+/// looks north (+Y) at its middle, so far away that the front wall shows all of it.
 ///
-/// Threads  one. Errors go to the findings.
+/// Threads  one.
+/// Errors   go to the findings.
 
 #include "engine/base/diagnostic.h"
 #include "show/base/temporary_folder.h"
@@ -20,8 +21,8 @@ public:
   /// Returns true if the file's name is that of a model.
   static bool isModel(const std::string& file);
 
-  /// Imports the model, because the visitor's place depends on its size, and writes the script. Null if the model
-  /// cannot be read. What a show would be without (lights, clips, ...) is in the findings as warnings.
+  /// Imports the model, because the visitor's place depends on its size, and writes the script. Null if the
+  /// model cannot be read. What the show is without (lights, clips, ...) is told when the script is loaded.
   static std::unique_ptr<ModelShow> make(const std::string& model,
                                          const std::filesystem::path& importerProgram, Diagnostics& findings);
 

@@ -226,7 +226,7 @@ void ViewSession::takePictures() {
   stale_ = true;
   if (!begins_ && shown_.frame > before) unseen_ += shown_.frame - before - 1;
   if (!std::exchange(begins_, false)) return;
-  say("playing " + settings_.session.show.script);
+  say("playing " + settings_.file());
   console_->playback().hold(false);
 }
 
@@ -275,7 +275,7 @@ void ViewSession::watchFiles() {
 // group that waits for it is.
 void ViewSession::beginReload(const std::string& why) {
   if (reload_) return;
-  say(fmt::format("reading {} again: {}", settings_.session.show.script, why));
+  say(fmt::format("reading {} again: {}", settings_.file(), why));
   files_.reset();
   ShowSurroundings around = surroundings(std::make_shared<ReusableResources>());
   around.recorded = over_;
@@ -298,7 +298,7 @@ void ViewSession::finishReload() {
   }
   putInPlace(std::move(show));
   begin(place);
-  say(fmt::format("reloaded {}; the rig stands at {}", settings_.session.show.script,
+  say(fmt::format("reloaded {}; the rig stands at {}", settings_.file(),
                   pointText(place ? place->X_WR.p : Vec3(Vec3::Zero()))));
 }
 
@@ -340,7 +340,7 @@ void ViewSession::tellOfStep() {
 
 HudFigures ViewSession::figures() const {
   HudFigures f;
-  f.show = std::filesystem::path(settings_.session.show.script).filename().string();
+  f.show = std::filesystem::path(settings_.file()).filename().string();
   f.seconds = toSeconds(shown_.time);
   f.rate = settings_.session.show.rate;
   f.speed = console_->playback().speed();

@@ -17,6 +17,10 @@ struct ViewSettings {
   std::uint32_t width = 1200, height = 800;  ///< size of the window at the start
   std::string shots = "screenshots";         ///< folder for screenshots
   bool hud = false;                          ///< the frame budget is shown from the start
+  std::string model;                         ///< the model that the script shows alone; empty: a show
+
+  /// The file that the user has named.
+  const std::string& file() const { return model.empty() ? session.show.script : model; }
 };
 
 /// Keys and mouse, one line each.

@@ -27,7 +27,7 @@ std::unique_ptr<ViewWindows> ViewWindows::open(const ViewSettings& settings, con
   made->system_ = std::move(system.value());
   if (const auto why = made->system_->mayGoDark()) findings.warning({}, "the display may go dark: " + *why);
   made->sizes_ = unfold(walls.walls, settings.width, settings.height);
-  const std::string name = std::filesystem::path(settings.session.show.script).filename().string();
+  const std::string name = std::filesystem::path(settings.file()).filename().string();
   const auto add = [&](const WindowPlan& plan) {
     auto window = ShowWindow::open(*made->system_, plan, settings.stereo, walls.walls.size() + 1);
     if (!window) {

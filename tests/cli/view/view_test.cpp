@@ -119,7 +119,7 @@ TEST(ProgramView, ShowsAModelAndTheOneThatIsSavedInItsPlace) {
   std::filesystem::copy_file(assetFolder() + "/athlete_head_dark.glb", model,
                              std::filesystem::copy_options::overwrite_existing);
   ASSERT_TRUE(view.program().says(model + " was saved"));
-  ASSERT_TRUE(view.program().says("playing ", 2));
+  ASSERT_TRUE(view.program().says("playing " + model, 2));
   ASSERT_TRUE(view.pressed("F12", "screenshot:", 2));
   EXPECT_NE(view.shot(2).rgba, discus.rgba);
   view.end();

@@ -8,8 +8,9 @@
 
 namespace stadion::importer {
 
-/// Decodes by content, whatever the name says. False with `why` for another format, a broken picture or one
-/// beyond the limits. `budget` is the number of pixel bytes still allowed; what is used is taken off.
+/// Decodes by content, whatever the name says. Returns false and sets `why` if the format is another one, if
+/// the picture is broken, or if it is beyond the limits. Reduces `budget`, the pixel bytes still allowed, by
+/// the bytes used.
 bool decodePicture(std::span<const std::uint8_t> bytes, const MeshLimits& limits, std::uint64_t& budget,
                    Texture& out, std::string& why);
 

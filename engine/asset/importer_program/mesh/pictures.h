@@ -19,7 +19,7 @@ public:
       : scene_(scene), source_(source), mesh_(mesh), inventory_(inventory),
         budget_(source.limits.textureBytes) {}
 
-  /// Index into the mesh's textures, -1 if it cannot be had.
+  /// Returns the index into the mesh's textures, or -1 if the picture cannot be read.
   std::int32_t get(std::int32_t image, AlphaUse alpha);
   /// The picture `image` (white if -1) with its alpha from the picture `opacity`.
   std::int32_t getWithOpacity(std::int32_t image, std::int32_t opacity);

@@ -15,7 +15,7 @@ struct Request {
   std::string path;     ///< below it
 };
 
-/// Returns the next request, or nothing if the show has ended or sent nonsense.
+/// Returns the next request, or nothing if the show has ended or sent an invalid request.
 std::optional<Request> receive(int socket);
 
 /// Returns false if the show has ended.
