@@ -72,6 +72,15 @@ int asked(ScriptWatch& watch, std::string& said) {
   return 0;
 }
 
+/// Expects that the watch tells once that the file was saved.
+void expectToldOnce(ScriptWatch& watch, const std::string& file) {
+  std::string said;
+  EXPECT_EQ(asked(watch, said), 2);
+  EXPECT_EQ(said, file + " was saved");
+  watch.reset();
+  EXPECT_EQ(asked(watch, said), 0);
+}
+
 class SavedScripts : public testing::Test {
 protected:
   TestFolder folder_;
@@ -84,10 +93,7 @@ protected:
 TEST_F(SavedScripts, AreToldOfWithTheirNameOnceTheyStayAsTheyAre) {
   EXPECT_EQ(asked(watch_, said_), 0);
   folder_.write("part.evs", "timer( period=20 )\n");
-  EXPECT_EQ(asked(watch_, said_), 2);
-  EXPECT_EQ(said_, part_ + " was saved");
-  watch_.reset();
-  EXPECT_EQ(asked(watch_, said_), 0);
+  expectToldOnce(watch_, part_);
 }
 
 TEST_F(SavedScripts, ThatAreGoneAreToldOfAndWhenTheyAreBack) {
@@ -110,13 +116,8 @@ TEST(SavedModels, AreToldOfAsWell) {
   const std::string model = folder.write("wall.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
   folder.write("part.evs", "object( file=wall.obj )\n");
   ScriptWatch watch(folder.write("show.evs", kShow), {}, standardNodes());
-  std::string said;
-  EXPECT_EQ(asked(watch, said), 0);
   folder.write("wall.obj", "v 0 0 0\nv 1 0 0\nv 0 2.5 0\nf 1 2 3\n");
-  EXPECT_EQ(asked(watch, said), 2);
-  EXPECT_EQ(said, model + " was saved");
-  watch.reset();
-  EXPECT_EQ(asked(watch, said), 0);
+  expectToldOnce(watch, model);
 }
 
 // Editors write another file and put it in the place of the first, which may be away for a moment.

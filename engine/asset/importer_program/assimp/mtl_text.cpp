@@ -150,7 +150,7 @@ void apply(const ObjNotes& notes, SourceScene& scene) {
   }
   for (const ObjNotes::Missing& missing : notes.missing)
     scene.notes.push_back(
-        {ContentUse::LeftOut, "the material library " + inQuotes(missing.library) + ": it " + missing.why});
+        {ContentUse::LeftOut, "the material library " + inQuotes(missing.file) + ": it " + missing.why});
   for (const std::string& option : notes.otherOptions)
     scene.notes.push_back({ContentUse::LeftOut, "map option " + option});
 }

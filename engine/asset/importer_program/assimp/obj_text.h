@@ -26,7 +26,7 @@ struct MapOptions {
 /// What assimp does not tell of an OBJ file's materials.
 struct ObjNotes {
   struct Missing {
-    std::string library, why;
+    std::string file, why;
   };
   std::vector<Missing> missing;
   /// By the material's name, then by keyword ("map_Kd").
