@@ -1,5 +1,6 @@
 #include "engine/script/source_text.h"
 
+#include "engine/asset/format.h"
 #include "engine/base/plain_file.h"
 
 #include <algorithm>
@@ -56,6 +57,10 @@ Result<SourceText> SourceText::make(std::string file, std::string_view bytes) {
 Result<SourceText> SourceText::read(const std::string& path) {
   const auto bytes = readPlainFile(path, kMostBytes);
   if (!bytes) return bytes.error();
+  if (formatOf(path) || refusedFormat(path))
+    return refusal(
+        path, "this is a model, not a script; `stadion view` shows a model, and `stadion check --assets DIR` "
+              "tries all models of a folder");
   return make(path, bytes.value());
 }
 

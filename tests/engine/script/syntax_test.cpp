@@ -101,6 +101,9 @@ TEST(ScriptSyntax, WhatIsNotTextIsRefused) {
   EXPECT_FALSE(SourceText::make("a", std::string((std::size_t{64} << 20) + 1, ' ')));
   EXPECT_FALSE(SourceText::read("/nonexistent/a.evs"));
   EXPECT_FALSE(SourceText::read(STADION_SOURCE_DIR));
+  const auto model = SourceText::read(STADION_SOURCE_DIR "/assets/discus.glb");
+  ASSERT_FALSE(model);
+  EXPECT_NE(model.error().message.find("stadion view"), std::string::npos) << model.error().message;
   EXPECT_TRUE(SourceText::make("a", ""));
 }
 
