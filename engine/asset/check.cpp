@@ -35,7 +35,9 @@ Result<AssetCounts> checkAssets(const fs::path& importerProgram, const fs::path&
     AssetFinding finding;
     finding.file = name;
     const bool readable = formatOf(name) != nullptr;
-    auto mesh = importer.load(name, {}, {name, 0, 0}, &finding.losses, &finding.inventory);
+    ImportOptions options;
+    options.form = ModelForm::Either;
+    auto mesh = importer.load(name, options, {name, 0, 0}, &finding.losses, &finding.inventory);
     finding.verdict = mesh ? AssetVerdict::Loaded : readable ? AssetVerdict::Failed : AssetVerdict::Refused;
     if (mesh)
       finding.mesh = mesh.value().get();

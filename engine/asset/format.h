@@ -41,10 +41,18 @@ struct FormatInfo {
   bool linearColours;
 };
 
+/// What is made of a model.
+enum class ModelForm : std::uint8_t {
+  Object,  ///< a mesh of fixed form
+  Figure,  ///< a mesh with skeleton and clips
+  Either,  ///< a figure if the file has skins or clips
+};
+
 /// The script's settings for a model; unset means: as the format defines.
 struct ImportOptions {
   std::optional<double> unit;  ///< [m] length of one unit of the file, 1e-6 .. 1e6
   std::optional<UpAxis> up;
+  ModelForm form = ModelForm::Object;
 };
 
 /// By the extension of the file's name, in either case; nullptr if it is not a format for shows.

@@ -33,6 +33,7 @@ RequestHead requestFor(const ImportOptions& options, const ImportLimits& limits)
   head.mesh = limits.mesh;
   head.unit = options.unit.value_or(0);
   head.up = options.up ? static_cast<std::uint32_t>(*options.up) + 1 : 0;
+  head.form = options.form;
   return head;
 }
 

@@ -6,6 +6,7 @@
 /// and the bytes of the mesh (see mesh_file). Both are the same build, so structs are sent as they are. The
 /// show still trusts nothing it receives.
 
+#include "engine/asset/format.h"
 #include "engine/asset/mesh_file.h"
 
 #include <cstdint>
@@ -14,7 +15,7 @@ namespace stadion {
 
 constexpr std::uint32_t kImportMagic = 0x51495453;  // "STIQ"
 constexpr std::uint32_t kAnswerMagic = 0x41495453;  // "STIA"
-constexpr std::uint32_t kImportVersion = 3;
+constexpr std::uint32_t kImportVersion = 4;
 constexpr std::uint32_t kLongestPath = 4096;
 constexpr std::uint32_t kLongestText = 65536;
 constexpr std::uint64_t kLongestAnswer = 1ull << 30;
@@ -27,8 +28,9 @@ struct RequestHead {
   std::uint32_t cpuSeconds = 0;    ///< [s] for this file
   std::uint32_t nodeDepth = 0;
   MeshLimits mesh;
-  double unit = 0;              ///< [m], 0 = as the format has it
-  std::uint32_t up = 0;         ///< UpAxis + 1, 0 = as the format has it
+  double unit = 0;       ///< [m], 0 = as the format has it
+  std::uint32_t up = 0;  ///< UpAxis + 1, 0 = as the format has it
+  ModelForm form = ModelForm::Object;
   std::uint32_t pathBytes = 0;  ///< size of the file name that follows
 };
 

@@ -4,10 +4,12 @@
 /// Frames   vertex coordinates are in the mesh's own frame N.
 /// Threads  immutable after import: shared by App, every Cull and every Draw without locks.
 
+#include "engine/figure/skeleton.h"
 #include "engine/maths/maths.h"
 
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -59,13 +61,17 @@ struct Mesh {
   std::vector<std::array<float, 2>>
       uvs;  ///< (0,0) top left of the picture, u right, v down; same length, or empty
   std::vector<std::array<std::uint8_t, 4>>
-      colours;                         ///< per vertex: colour in sRGB, alpha linear; same length, or empty
+      colours;  ///< per vertex: colour in sRGB, alpha linear; same length, or empty
+  /// What carries each vertex of a figure; same length as positions, or empty.
+  std::vector<VertexJoints> joints;
   std::vector<std::uint32_t> indices;  ///< triangles, counter-clockwise seen from outside
   std::vector<Submesh> submeshes;
   std::vector<Material> materials;  ///< never empty
   std::vector<Texture> textures;
-  Aabb bounds;             ///< [m]
-  Sphere sphere;           ///< [m] bounding sphere
+  /// Bones and clips of a figure, whose positions are those in which it was bound; null: a mesh of fixed form.
+  std::shared_ptr<const Skeleton> skeleton;
+  Aabb bounds;             ///< [m] of a figure: in every pose
+  Sphere sphere;           ///< [m] bounding sphere; of a figure: in every pose
   std::uint64_t hash = 0;  ///< hash of the content, which identifies the mesh
   std::string name;        ///< the file it came from
   /// Simplified surfaces, each with fewer triangles and a greater error than the one before.

@@ -1,5 +1,7 @@
 #include "engine/asset/mesh_checks.h"
 
+#include "engine/figure/figure_bounds.h"
+
 #include <xxhash.h>
 
 #include <algorithm>
@@ -25,6 +27,10 @@ public:
     add(static_cast<std::uint64_t>(v.size()));
     XXH3_64bits_update(state_.get(), v.data(), v.size() * sizeof(T));
   }
+  void add(const std::string& text) {
+    add(std::uint64_t{text.size()});
+    XXH3_64bits_update(state_.get(), text.data(), text.size());
+  }
   void add(std::uint64_t n) { XXH3_64bits_update(state_.get(), &n, sizeof n); }
   void add(float f) { add(std::uint64_t{std::bit_cast<std::uint32_t>(f)}); }
   std::uint64_t value() const { return XXH3_64bits_digest(state_.get()); }
@@ -32,6 +38,31 @@ public:
 private:
   std::unique_ptr<XXH3_state_t, decltype(&XXH3_freeState)> state_;
 };
+
+/// Names are of clips and bones, which scripts name.
+void addSkeleton(const Mesh& mesh, Hash& hash) {
+  const auto addMatrix = [&](const Affine& X) {
+    for (int i = 0; i < 12; ++i) hash.add(std::bit_cast<std::uint64_t>(X.data()[i]));
+  };
+  for (const VertexJoints& v : mesh.joints) {
+    for (const std::uint16_t j : v.joint) hash.add(std::uint64_t{j});
+    for (const float w : v.weight) hash.add(w);
+  }
+  for (const Bone& bone : mesh.skeleton->bones) {
+    hash.add(bone.name);
+    hash.add(static_cast<std::uint64_t>(bone.parent));
+    addMatrix(bone.X_PB);
+  }
+  for (const Joint& joint : mesh.skeleton->joints) hash.add(std::uint64_t{joint.bone}), addMatrix(joint.X_BN);
+  for (const Clip& clip : mesh.skeleton->clips) {
+    hash.add(clip.name);
+    for (const ClipChannel& c : clip.channels) {
+      hash.add(std::uint64_t{c.bone} << 16 | std::uint64_t(c.target) << 8 | std::uint64_t(c.interpolation));
+      hash.add(c.times);
+      hash.add(c.values);
+    }
+  }
+}
 
 // Names are left out: the same shape under two names is one mesh.
 std::uint64_t contentHash(const Mesh& mesh) {
@@ -65,7 +96,19 @@ std::uint64_t contentHash(const Mesh& mesh) {
     hash.add(t.rgba);
   }
   hash.add(std::uint64_t{mesh.standIn});
+  if (mesh.skeleton) addSkeleton(mesh, hash);
   return hash.value();
+}
+
+/// A figure is seen in any pose, so its bounds hold for all of them.
+void boundFigure(Mesh& mesh) {
+  auto skeleton = std::make_shared<Skeleton>(*mesh.skeleton);
+  skeleton->reach = figureReach(*skeleton, mesh.positions, mesh.joints);
+  mesh.sphere = skeleton->reach;
+  mesh.bounds = {};
+  mesh.bounds.include(Vec3(mesh.sphere.centre - Vec3::Constant(mesh.sphere.radius)));
+  mesh.bounds.include(Vec3(mesh.sphere.centre + Vec3::Constant(mesh.sphere.radius)));
+  mesh.skeleton = std::move(skeleton);
 }
 
 }  // namespace
@@ -81,6 +124,7 @@ void finish(Mesh& mesh) {
       farthest = std::max(farthest, (at(mesh, v) - mesh.sphere.centre).squaredNorm());
     mesh.sphere.radius = std::sqrt(farthest) * (1 + 1e-12);  // rounding must not leave a vertex outside
   }
+  if (mesh.skeleton) boundFigure(mesh);
   mesh.hash = contentHash(mesh);
 }
 

@@ -1,6 +1,8 @@
 #include "engine/asset/mesh_file.h"
 
+#include "engine/asset/skeleton_file.h"
 #include "engine/base/value_reader.h"
+#include "engine/base/value_writer.h"
 
 #include <cmath>
 #include <type_traits>
@@ -9,13 +11,12 @@ namespace stadion {
 namespace {
 
 constexpr std::uint32_t kMagic = 0x4d445453;  // "STDM"
-constexpr std::uint32_t kVersion = 3;
-constexpr std::uint32_t kLongestName = 1024;
+constexpr std::uint32_t kVersion = 4;
 
 struct Head {
   std::uint32_t magic, version;
   std::uint32_t vertices, indices, submeshes, materials, textures;
-  std::uint32_t hasUvs, hasColours;
+  std::uint32_t hasUvs, hasColours, hasSkeleton;
 };
 
 struct MaterialRecord {
@@ -23,38 +24,6 @@ struct MaterialRecord {
   std::int32_t texture, emissiveTexture;
   std::uint32_t doubleSided, textureHasAlpha;
 };
-
-class Writer {
-public:
-  template <class T>
-  void put(const T& value) {
-    static_assert(std::is_trivially_copyable_v<T>);
-    raw(&value, sizeof value);
-  }
-  template <class T>
-  void put(const std::vector<T>& values) {
-    raw(values.data(), values.size() * sizeof(T));
-  }
-  void put(const std::string& text) {
-    const auto length = static_cast<std::uint32_t>(std::min<std::size_t>(text.size(), kLongestName));
-    put(length);
-    raw(text.data(), length);
-  }
-  std::vector<std::uint8_t> bytes;
-
-private:
-  void raw(const void* data, std::size_t size) {
-    const auto* from = static_cast<const std::uint8_t*>(data);
-    bytes.insert(bytes.end(), from, from + size);
-  }
-};
-
-bool getName(ValueReader& in, std::string& text) {
-  std::uint32_t length = 0;
-  if (!in.get(length) || length > kLongestName || length > in.left()) return false;
-  text.resize(length);
-  return in.raw(text.data(), length);
-}
 
 template <std::size_t N>
 bool finite(const std::vector<std::array<float, N>>& values) {
@@ -127,8 +96,27 @@ bool readTextures(ValueReader& in, const Head& head, const MeshLimits& limits, M
 bool readGeometry(ValueReader& in, const Head& head, Mesh& mesh) {
   return in.get(mesh.positions, head.vertices) && in.get(mesh.normals, head.vertices) &&
          in.get(mesh.uvs, head.hasUvs ? head.vertices : 0) &&
-         in.get(mesh.colours, head.hasColours ? head.vertices : 0) && in.get(mesh.indices, head.indices) &&
+         in.get(mesh.colours, head.hasColours ? head.vertices : 0) &&
+         in.get(mesh.joints, head.hasSkeleton ? head.vertices : 0) && in.get(mesh.indices, head.indices) &&
          in.get(mesh.submeshes, head.submeshes);
+}
+
+bool readFigure(ValueReader& in, const Head& head, const MeshLimits& limits, Mesh& mesh) {
+  if (!head.hasSkeleton) return true;
+  auto skeleton = readSkeleton(in, limits.skeleton);
+  if (!skeleton) return false;
+  for (const VertexJoints& v : mesh.joints) {
+    float sum = 0;
+    for (const float weight : v.weight) {
+      if (!within(weight, 0, 1)) return false;
+      sum += weight;
+    }
+    if (!within(sum, 0.999f, 1.001f)) return false;
+    for (const std::uint16_t joint : v.joint)
+      if (joint >= skeleton->joints.size()) return false;
+  }
+  mesh.skeleton = std::make_shared<const Skeleton>(std::move(*skeleton));
+  return true;
 }
 
 // The submeshes cover the indices in order, without gap or overlap.
@@ -151,13 +139,15 @@ const char* faultOf(const Mesh& mesh) {
 
 std::vector<std::uint8_t> encode(const Mesh& mesh) {
   const auto count = [](const auto& v) { return static_cast<std::uint32_t>(v.size()); };
-  Writer out;
+  ValueWriter out;
   out.put(Head{kMagic, kVersion, count(mesh.positions), count(mesh.indices), count(mesh.submeshes),
-               count(mesh.materials), count(mesh.textures), !mesh.uvs.empty(), !mesh.colours.empty()});
+               count(mesh.materials), count(mesh.textures), !mesh.uvs.empty(), !mesh.colours.empty(),
+               mesh.skeleton != nullptr});
   out.put(mesh.positions);
   out.put(mesh.normals);
   out.put(mesh.uvs);
   out.put(mesh.colours);
+  if (mesh.skeleton) out.put(mesh.joints);
   out.put(mesh.indices);
   out.put(mesh.submeshes);
   for (const Material& m : mesh.materials) {
@@ -170,14 +160,15 @@ std::vector<std::uint8_t> encode(const Mesh& mesh) {
                            m.emissiveTexture,
                            m.doubleSided,
                            m.textureHasAlpha});
-    out.put(m.name);
+    putName(out, m.name);
   }
   for (const Texture& t : mesh.textures) {
     out.put(t.width);
     out.put(t.height);
-    out.put(t.name);
+    putName(out, t.name);
     out.put(t.rgba);
   }
+  if (mesh.skeleton) writeSkeleton(*mesh.skeleton, out);
   return std::move(out.bytes);
 }
 
@@ -193,8 +184,8 @@ Result<std::unique_ptr<Mesh>> decode(std::span<const std::uint8_t> bytes, const 
     return Decoded::failure("a mesh beyond the limits");
   auto mesh = std::make_unique<Mesh>();
   if (!readGeometry(in, head, *mesh) || !readMaterials(in, head, *mesh) ||
-      !readTextures(in, head, limits, *mesh) || !in.atEnd())
-    return Decoded::failure("a mesh that is cut short or has a bad material or texture");
+      !readTextures(in, head, limits, *mesh) || !readFigure(in, head, limits, *mesh) || !in.atEnd())
+    return Decoded::failure("a mesh that is cut short or has a bad material, texture or skeleton");
   if (const char* fault = faultOf(*mesh)) return Decoded::failure(std::string("a mesh with ") + fault);
   return mesh;
 }

@@ -23,6 +23,7 @@ struct MeshLimits {
   std::uint32_t textures = 256;
   std::uint32_t textureSide = 8192;                 ///< [pixels]
   std::uint64_t textureBytes = 512u * 1024 * 1024;  ///< all textures together
+  SkeletonLimits skeleton;
 };
 
 std::vector<std::uint8_t> encode(const Mesh& mesh);

@@ -161,9 +161,10 @@ private:
 
   Appearance appearanceOf(const Declaration& d) const {
     Appearance a;
-    if (!d.is(Trait::Model)) return a;
+    if (!d.is(Trait::Model) && !d.is(Trait::Figure)) return a;
     a.mesh = input_.meshes(d);
     a.drawn = d.flag("draw");
+    if (d.is(Trait::Figure)) return a;
     a.shape = std::string(d.text("shape"));
     a.tolerance = d.number("tolerance");
     return a;

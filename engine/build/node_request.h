@@ -29,7 +29,7 @@ struct NodeRequest {
   std::string name;
   PlaceAttributes place;
   Appearance appearance;
-  const Mesh* mesh = nullptr;  ///< mesh; for types with Trait::Model
+  const Mesh* mesh = nullptr;  ///< mesh; for types with Trait::Model or Trait::Figure
   const std::function<NodeRef(const NodeReference&)>& resolve;
   /// Returns the placed model of an object in the same file.
   const std::function<std::optional<PlacedModel>(const NodeReference&)>& model;

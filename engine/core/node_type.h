@@ -46,6 +46,7 @@ enum class Trait : std::uint8_t {
   Moves,     ///< moves in the world, or moves what is below it
   Drawn,     ///< is drawn although it has no place in the world
   Model,     ///< has a model file, which is drawn and collides
+  Figure,    ///< has a model file with bones and clips, which is drawn
   Field,     ///< a force field: may be hooked to a body
   Collides,  ///< tests colliders against collidees
   OwnsBodies,  ///< moves its collidees

@@ -52,6 +52,8 @@ void ChangeSet::clear() {
   statics.clear();
   lights.clear();
   lightsChanged = false;
+  figures.clear();
+  figuresChanged = false;
 }
 
 }  // namespace stadion

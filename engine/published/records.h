@@ -10,6 +10,7 @@
 #include "engine/asset/mesh_store.h"
 #include "engine/base/time_signature.h"
 #include "engine/core/message.h"
+#include "engine/figure/figure_record.h"
 #include "engine/maths/maths.h"
 #include "engine/published/shadow_places.h"
 
@@ -40,6 +41,9 @@ struct InstanceRecord {
   float lodFactor;  ///< factor of the distance for levels of detail; 0 = the mesh has no simplified levels
 
   static constexpr std::uint32_t kShown = 1, kTransparent = 2;
+  static constexpr unsigned kFigureAt = 8;  ///< the bits of a figure's number, which is not 0, begin here
+
+  std::uint32_t figure() const { return flags >> kFigureAt & kMostFigures; }
 };
 static_assert(std::is_trivially_copyable_v<InstanceRecord> && sizeof(InstanceRecord) == 144);
 
@@ -123,6 +127,8 @@ struct ChangeSet {
   std::vector<StaticItem> statics;
   bool lightsChanged = false;
   std::vector<LightRecord> lights;  ///< all that shine (at most kMostLights), when lightsChanged
+  bool figuresChanged = false;
+  std::vector<FigureRecord> figures;  ///< what each plays, by number - 1, when figuresChanged
   SkyRecord sky;
   ViewerRecord viewer;
   ShadowRecord shadows;

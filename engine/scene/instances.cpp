@@ -21,6 +21,7 @@ InstanceId Instances::add(PlacementId placement, MeshId mesh, bool drawn, NodeRe
   Instance& i = all_[id];
   i.placement = placement;
   i.owner = owner;
+  i.figure = 0;
   i.drawn = drawn;
   i.live = true;
   if (first_.size() <= placement) first_.resize(placement + std::size_t{1}, kNone);
@@ -42,6 +43,11 @@ void Instances::remove(InstanceId id) {
 void Instances::setMesh(InstanceId id, MeshId mesh) {
   all_[id].mesh = mesh;
   findForm(all_[id]);
+  mark(id);
+}
+
+void Instances::setFigure(InstanceId id, std::uint16_t figure) {
+  all_[id].figure = figure;
   mark(id);
 }
 
@@ -72,8 +78,9 @@ inline void Instances::describe(const Instance& i, bool shown, const Degradation
                                 InstanceRecord& r) {
   r.mesh = i.mesh;
   r.owner = i.owner;
-  r.flags =
-      (i.drawn && shown ? InstanceRecord::kShown : 0) | (i.transparent ? InstanceRecord::kTransparent : 0);
+  r.flags = (i.drawn && shown ? InstanceRecord::kShown : 0) |
+            (i.transparent ? InstanceRecord::kTransparent : 0) |
+            std::uint32_t{i.figure} << InstanceRecord::kFigureAt;
   r.lodFactor = i.leveled ? static_cast<float>(degradation.of(i.owner).lod) : 0;
 }
 

@@ -37,6 +37,8 @@ public:
   void remove(InstanceId id);
   /// Sets what the instance shows; kNoMesh = nothing.
   void setMesh(InstanceId id, MeshId mesh);
+  /// Sets the number of the figure that the instance shows (figure_records.h).
+  void setFigure(InstanceId id, std::uint16_t figure);
   /// Returns true if the instance exists and belongs to `owner`; nodes ask this when they are restored.
   bool owns(InstanceId id, NodeRef owner) const {
     return id < all_.size() && all_[id].live && all_[id].owner == owner;
@@ -77,6 +79,7 @@ private:
     MeshId mesh = kNoMesh;
     NodeRef owner;
     InstanceId next = kNone;  ///< at the same placement
+    std::uint16_t figure = 0;
     bool drawn : 1 = true, live : 1 = false, changed : 1 = false;
     /// Properties of the mesh; leveled: it has simplified levels.
     bool transparent : 1 = false, leveled : 1 = false;
@@ -85,6 +88,7 @@ private:
     static void fields(Self& i, Fields& f) {
       bool drawn = i.drawn, live = i.live;
       f("placement", i.placement), f("mesh", i.mesh), f("owner", i.owner), f("next", i.next);
+      f("figure", i.figure);
       f("drawn", drawn), f("live", live);
       if (f.restores()) {
         i.drawn = drawn;

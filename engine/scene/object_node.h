@@ -34,6 +34,7 @@ public:
 protected:
   void onEnter(Scene& scene) override;
   void onLeave(Scene& scene) override;
+  InstanceId instance() const { return instance_; }
 
 private:
   Appearance appearance_;

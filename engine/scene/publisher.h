@@ -9,6 +9,7 @@
 #include "engine/published/records.h"
 #include "engine/published/shadow_places.h"
 #include "engine/scene/degradation.h"
+#include "engine/scene/figure_records.h"
 #include "engine/scene/input_feed.h"
 #include "engine/scene/instances.h"
 #include "engine/scene/lights.h"
@@ -21,10 +22,10 @@ namespace stadion {
 
 class Publisher {
 public:
-  Publisher(Placements& placements, Instances& instances, Lights& lights, const Degradation& degradation,
-            const InputFeed& feed)
-      : placements_(placements), instances_(instances), lights_(lights), degradation_(degradation),
-        feed_(feed) {}
+  Publisher(Placements& placements, Instances& instances, FigureRecords& figures, Lights& lights,
+            const Degradation& degradation, const InputFeed& feed)
+      : placements_(placements), instances_(instances), figures_(figures), lights_(lights),
+        degradation_(degradation), feed_(feed) {}
 
   /// Shows the load's chunk if there is room for it.
   void showChunk(LoadedScene& load);
@@ -47,6 +48,7 @@ public:
 private:
   Placements& placements_;
   Instances& instances_;
+  FigureRecords& figures_;
   Lights& lights_;
   const Degradation& degradation_;
   const InputFeed& feed_;

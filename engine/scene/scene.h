@@ -9,7 +9,7 @@
 ///     placements   where nodes are; pose tracks: how they moved within the frame
 ///     degradation  what nodes must do without to save time
 ///     feed         rig, head and trackers as nodes see them
-///     instances    what is drawn; lights, sounds
+///     instances    what is drawn; figures, lights, sounds
 ///     publisher    hands the changes of a frame to the later stages
 ///     impacts      what dynamics found out about touches
 ///     hashes       the nodes' part of the state hash
@@ -23,6 +23,7 @@
 
 #include "engine/base/worker_pool.h"
 #include "engine/scene/degradation.h"
+#include "engine/scene/figure_records.h"
 #include "engine/scene/impact_watch.h"
 #include "engine/scene/input_feed.h"
 #include "engine/scene/instances.h"
@@ -109,6 +110,7 @@ public:
   const InputFeed& feed() const { return feed_; }
   Instances& instances() { return instances_; }
   const Instances& instances() const { return instances_; }
+  FigureRecords& figures() { return figures_; }
   Lights& lights() { return lights_; }
   const Lights& lights() const { return lights_; }
   SoundSources& sounds() { return sounds_; }
@@ -183,6 +185,7 @@ private:
   SceneTree tree_;
   LoadRequests requests_;
   Instances instances_;
+  FigureRecords figures_;
   Lights lights_;
   SoundSources sounds_;
   InputFeed feed_;

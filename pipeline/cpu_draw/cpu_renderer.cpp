@@ -54,7 +54,7 @@ Result<std::unique_ptr<CpuRenderer>> CpuRenderer::create(CpuRoom& room, std::uin
 
 CpuRenderer::CpuRenderer(CpuRoom& room, std::uint32_t width, std::uint32_t height, PictureRung rung)
     : room_(room), width_(width), height_(height), rung_(rung),
-      costs_(room.meshes(), room.bands(), room.kernels()) {}
+      costs_(room.meshes(), room.poses(), room.bands(), room.kernels()) {}
 
 std::string CpuRenderer::description() const {
   return std::string("CPU renderer, ") + room_.kernels().name;
@@ -75,13 +75,14 @@ void CpuRenderer::drawWhole(const DrawList& list, const std::function<bool()>& g
   {
     const SpanScope span(probe, Span::Prepare);
     room_.meshes().freeUnused();
+    room_.poses().begin(list.ticket.signature.frame);
     prepare(list, giveUp);
   }
   const bool shadowed = list.shadows.light >= 0 && drawing_.look == Look::Full;
   std::shared_ptr<const ShadowSet> shadows;
   if (shadowed) {
     const SpanScope span(probe, Span::ShadowMaps);
-    shadows = room_.shadows().find(list.shadows, room_.meshes(), room_.pool());
+    shadows = room_.shadows().find(list.shadows, meshesOf(list), room_.pool());
   }
   stopIf(giveUp);
   const SceneParameters scene =
@@ -120,6 +121,7 @@ void CpuRenderer::prepare(const DrawList& list, const std::function<bool()>& giv
   views_ = std::min<std::size_t>(list.viewCount, DrawList::kMostViews);
   const std::size_t bytes = std::size_t{width_} * height_ * 4;
   while (pictures_.size() < views_) pictures_.emplace_back(room_.kernels(), bytes);
+  poseFigures(list);
   room_.pool().run(views_, [&](std::size_t view) { begin(list, static_cast<std::uint32_t>(view)); });
   for (std::size_t view = 0; view < views_; ++view) {
     if (!pictures_[view].drawn)
@@ -135,6 +137,16 @@ void CpuRenderer::prepare(const DrawList& list, const std::function<bool()>& giv
   stopIf(giveUp);
 }
 
+/// Each on a thread of its own. A view that begins finds them.
+void CpuRenderer::poseFigures(const DrawList& list) {
+  std::vector<const DrawItem*> figures;
+  for (const auto* items : {&list.opaque, &list.transparent})
+    for (const DrawItem& item : *items)
+      if (item.figure != 0) figures.push_back(&item);
+  const ListMeshes meshes = meshesOf(list);
+  room_.pool().run(figures.size(), [&](std::size_t i) { meshes.find(*figures[i]); });
+}
+
 void CpuRenderer::begin(const DrawList& list, std::uint32_t view) {
   Picture& picture = pictures_[view];
   const DrawView& from = list.views[view];
@@ -147,10 +159,12 @@ void CpuRenderer::begin(const DrawList& list, std::uint32_t view) {
   picture.setup.begin(*geometry, drawing_.samples);
   MeshId last = kNoMesh;
   std::shared_ptr<const CpuMesh> mesh;
+  const ListMeshes meshes = meshesOf(list);
   const auto addAll = [&](const std::vector<DrawItem>& items, Transparency which) {
     for (const DrawItem& item : items) {
       if (!(item.views >> view & 1)) continue;
-      if (item.mesh != last || !mesh) mesh = room_.meshes().find(last = item.mesh);
+      if (item.mesh != last || item.figure != 0 || !mesh) mesh = meshes.find(item);
+      last = item.figure != 0 ? kNoMesh : item.mesh;
       if (mesh && !picture.setup.add(mesh, item.level, item.model, which)) ++picture.refused;
     }
   };

@@ -12,6 +12,8 @@
 /// Errors     as of a Renderer; draw() throws nothing but RunStopped.
 
 #include "pipeline/cpu_draw/mesh/cpu_mesh.h"
+#include "pipeline/cpu_draw/mesh/list_meshes.h"
+#include "pipeline/cpu_draw/mesh/posed_meshes.h"
 #include "pipeline/cpu_draw/picture_bands.h"
 #include "pipeline/cpu_draw/picture_rung.h"
 #include "pipeline/cpu_draw/picture_setup.h"
@@ -38,6 +40,7 @@ public:
   const DrawKernels& kernels() const { return kernels_; }
   DrawPool& pool() { return pool_; }
   CpuMeshCache& meshes() { return meshes_; }
+  PosedMeshes& poses() { return poses_; }
   ShadowStore& shadows() { return shadows_; }
   BandMemory& bands() { return bands_; }
 
@@ -45,6 +48,7 @@ private:
   const DrawKernels& kernels_;
   DrawPool& pool_;
   CpuMeshCache meshes_;
+  PosedMeshes poses_;
   ShadowStore shadows_;
   BandMemory bands_;
 };
@@ -82,6 +86,8 @@ private:
   CpuRenderer(CpuRoom& room, std::uint32_t width, std::uint32_t height, PictureRung rung);
   void drawWhole(const DrawList& list, const std::function<bool()>& giveUp, FrameProbe* probe);
   void prepare(const DrawList& list, const std::function<bool()>& giveUp);
+  void poseFigures(const DrawList& list);
+  ListMeshes meshesOf(const DrawList& list) { return {room_.meshes(), room_.poses(), list.figures}; }
   void begin(const DrawList& list, std::uint32_t view);
   void drawBands(const SceneParameters& scene, const ShadowParameters* shadow,
                  const std::function<bool()>& giveUp);

@@ -71,9 +71,10 @@ bool PictureSetup::add(const std::shared_ptr<const CpuMesh>& mesh, std::uint32_t
 
 void PictureSetup::addPart(std::uint32_t instance, const CpuPart& part, std::uint32_t material) {
   const PixelMatrix& by = instances_[instance].matrix;
+  const bool posed = instances_[instance].mesh->isPosed();
   const std::size_t before = stretches_.size();
   for (const MeshSection& s : part.sections) {
-    if (!mayBeSeen(s, by, geometry_.parallel, geometry_.width, geometry_.height)) continue;
+    if (!posed && !mayBeSeen(s, by, geometry_.parallel, geometry_.width, geometry_.height)) continue;
     wanted_.push_back({s.firstVertex / kPlacedRounding * kPlacedRounding,
                        (s.endVertex + kPlacedRounding - 1) / kPlacedRounding * kPlacedRounding});
     TriangleStretch* last = stretches_.size() > before ? &stretches_.back() : nullptr;

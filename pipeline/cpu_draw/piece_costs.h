@@ -9,6 +9,7 @@
 /// Threads  the calling thread does everything, so that its processor time is the cost.
 
 #include "engine/core/frame_probe.h"
+#include "pipeline/cpu_draw/mesh/list_meshes.h"
 #include "pipeline/cpu_draw/picture_bands.h"
 #include "pipeline/draw_list/draw_list.h"
 
@@ -20,8 +21,8 @@ namespace stadion {
 
 class PieceCosts {
 public:
-  PieceCosts(CpuMeshCache& meshes, BandMemory& bands, const DrawKernels& kernels)
-      : meshes_(meshes), bands_(bands), setup_(kernels) {}
+  PieceCosts(CpuMeshCache& meshes, PosedMeshes& poses, BandMemory& bands, const DrawKernels& kernels)
+      : meshes_(meshes), poses_(poses), bands_(bands), setup_(kernels) {}
 
   /// A view that has been drawn.
   struct View {
@@ -54,6 +55,7 @@ private:
   void drawBand(const View& view, std::size_t band, bool surfacesOnly);
 
   CpuMeshCache& meshes_;
+  PosedMeshes& poses_;
   BandMemory& bands_;
   PictureSetup setup_;
   std::vector<const DrawItem*> seen_;  ///< objects that the view sees, opaque ones first

@@ -150,7 +150,7 @@ ShadowParameters ShadowSet::parameters(const DrawShadows& shadows, int taps) con
   return out;
 }
 
-std::shared_ptr<const ShadowSet> ShadowStore::find(const DrawShadows& shadows, CpuMeshCache& meshes,
+std::shared_ptr<const ShadowSet> ShadowStore::find(const DrawShadows& shadows, const ListMeshes& meshes,
                                                    DrawPool& pool) {
   const std::lock_guard lock(mutex_);
   const auto held = std::ranges::find_if(sets_, [&](const auto& set) { return set->holds(shadows); });
@@ -176,12 +176,13 @@ std::shared_ptr<ShadowSet> ShadowStore::freeSet() {
   return sets_.front();
 }
 
-void ShadowStore::update(ShadowSet& set, const DrawShadows& shadows, CpuMeshCache& meshes, DrawPool& pool) {
+void ShadowStore::update(ShadowSet& set, const DrawShadows& shadows, const ListMeshes& meshes,
+                         DrawPool& pool) {
   for (std::size_t ring = 0; ring < kShadowRings; ++ring) updateRing(set, shadows, ring, meshes, pool);
 }
 
 void ShadowStore::updateRing(ShadowSet& set, const DrawShadows& shadows, std::size_t ring,
-                             CpuMeshCache& meshes, DrawPool& pool) {
+                             const ListMeshes& meshes, DrawPool& pool) {
   const DrawShadowRing& now = shadows.rings[ring];
   ShadowSet::Ring& held = set.rings_[ring];
   const bool redrawn = !held.drawn || held.stillKey != now.stillKey;
@@ -201,7 +202,7 @@ void ShadowStore::updateRing(ShadowSet& set, const DrawShadows& shadows, std::si
 }
 
 const ShadowStore::Still& ShadowStore::still(const DrawShadows& shadows, std::size_t ring,
-                                             CpuMeshCache& meshes, DrawPool& pool) {
+                                             const ListMeshes& meshes, DrawPool& pool) {
   Still& still = still_[ring];
   const DrawShadowRing& now = shadows.rings[ring];
   if (still.drawn && still.key == now.stillKey) return still;
@@ -214,12 +215,12 @@ const ShadowStore::Still& ShadowStore::still(const DrawShadows& shadows, std::si
 }
 
 void ShadowStore::drawCasters(const DrawShadows& shadows, std::size_t ring, std::span<const DrawItem> casters,
-                              CpuMeshCache& meshes, DrawPool& pool, float* depths, int stride) const {
+                              const ListMeshes& meshes, DrawPool& pool, float* depths, int stride) const {
   if (casters.empty()) return;
   PictureSetup setup(kernels_);
   setup.begin(geometryOf(shadows, ring), 1, kAwayBySlope, kAwayBySteps);
   for (const DrawItem& item : casters)
-    if (const auto mesh = meshes.find(item.mesh))
+    if (const auto mesh = meshes.find(item))
       for (const Transparency which : {Transparency::Opaque, Transparency::Transparent})
         setup.add(mesh, 0, item.model, which);
   setup.divide();

@@ -8,7 +8,7 @@
 /// Threads  any. Walls that draw the same frame get the same set; the first one draws it.
 
 #include "pipeline/cpu_draw/kernels/kernel_data.h"
-#include "pipeline/cpu_draw/mesh/cpu_mesh.h"
+#include "pipeline/cpu_draw/mesh/list_meshes.h"
 #include "pipeline/draw_list/draw_list.h"
 #include "pipeline/platform/draw_pool.h"
 
@@ -48,7 +48,7 @@ public:
   explicit ShadowStore(const DrawKernels& kernels) : kernels_(kernels) {}
 
   /// Expects shadows of a light.
-  std::shared_ptr<const ShadowSet> find(const DrawShadows& shadows, CpuMeshCache& meshes, DrawPool& pool);
+  std::shared_ptr<const ShadowSet> find(const DrawShadows& shadows, const ListMeshes& meshes, DrawPool& pool);
 
 private:
   using Area = std::array<int, 4>;
@@ -58,12 +58,12 @@ private:
     std::vector<float> depths;
   };
   std::shared_ptr<ShadowSet> freeSet();
-  void update(ShadowSet& set, const DrawShadows& shadows, CpuMeshCache& meshes, DrawPool& pool);
-  void updateRing(ShadowSet& set, const DrawShadows& shadows, std::size_t ring, CpuMeshCache& meshes,
+  void update(ShadowSet& set, const DrawShadows& shadows, const ListMeshes& meshes, DrawPool& pool);
+  void updateRing(ShadowSet& set, const DrawShadows& shadows, std::size_t ring, const ListMeshes& meshes,
                   DrawPool& pool);
-  const Still& still(const DrawShadows& shadows, std::size_t ring, CpuMeshCache& meshes, DrawPool& pool);
+  const Still& still(const DrawShadows& shadows, std::size_t ring, const ListMeshes& meshes, DrawPool& pool);
   void drawCasters(const DrawShadows& shadows, std::size_t ring, std::span<const DrawItem> casters,
-                   CpuMeshCache& meshes, DrawPool& pool, float* depths, int stride) const;
+                   const ListMeshes& meshes, DrawPool& pool, float* depths, int stride) const;
 
   const DrawKernels& kernels_;
   std::mutex mutex_;

@@ -47,6 +47,7 @@ DrawItem itemOf(const DrawnRecord& drawn, const Vec3& origin, const PixelScale& 
   item.distance = drawn.distance;
   item.pixels = scale.of(r.radius, drawn.distance);
   item.level = drawn.level;
+  item.figure = r.figure();
   item.views = drawn.views;
   return item;
 }
@@ -166,6 +167,7 @@ void WallCull::lookThrough(const SlotView& state, const VisibleSet& seen, DrawLi
   out.viewer = *state.viewer;
   seen.placed.setUp(out);
   setLights(state, out);
+  out.figures.assign(state.figures.begin(), state.figures.end());
   setSky(*state.sky, out);
 }
 

@@ -11,6 +11,17 @@ namespace {
 /// reach that far. Of the ring itself a fiftieth at the edge is left to the next one (shaders.cpp).
 constexpr double kLookup = 4, kUsed = 0.98;
 
+/// Of what a figure plays.
+std::uint64_t keyOf(const FigureRecord& figure) {
+  std::uint64_t key = figure.layerCount;
+  for (const ClipLayer& layer : figure.layers) {
+    key = mixedBits(
+        key ^ (std::uint64_t{layer.clip} | std::uint64_t{std::bit_cast<std::uint32_t>(layer.weight)} << 32));
+    key = mixedBits(key ^ std::bit_cast<std::uint64_t>(layer.time));
+  }
+  return key;
+}
+
 /// Right, up and towards the light: any frame will do that depends on the direction alone.
 Mat3 axesTowards(const Vec3& light) {
   const Vec3 helper = std::abs(light.z()) < 0.99 ? Vec3::UnitZ() : Vec3::UnitY();
@@ -25,7 +36,7 @@ Mat3 axesTowards(const Vec3& light) {
 }  // namespace
 
 ShadowCull::ShadowCull(const SlotView& state, StillCasters& still, DrawList& out)
-    : shadows_(out.shadows), origin_(out.origin) {
+    : shadows_(out.shadows), figures_(state.figures), origin_(out.origin) {
   shadows_.light = -1;
   const auto shades = [](const DrawLight& l) { return l.kind == DrawLight::Kind::Directional && l.shadows; };
   const auto light = std::ranges::find_if(out.lights, shades);
@@ -88,6 +99,8 @@ void ShadowCull::cast(const InstanceRecord& r) {
     DrawShadowRing& ring = shadows_.rings[index];
     ring.moving.push_back(places_[index].itemOf(r));
     ring.movingKey += keyOf(ring.moving.back());
+    if (const std::uint32_t figure = r.figure(); figure != 0 && figure <= figures_.size())
+      ring.movingKey += mixedBits(keyOf(figures_[figure - 1]) ^ keyOf(ring.moving.back()));
     auto& area = ring.movingArea;
     for (std::size_t k = 0; k < 2; ++k) {
       const double at = p[static_cast<int>(k)];

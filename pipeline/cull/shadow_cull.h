@@ -30,6 +30,7 @@ private:
   void cast(const InstanceRecord& r);
 
   DrawShadows& shadows_;
+  std::span<const FigureRecord> figures_;
   Vec3 origin_;
   Mat3 axes_ = Mat3::Identity();  ///< rows: right, up, towards the light, in World
   std::array<RingPlace, kShadowRings> places_;

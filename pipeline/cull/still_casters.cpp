@@ -86,6 +86,7 @@ DrawItem RingPlace::itemOf(const InstanceRecord& r) const {
   }
   item.mesh = r.mesh;
   item.owner = r.owner;
+  item.figure = r.figure();
   return item;
 }
 

@@ -29,7 +29,8 @@ struct DrawItem {
   float distance = 0;  ///< distance of the object's centre from the viewer [m]
   /// Number of pixels that the object's bounding sphere may cover in one view's picture, for profiling.
   float pixels = 0;
-  std::uint32_t level = 0;          ///< 0 = all of the mesh; else Mesh::levels[level - 1]
+  std::uint32_t level = 0;   ///< 0 = all of the mesh; else Mesh::levels[level - 1]
+  std::uint32_t figure = 0;  ///< number of the figure that it shows: DrawList::figures[figure - 1]; 0 = none
   std::uint32_t views = kAllViews;  ///< views that may see the object: bit v stands for DrawList::views[v]
 
   static constexpr std::uint32_t kAllViews = ~0U;
@@ -95,7 +96,8 @@ struct DrawList {
   std::uint32_t viewCount = 2;
   ViewerRecord viewer;  ///< from where it is seen
   DrawSky sky;
-  std::vector<DrawLight> lights;  ///< at most kMaxLights
+  std::vector<DrawLight> lights;      ///< at most kMaxLights
+  std::vector<FigureRecord> figures;  ///< what each of the show's figures plays
   DrawShadows shadows;
   /// Sorted by mesh and level, then by the sum of the first and the last view that see them, then near to
   /// far. So what one of two views sees lies together.

@@ -12,7 +12,9 @@ std::optional<ImportedMeshes::Key> ImportedMeshes::Key::of(int file, const Impor
              static_cast<std::uint64_t>(s.st_size),
              std::int64_t{s.st_mtim.tv_sec} * 1'000'000'000 + s.st_mtim.tv_nsec,
              options.unit.value_or(0),
-             options.up ? static_cast<int>(*options.up) : -1};
+             options.up ? static_cast<int>(*options.up) : -1,
+             0,
+             options.form};
 }
 
 MeshId ImportedMeshes::find(const Key& key) {

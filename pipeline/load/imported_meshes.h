@@ -26,6 +26,7 @@ public:
     double unit = 0;           ///< 0 = the file's own
     int up = -1;               ///< UpAxis; -1 = the file's own
     std::uint32_t levels = 0;  ///< number of simplified levels requested
+    ModelForm form = ModelForm::Object;
 
     auto operator<=>(const Key&) const = default;
     /// Returns the key of an open file; nothing if it is unknown.

@@ -17,6 +17,11 @@ namespace {
 
 constexpr std::size_t kDeepestNesting = 16;
 
+/// The levels of a figure would have to be simplified in all its poses.
+double levelsOf(const Declaration& d) {
+  return d.is(Trait::Figure) ? 0 : d.number("levels");
+}
+
 }  // namespace
 
 Loader::Loader(LoaderParts parts) : parts_(std::move(parts)), thread_([this] { work(); }) {}
@@ -252,7 +257,7 @@ std::unique_ptr<LoadedScene> Loader::build(const Job& job, std::unique_ptr<Docum
 MeshId Loader::Imports::of(const Declaration& d, Loader& loader, Diagnostics& findings) {
   const auto up = d.optionalChoice<UpAxis>("up");
   const Key key(d.text("file"), d.optionalNumber("unit").value_or(0), up ? static_cast<int>(*up) : -1,
-                d.number("levels"));
+                levelsOf(d), d.is(Trait::Figure));
   const auto [at, isNew] = known.try_emplace(key, kNoMesh);
   if (isNew) counted.push_back(at->second = loader.importMesh(d, findings));
   return at->second;
@@ -273,7 +278,8 @@ MeshId Loader::importMesh(const Declaration& d, Diagnostics& findings) {
   options.unit = d.optionalNumber("unit");
   options.up = d.optionalChoice<UpAxis>("up");
   const std::string file(d.text("file"));
-  const auto levels = static_cast<std::uint32_t>(d.number("levels"));
+  options.form = d.is(Trait::Figure) ? ModelForm::Figure : ModelForm::Object;
+  const auto levels = static_cast<std::uint32_t>(levelsOf(d));
   const auto key = keyOf(file, options, levels);
   if (const MeshId known = key ? parts_.kept->find(*key) : kNoMesh; known != kNoMesh) return known;
   Diagnostics notes;

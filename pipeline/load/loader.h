@@ -101,7 +101,8 @@ private:
 
   /// The models of one load, each imported and counted once.
   struct Imports {
-    using Key = std::tuple<std::string, double, int, double>;  ///< file, unit, up axis, levels
+    /// File, unit, up axis, levels, as a figure.
+    using Key = std::tuple<std::string, double, int, double, bool>;
     std::map<Key, MeshId> known;
     std::vector<MeshId> counted;
 

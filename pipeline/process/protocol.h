@@ -19,7 +19,7 @@
 namespace stadion::wall_process {
 
 constexpr std::uint32_t kMagic = 0x57445453;  // "STDW"
-constexpr std::uint32_t kVersion = 5;
+constexpr std::uint32_t kVersion = 6;
 constexpr std::size_t kLongestText = 4096;
 
 // Address space, not memory.

@@ -14,10 +14,11 @@ struct SceneState::Header {
   ShadowRecord shadows;
   std::uint64_t stillVersion;
   std::atomic<std::uint64_t> writes;
-  std::uint32_t lightCount, chunkCount;
+  std::uint32_t lightCount, chunkCount, figureCount;
   std::uint64_t instanceCount;
   LightRecord lights[kMaxLights];
   ChunkId chunks[kMaxChunks];
+  FigureRecord figures[kMostFigures];
 };
 
 namespace {
@@ -28,7 +29,7 @@ constexpr std::size_t kStamps = std::size_t{1} << 19;
 static_assert(kStamps * kInstancesAStamp * sizeof(InstanceRecord) >= kReserve);
 
 /// Behind the header.
-constexpr std::size_t kStampsAt = std::size_t{1} << 16;
+constexpr std::size_t kStampsAt = std::size_t{1} << 19;
 constexpr std::size_t kInstancesAt = kStampsAt + kStamps * sizeof(std::uint32_t);
 
 std::string_view publishedField(const InstanceRecord& r, const void* address) {
@@ -130,6 +131,8 @@ std::size_t SceneState::catchUp(std::size_t slot) {
     }
     to.lightCount = from.lightCount;
     std::copy_n(from.lights, from.lightCount, to.lights);
+    to.figureCount = from.figureCount;
+    std::copy_n(from.figures, from.figureCount, to.figures);
     to.chunkCount = from.chunkCount;
     std::copy_n(from.chunks, from.chunkCount, to.chunks);
   }
@@ -156,6 +159,11 @@ bool SceneState::movesBy(const ChangeSet::Instance& change) {
   Known& known = marks_[change.id].known;
   const bool there = change.record.radius >= 0;
   const Known before = known;
+  if (there && change.record.figure() != 0) {  // it may move where it stands
+    known = Known::Moves;
+    if (before == Known::Still) ++stillVersion_;
+    return true;
+  }
   if (before == Known::Moves && there) return true;
   // A change of detail alone does not move the instance.
   if (before == Known::Still && there && standAlike(change.record, instances(newest_)[change.id]))
@@ -181,6 +189,11 @@ void SceneState::apply(std::size_t slot, const ChangeSet& changes) {
     assert(changes.lights.size() <= kMaxLights);
     h.lightCount = static_cast<std::uint32_t>(std::min(changes.lights.size(), kMaxLights));
     std::copy_n(changes.lights.begin(), h.lightCount, h.lights);
+  }
+  if (changes.figuresChanged) {
+    assert(changes.figures.size() <= kMostFigures);
+    h.figureCount = static_cast<std::uint32_t>(std::min(changes.figures.size(), kMostFigures));
+    std::copy_n(changes.figures.begin(), h.figureCount, h.figures);
   }
   h.sky = changes.sky;
   h.viewer = changes.viewer;
@@ -278,6 +291,7 @@ SlotView SceneState::view(std::size_t slot) const {
   v.sky = &h.sky;
   v.shadows = &h.shadows;
   v.lights = {h.lights, h.lightCount};
+  v.figures = {h.figures, h.figureCount};
   v.instances = {instances(slot), h.instanceCount};
   v.stamps = {stamps(slot), (h.instanceCount + kInstancesAStamp - 1) / kInstancesAStamp};
   v.chunks = {h.chunks, h.chunkCount};
@@ -327,6 +341,7 @@ PublishedPlace SceneState::placeIn(const Header& h, const std::byte* address) {
           : in(h.sky)     ? "sky"
           : in(h.shadows) ? "shadows"
           : in(h.chunks)  ? "chunks"
+          : in(h.figures) ? "figures"
                           : "header",
           {}};
 }

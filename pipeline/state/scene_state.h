@@ -35,6 +35,7 @@ struct SlotView {
   const SkyRecord* sky = nullptr;
   const ShadowRecord* shadows = nullptr;
   std::span<const LightRecord> lights;
+  std::span<const FigureRecord> figures;      ///< what each plays, by InstanceRecord::figure() - 1
   std::span<const InstanceRecord> instances;  ///< by InstanceId; radius < 0 = not there
   /// By block of kInstancesAStamp instances: a number that changes whenever an instance of the block changes
   /// in this slot.

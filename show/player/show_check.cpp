@@ -158,10 +158,12 @@ private:
     ImportOptions options;
     options.unit = d.optionalNumber("unit");
     options.up = d.optionalChoice<UpAxis>("up");
+    options.form = d.is(Trait::Figure) ? ModelForm::Figure : ModelForm::Object;
     const std::string file(d.text("file"));
     // A hundred objects with the same file: one import, and one word about it.
-    const auto key = std::tuple(file, options.unit.value_or(0),
-                                static_cast<int>(options.up.value_or(UpAxis::Z)), options.up.has_value());
+    const auto key =
+        std::tuple(file, options.unit.value_or(0), static_cast<int>(options.up.value_or(UpAxis::Z)),
+                   options.up.has_value(), options.form);
     if (const auto known = imported_.find(key); known != imported_.end()) return known->second;
     Diagnostics notes;
     auto mesh = importer_->load(file, options, d.where("file"), &notes);
@@ -202,7 +204,7 @@ private:
   std::unique_ptr<Importer> importer_;
   NodeServices services_;
   MeshStore meshes_;
-  std::map<std::tuple<std::string, double, int, bool>, MeshId> imported_;
+  std::map<std::tuple<std::string, double, int, bool, ModelForm>, MeshId> imported_;
   std::set<std::string> seen_;
   std::vector<std::string> trackers_;
   std::string log_;

@@ -2,6 +2,7 @@
 
 #include "engine/asset/import.h"
 #include "engine/base/atomic_file.h"
+#include "engine/figure/skinning.h"
 
 #include <fmt/format.h>
 
@@ -14,15 +15,51 @@ constexpr double kEyeHeight = 1.7;      ///< of the head above the rig [m]
 constexpr double kRadiiAway = 2.2;      ///< distance from the model's middle, in radii of its bounding sphere
 constexpr double kLeastDistance = 0.5;  ///< [m] nearer than this, eyes cannot look at a thing
 
-std::string scriptOf(const std::string& name, const Sphere& sphere) {
+/// Where a figure is while it plays its first clip: its bounding sphere is for all clips and blends.
+Sphere playedSphere(const Mesh& mesh) {
+  constexpr int kPoses = 8;
+  const Skeleton& skeleton = *mesh.skeleton;
+  FigureRecord playing;
+  playing.layerCount = skeleton.clips.empty() ? 0 : 1;
+  FigurePose pose;
+  std::vector<SkinnedVertex> vertices(mesh.positions.size());
+  Aabb box;
+  for (int i = 0; i < kPoses; ++i) {
+    if (playing.layerCount > 0) playing.layers[0].time = skeleton.clips[0].length * i / kPoses;
+    pose.set(skeleton, playing);
+    skin({mesh.positions, mesh.normals, mesh.joints}, pose.palette(), 0, vertices);
+    for (const SkinnedVertex& v : vertices)
+      box.include(Vec3(double{v.position[0]}, double{v.position[1]}, double{v.position[2]}));
+  }
+  return box.empty() ? mesh.sphere : Sphere{box.centre(), 0.5 * (box.hi - box.lo).norm()};
+}
+
+/// The line of the script that shows the model.
+std::string nodeOf(const std::string& name, const Mesh& mesh) {
+  if (!mesh.skeleton) return fmt::format("object( name=model, file=\"{}\" )", name);
+  const auto& clips = mesh.skeleton->clips;
+  const bool plays = !clips.empty() && clips[0].name.find_first_of("\"\n\\") == std::string::npos;
+  return fmt::format("figure( name=model, file=\"{}\"{} )", name,
+                     plays ? fmt::format(", clip=\"{}\"", clips[0].name) : "");
+}
+
+std::string clipsOf(const Skeleton& skeleton) {
+  std::string all;
+  for (const Clip& clip : skeleton.clips)
+    all += fmt::format("{}\"{}\" ({:.3g} s)", all.empty() ? "" : ", ", clip.name, clip.length);
+  return all;
+}
+
+std::string scriptOf(const std::string& name, const Mesh& mesh) {
+  const Sphere sphere = mesh.skeleton ? playedSphere(mesh) : mesh.sphere;
   const Vec3 eye = sphere.centre - std::max(kRadiiAway * sphere.radius, kLeastDistance) * Vec3::UnitY();
   return fmt::format(R"(# The model {0}, alone.
 rig( name=rig, position="{1:.6g}, {2:.6g}, {3:.6g}", eyeheight={4} )
 sky( )
 light( direction="-1, 2, -3", intensity=0.8 )
-object( name=model, file="{0}" )
+{5}
 )",
-                     name, eye.x(), eye.y(), eye.z() - kEyeHeight, kEyeHeight);
+                     name, eye.x(), eye.y(), eye.z() - kEyeHeight, kEyeHeight, nodeOf(name, mesh));
 }
 
 }  // namespace
@@ -48,16 +85,20 @@ std::unique_ptr<ModelShow> ModelShow::make(const std::string& model,
     return nullptr;
   }
   Importer importer(importerProgram, std::move(roots));
-  const auto mesh = importer.load(name, {}, where);
+  ImportOptions options;
+  options.form = ModelForm::Either;
+  const auto mesh = importer.load(name, options, where);
   if (!mesh) {
     findings.add(mesh.error());
     return nullptr;
   }
   std::unique_ptr<ModelShow> show(new ModelShow(folder));
-  if (auto failure = writeFile(show->script(), scriptOf(name, mesh.value()->sphere))) {
+  if (auto failure = writeFile(show->script(), scriptOf(name, *mesh.value()))) {
     findings.add(*failure);
     return nullptr;
   }
+  if (const auto& skeleton = mesh.value()->skeleton; skeleton && !skeleton->clips.empty())
+    findings.note(where, "its clips, of which the first plays: " + clipsOf(*skeleton));
   return show;
 }
 

@@ -2,6 +2,7 @@
 
 #include "engine/asset/importer_program/assimp/assimp_reader.h"
 #include "engine/asset/importer_program/gltf/gltf_reader.h"
+#include "engine/asset/importer_program/mesh/figure_joints.h"
 #include "engine/asset/importer_program/mesh/geometry.h"
 #include "engine/asset/importer_program/mesh/materials.h"
 #include "engine/asset/importer_program/source/contents.h"
@@ -42,6 +43,17 @@ SourceScene readScene(const Request& request) {
                                              : readWithAssimp(request, *format, file);
 }
 
+bool isFigure(const SourceScene& scene, ModelForm form) {
+  return form == ModelForm::Figure ||
+         (form == ModelForm::Either && !(scene.skins.empty() && scene.clips.empty()));
+}
+
+Flat flattenFigure(const SourceScene& scene, const FlattenLimits& limits, ImportedModel& result) {
+  const FigureJoints joints(scene, limits.mesh.skeleton);
+  result.mesh.skeleton = std::make_shared<const Skeleton>(joints.skeleton(result.inventory));
+  return flattenFigure(scene, joints, limits);
+}
+
 PictureSource picturesOf(const Request& request) {
   return {request.root.get(), request.path.substr(0, request.path.rfind('/') + 1), request.head.fileBytes,
           request.head.mesh};
@@ -52,8 +64,10 @@ PictureSource picturesOf(const Request& request) {
 ImportedModel importModel(const Request& request) {
   const SourceScene scene = readScene(request);
   ImportedModel result;
-  takeInventory(scene, result.inventory);
-  Flat flat = flatten(scene, {request.head.nodeDepth, request.head.mesh});
+  const bool figure = isFigure(scene, request.head.form);
+  takeInventory(scene, figure, result.inventory);
+  const FlattenLimits limits{request.head.nodeDepth, request.head.mesh};
+  Flat flat = figure ? flattenFigure(scene, limits, result) : flatten(scene, limits);
   const DroppedTriangles dropped = dropBadTriangles(flat);
   addDropped(dropped, result.inventory);
   if (flat.triangles.empty())

@@ -1,5 +1,6 @@
 #include "pipeline/cpu_draw/mesh/cpu_mesh.h"
 
+#include "engine/figure/skinning.h"
 #include "engine/maths/srgb.h"
 #include "pipeline/cpu_draw/mesh/cpu_material.h"
 #include "pipeline/gl/finite.h"
@@ -25,13 +26,35 @@ float cutoffOfTexture(const Mesh& mesh, std::size_t texture) {
 
 CpuMesh::CpuMesh(const Mesh& mesh, Look look) {
   copyVertices(mesh, look);
-  for (std::size_t i = 0; i < mesh.textures.size(); ++i)
-    textures_.push_back(std::make_unique<CpuTexture>(mesh.textures[i], cutoffOfTexture(mesh, i), look));
-  makeMaterials(mesh, look);
+  Surface surface;
+  makeMaterials(mesh, look, surface);
   const bool open = !encloses(mesh);
-  addLevel(mesh, mesh.indices, mesh.submeshes, open);
-  for (const MeshLevel& level : mesh.levels) addLevel(mesh, level.indices, level.submeshes, open);
-  for (auto* corners : {&a_, &b_, &c_}) corners->resize(corners->size() + kKernelPadding);
+  addLevel(mesh, mesh.indices, mesh.submeshes, open, surface);
+  for (const MeshLevel& level : mesh.levels) addLevel(mesh, level.indices, level.submeshes, open, surface);
+  for (auto* corners : {&surface.a, &surface.b, &surface.c})
+    corners->resize(corners->size() + kKernelPadding);
+  surface_ = std::make_shared<const Surface>(std::move(surface));
+}
+
+void CpuMesh::takePose(const Mesh& mesh, std::span<const JointMatrix> palette) {
+  constexpr std::size_t kBlock = 128;  // stays in the processor's cache
+  posed_ = true;
+  const SkinSource source{mesh.positions, mesh.normals, mesh.joints};
+  std::array<SkinnedVertex, kBlock> block;
+  for (std::size_t first = 0; first < vertexCount_; first += kBlock) {
+    const std::span<SkinnedVertex> some(block.data(), std::min(kBlock, vertexCount_ - first));
+    skin(source, palette, first, some);
+    for (std::size_t i = 0; i < some.size(); ++i) place(first + i, some[i].position, some[i].normal);
+  }
+}
+
+void CpuMesh::place(std::size_t vertex, const std::array<float, 3>& position,
+                    const std::array<float, 3>& normal) {
+  float* v = vertices_.data() + vertex * kVertexFloats;
+  for (std::size_t k = 0; k < 3; ++k) v[k] = finite(position[k]), v[3 + k] = finite(normal[k]);
+  x_[vertex] = v[0];
+  y_[vertex] = v[1];
+  z_[vertex] = v[2];
 }
 
 void CpuMesh::copyVertices(const Mesh& mesh, Look look) {
@@ -40,12 +63,8 @@ void CpuMesh::copyVertices(const Mesh& mesh, Look look) {
   vertexCount_ = static_cast<std::uint32_t>(count);
   vertices_.resize(count * kVertexFloats);
   for (std::size_t i = 0; i < count; ++i) {
-    const auto& p = mesh.positions[i];
+    place(i, mesh.positions[i], mesh.normals[i]);
     float* v = vertices_.data() + i * kVertexFloats;
-    for (std::size_t k = 0; k < 3; ++k) v[k] = finite(p[k]), v[3 + k] = finite(mesh.normals[i][k]);
-    x_[i] = v[0];
-    y_[i] = v[1];
-    z_[i] = v[2];
     if (!mesh.uvs.empty()) v[6] = mesh.uvs[i][0], v[7] = mesh.uvs[i][1];
     for (std::size_t k = 0; k < 4; ++k) {
       const double c = mesh.colours.empty() ? 1 : mesh.colours[i][k] / 255.0;
@@ -54,31 +73,37 @@ void CpuMesh::copyVertices(const Mesh& mesh, Look look) {
   }
 }
 
-void CpuMesh::makeMaterials(const Mesh& mesh, Look look) {
+void CpuMesh::makeMaterials(const Mesh& mesh, Look look, Surface& surface) {
+  for (std::size_t i = 0; i < mesh.textures.size(); ++i)
+    surface.textures.push_back(
+        std::make_unique<CpuTexture>(mesh.textures[i], cutoffOfTexture(mesh, i), look));
   for (const Material& m : mesh.materials) {
-    MaterialParameters& to = materials_.emplace_back(materialParameters(m, look));
-    const auto of = [&](std::int32_t t) { return textures_[static_cast<std::size_t>(t)]->parameters(); };
+    MaterialParameters& to = surface.materials.emplace_back(materialParameters(m, look));
+    const auto of = [&](std::int32_t t) {
+      return surface.textures[static_cast<std::size_t>(t)]->parameters();
+    };
     if (m.texture >= 0 && !mesh.uvs.empty()) to.base = of(m.texture);
     if (m.emissiveTexture >= 0) to.glow = of(m.emissiveTexture);
   }
 }
 
 void CpuMesh::addLevel(const Mesh& mesh, std::span<const std::uint32_t> indices,
-                       std::span<const Submesh> parts, bool open) {
-  std::vector<CpuPart>& level = levels_.emplace_back();
+                       std::span<const Submesh> parts, bool open, Surface& surface) const {
+  std::vector<CpuPart>& level = surface.levels.emplace_back();
   for (const Submesh& part : parts) {
     const Material& m = mesh.materials[part.material];
-    const auto first = static_cast<std::uint32_t>(a_.size());
+    const auto first = static_cast<std::uint32_t>(surface.a.size());
     const auto own = indices.subspan(part.firstIndex, part.indexCount / 3 * 3);
     for (std::size_t i = 0; i < own.size(); i += 3)
-      a_.push_back(static_cast<int>(own[i])), b_.push_back(static_cast<int>(own[i + 1])),
-          c_.push_back(static_cast<int>(own[i + 2]));
+      surface.a.push_back(static_cast<int>(own[i])), surface.b.push_back(static_cast<int>(own[i + 1])),
+          surface.c.push_back(static_cast<int>(own[i + 2]));
     level.push_back({first, part.indexCount / 3, part.material, m.transparent(), m.masked(),
-                     m.doubleSided || open, sectionsOf(first, part.indexCount / 3)});
+                     m.doubleSided || open, sectionsOf(surface, first, part.indexCount / 3)});
   }
 }
 
-std::vector<MeshSection> CpuMesh::sectionsOf(std::uint32_t firstTriangle, std::uint32_t triangles) const {
+std::vector<MeshSection> CpuMesh::sectionsOf(const Surface& surface, std::uint32_t firstTriangle,
+                                             std::uint32_t triangles) const {
   constexpr std::uint32_t kTrianglesASection = 256;
   std::vector<MeshSection> sections;
   for (std::uint32_t done = 0; done < triangles; done += kTrianglesASection) {
@@ -89,7 +114,8 @@ std::vector<MeshSection> CpuMesh::sectionsOf(std::uint32_t firstTriangle, std::u
     s.low.fill(std::numeric_limits<float>::max());
     s.high.fill(std::numeric_limits<float>::lowest());
     for (std::uint32_t t = 0; t < s.triangles; ++t)
-      for (const int corner : triangle(s.firstTriangle + t)) {
+      for (const int corner :
+           {surface.a[s.firstTriangle + t], surface.b[s.firstTriangle + t], surface.c[s.firstTriangle + t]}) {
         const std::array<float, 3> p = position(corner);
         s.firstVertex = std::min(s.firstVertex, static_cast<std::uint32_t>(corner));
         s.endVertex = std::max(s.endVertex, static_cast<std::uint32_t>(corner) + 1);
@@ -102,7 +128,7 @@ std::vector<MeshSection> CpuMesh::sectionsOf(std::uint32_t firstTriangle, std::u
 }
 
 const std::vector<CpuPart>& CpuMesh::partsAt(std::uint32_t level) const {
-  return levels_[std::min<std::size_t>(level, levels_.size() - 1)];
+  return surface_->levels[std::min<std::size_t>(level, surface_->levels.size() - 1)];
 }
 
 std::shared_ptr<const CpuMesh> CpuMeshCache::find(MeshId id) {

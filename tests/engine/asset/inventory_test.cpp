@@ -95,14 +95,15 @@ TEST(ModelInventory, NamesWhatAFileHolds) {
                            "filter \"nearest\" of 1 material (\"skin\"): it is linear"})
     EXPECT_TRUE(full.approximated(text)) << text << "\n" << full.all();
   for (const char* text :
-       {"2 lights (\"sun\", \"lamp\")", "1 camera (\"front\")", "2 clips (\"walk\", \"wave\")",
-        "1 skin (\"rig\") of 1 bone: the figure stands in its rest pose", "1 morph target (\"smile\")",
-        "1 line", "2 points", "normal map of 1 material (\"skin\")", "occlusion map of 1 material (\"skin\")",
-        "metallic-roughness map of 1 material (\"skin\")", "unlit of 1 material (\"skin\"): it is lit",
-        "further texture coordinates of 1 mesh (\"body\")", "tangents of 1 mesh (\"body\")",
-        "1 further vertex attribute (\"COLOR_1\")", "1 further scene (\"night\")",
-        "map \"clearcoatTexture\" of 1 material (\"skin\")", "glTF extension \"KHR_materials_clearcoat\"",
-        "unknown glTF extension \"ACME_smell\""})
+       {"2 lights (\"sun\", \"lamp\")", "1 camera (\"front\")",
+        "2 clips (\"walk\", \"wave\"): an object plays none, use figure( )",
+        "1 skin (\"rig\") of 1 bone: an object stands in its rest pose, use figure( )",
+        "1 morph target (\"smile\")", "1 line", "2 points", "normal map of 1 material (\"skin\")",
+        "occlusion map of 1 material (\"skin\")", "metallic-roughness map of 1 material (\"skin\")",
+        "unlit of 1 material (\"skin\"): it is lit", "further texture coordinates of 1 mesh (\"body\")",
+        "tangents of 1 mesh (\"body\")", "1 further vertex attribute (\"COLOR_1\")",
+        "1 further scene (\"night\")", "map \"clearcoatTexture\" of 1 material (\"skin\")",
+        "glTF extension \"KHR_materials_clearcoat\"", "unknown glTF extension \"ACME_smell\""})
     EXPECT_TRUE(full.leftOut(text)) << text << "\n" << full.all();
   EXPECT_EQ(full.losses.all().size(), full.inventory.texts(ContentUse::LeftOut).size() +
                                           full.inventory.texts(ContentUse::Approximated).size());

@@ -85,6 +85,10 @@ TEST(WallProcessBytes, ListsArriveAsTheyWere) {
   DrawList list = stereoList(meshes);
   addShadows(list);
   list.ticket.signature.frame = 1234, list.wall = 3, list.origin = Vec3(1, -2, 1e6);
+  list.figures.resize(3);
+  list.figures[2].layerCount = 1;
+  list.figures[2].layers[0] = {4, 0.5f, 1.25};
+  list.opaque[0].figure = 3;
   SharedSegment segment("test", kListReserve);
   StillKeys known;
   const ListNews news{{{5, 4096, 77}}, {9, 8}};
@@ -102,6 +106,7 @@ TEST(WallProcessBytes, ListsArriveAsTheyWere) {
   EXPECT_TRUE(same(got.opaque, list.opaque));
   EXPECT_TRUE(same(got.transparent, list.transparent));
   EXPECT_EQ(got.lights.size(), list.lights.size());
+  EXPECT_EQ(got.figures, list.figures);
   EXPECT_TRUE(same(got.shadows.rings[2].moving, list.opaque));
   ASSERT_TRUE(got.shadows.rings[3].still);
   EXPECT_TRUE(same(*got.shadows.rings[3].still, list.opaque));

@@ -22,9 +22,7 @@ public:
     part.weights.resize(part.positions.size());
     for (unsigned b = 0; b < from.mNumBones; ++b)
       if (from.mBones[b]) readBone(*from.mBones[b], skin, part);
-    for (SourceNode& node : to_.nodes)
-      for (const std::uint32_t used : node.meshes)
-        if (used == mesh) node.skin = static_cast<std::int32_t>(to_.skins.size());
+    to_.meshes[mesh].skin = static_cast<std::int32_t>(to_.skins.size());
     to_.skins.push_back(std::move(skin));
   }
 

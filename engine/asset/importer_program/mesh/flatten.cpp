@@ -68,21 +68,29 @@ private:
 
 class Flattener {
 public:
-  Flattener(const SourceScene& scene, const FlattenLimits& limits) : scene_(scene), limits_(limits) {}
+  Flattener(const SourceScene& scene, const FigureJoints* joints, const FlattenLimits& limits)
+      : scene_(scene), joints_(joints), limits_(limits) {
+    flat.hasJoints = joints != nullptr;
+  }
 
-  void visit(const SourceNode& node, const Affine& X_parent, std::uint32_t depth) {
+  void visit(std::uint32_t index, const Affine& X_parent, std::uint32_t depth) {
     if (depth > limits_.nodeDepth)
       throw Refusal("nests its nodes deeper than " + std::to_string(limits_.nodeDepth));
+    const SourceNode& node = scene_.nodes[index];
     const Affine X = X_parent * node.X_PN;
     for (const std::uint32_t mesh : node.meshes)
-      for (const SourcePrimitive& primitive : scene_.meshes[mesh].primitives) append(primitive, X);
-    for (const std::uint32_t child : node.children) visit(scene_.nodes[child], X, depth + 1);
+      for (const SourcePrimitive& primitive : scene_.meshes[mesh].primitives) {
+        const std::size_t first = flat.vertices.size();
+        append(primitive, joints_ ? scene_.toShow : X, X.linear().determinant() < 0);
+        if (joints_) takeJoints(primitive, index, joints_->skinOf(index, mesh), first);
+      }
+    for (const std::uint32_t child : node.children) visit(child, X, depth + 1);
   }
 
   Flat flat;
 
 private:
-  void append(const SourcePrimitive& part, const Affine& X) {
+  void append(const SourcePrimitive& part, const Affine& X, bool mirrored) {
     if (part.triangles.empty()) return;
     if (flat.vertices.size() + part.positions.size() > limits_.mesh.vertices)
       throw Refusal("has more than " + std::to_string(limits_.mesh.vertices) + " vertices");
@@ -90,12 +98,16 @@ private:
       throw Refusal("has more than " + std::to_string(limits_.mesh.triangles) + " triangles");
     const auto first = static_cast<std::uint32_t>(flat.vertices.size());
     appendVertices(part, X);
-    const bool mirrored = X.linear().determinant() < 0;
     for (std::array<std::uint32_t, 3> corner : part.triangles) {
       for (std::uint32_t& c : corner) c += first;
       if (mirrored) std::swap(corner[1], corner[2]);
       flat.triangles.push_back({corner, part.material});
     }
+  }
+
+  void takeJoints(const SourcePrimitive& part, std::uint32_t node, std::int32_t skin, std::size_t first) {
+    for (std::size_t i = first; i < flat.vertices.size(); ++i)
+      flat.vertices[i].joints = joints_->of(part, i - first, node, skin);
   }
 
   void appendVertices(const SourcePrimitive& part, const Affine& X) {
@@ -125,6 +137,7 @@ private:
   }
 
   const SourceScene& scene_;
+  const FigureJoints* joints_;  ///< null: of an object
   const FlattenLimits& limits_;
 };
 
@@ -158,8 +171,14 @@ bool closedSurface(const Flat& flat, const std::vector<Fault>& faults) {
 }  // namespace
 
 Flat flatten(const SourceScene& scene, const FlattenLimits& limits) {
-  Flattener flattener(scene, limits);
-  for (const std::uint32_t root : scene.roots) flattener.visit(scene.nodes[root], scene.toShow, 0);
+  Flattener flattener(scene, nullptr, limits);
+  for (const std::uint32_t root : scene.roots) flattener.visit(root, scene.toShow, 0);
+  return std::move(flattener.flat);
+}
+
+Flat flattenFigure(const SourceScene& scene, const FigureJoints& joints, const FlattenLimits& limits) {
+  Flattener flattener(scene, &joints, limits);
+  for (const std::uint32_t root : scene.roots) flattener.visit(root, scene.toShow, 0);
   return std::move(flattener.flat);
 }
 

@@ -1,6 +1,8 @@
 #pragma once
-/// Flattens a scene's node tree into one list of triangles, and makes an indexed mesh of the list.
+/// Flattens a scene's node tree into one list of triangles, and makes an indexed mesh of the list. The vertices
+/// of a figure keep the joints that carry them.
 
+#include "engine/asset/importer_program/mesh/figure_joints.h"
 #include "engine/asset/importer_program/source/source_scene.h"
 #include "engine/asset/mesh_file.h"
 
@@ -13,6 +15,7 @@ struct FlatVertex {
   std::array<float, 3> normal{};  ///< zero if it is still to be made
   std::array<float, 2> uv{};
   std::array<std::uint8_t, 4> colour{255, 255, 255, 255};
+  VertexJoints joints{};
 };
 
 struct FlatTriangle {
@@ -23,7 +26,7 @@ struct FlatTriangle {
 struct Flat {
   std::vector<FlatVertex> vertices;
   std::vector<FlatTriangle> triangles;
-  bool hasUvs = false, hasColours = false;
+  bool hasUvs = false, hasColours = false, hasJoints = false;
 };
 
 struct FlattenLimits {
@@ -31,8 +34,11 @@ struct FlattenLimits {
   MeshLimits mesh;
 };
 
-/// Throws Refusal when the scene goes beyond the limits.
+/// Everything where the scene's nodes put it. Throws Refusal when the scene goes beyond the limits.
 Flat flatten(const SourceScene& scene, const FlattenLimits& limits);
+
+/// Everything where its primitive has it, turned to +Z up and metres, with the joints that carry it.
+Flat flattenFigure(const SourceScene& scene, const FigureJoints& joints, const FlattenLimits& limits);
 
 struct DroppedTriangles {
   std::size_t notFinite = 0, degenerate = 0;

@@ -78,7 +78,8 @@ Vec3 cornerNormal(const std::vector<Face>& faces, const CornerTable& meeting, st
 }
 
 bool same(const FlatVertex& a, const FlatVertex& b) {
-  return a.position == b.position && a.normal == b.normal && a.uv == b.uv && a.colour == b.colour;
+  return a.position == b.position && a.normal == b.normal && a.uv == b.uv && a.colour == b.colour &&
+         a.joints == b.joints;
 }
 
 // Finds equal vertices: open addressing over the numbers of those already in the mesh.
@@ -100,7 +101,7 @@ public:
   std::vector<FlatVertex> vertices;
 
 private:
-  static_assert(sizeof(FlatVertex) == 36, "hashed as bytes: no padding");
+  static_assert(sizeof(FlatVertex) == 60, "hashed as bytes: no padding");
   static constexpr std::uint32_t kEmpty = 0xffffffff;
   std::vector<std::uint32_t> slots_;
 };
@@ -150,6 +151,7 @@ void joinInto(const Flat& flat, Mesh& mesh) {
     mesh.normals.push_back(v.normal);
     if (flat.hasUvs) mesh.uvs.push_back(v.uv);
     if (flat.hasColours) mesh.colours.push_back(v.colour);
+    if (flat.hasJoints) mesh.joints.push_back(v.joints);
   }
 }
 

@@ -19,7 +19,8 @@ std::vector<std::string> namesOf(const Things& things) {
 
 class Contents {
 public:
-  Contents(const SourceScene& scene, ModelInventory& inventory) : scene_(scene), to_(inventory) {}
+  Contents(const SourceScene& scene, bool figure, ModelInventory& inventory)
+      : scene_(scene), figure_(figure), to_(inventory) {}
 
   void take() {
     takeGeometry();
@@ -167,9 +168,12 @@ private:
     std::size_t bones = 0;
     for (const SourceSkin& skin : scene_.skins) bones += skin.joints.size();
     if (!scene_.skins.empty())
-      add(ContentUse::LeftOut, listed(namesOf(scene_.skins), "skin") + " of " + counted(bones, "bone") +
-                                   ": the figure stands in its rest pose");
-    leaveOut(scene_.clips, "clip");
+      add(figure_ ? ContentUse::Used : ContentUse::LeftOut,
+          listed(namesOf(scene_.skins), "skin") + " of " + counted(bones, "bone") +
+              (figure_ ? "" : ": an object stands in its rest pose, use figure( )"));
+    if (!scene_.clips.empty())
+      add(figure_ ? ContentUse::Used : ContentUse::LeftOut,
+          listed(namesOf(scene_.clips), "clip") + (figure_ ? "" : ": an object plays none, use figure( )"));
     std::vector<std::string> targets;
     for (const SourceMesh& mesh : scene_.meshes) {
       std::size_t most = mesh.targetNames.size();
@@ -181,13 +185,14 @@ private:
   }
 
   const SourceScene& scene_;
+  bool figure_;
   ModelInventory& to_;
 };
 
 }  // namespace
 
-void takeInventory(const SourceScene& scene, ModelInventory& inventory) {
-  Contents(scene, inventory).take();
+void takeInventory(const SourceScene& scene, bool figure, ModelInventory& inventory) {
+  Contents(scene, figure, inventory).take();
 }
 
 }  // namespace stadion::importer

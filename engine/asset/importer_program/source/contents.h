@@ -6,6 +6,7 @@
 namespace stadion::importer {
 
 /// Adds a line for each kind of content. Content that no scene uses counts too: it is in the file.
-void takeInventory(const SourceScene& scene, ModelInventory& inventory);
+/// `figure`: a figure is made of it, which plays its clips.
+void takeInventory(const SourceScene& scene, bool figure, ModelInventory& inventory);
 
 }  // namespace stadion::importer

@@ -9,6 +9,7 @@
 /// Errors   Readers check every index before they store it; the other steps rely on that.
 
 #include "engine/asset/inventory.h"
+#include "engine/figure/skeleton.h"
 #include "engine/maths/maths.h"
 
 #include <array>
@@ -103,6 +104,7 @@ struct SourcePrimitive {
 
 struct SourceMesh {
   std::string name;
+  std::int32_t skin = -1;  ///< that of its vertices; -1: that of the node
   std::vector<SourcePrimitive> primitives;
   std::vector<std::string> targetNames;
 };
@@ -119,9 +121,6 @@ struct SourceSkin {
   std::vector<std::uint32_t> joints;  ///< nodes
   std::vector<Affine> inverseBinds;   ///< mesh to joint; as many as joints
 };
-
-enum class ChannelTarget : std::uint8_t { Translation, Rotation, Scale, Weights };
-enum class Interpolation : std::uint8_t { Step, Linear, Cubic };
 
 /// Keys of one property of a node. A cubic key has three values: tangent in, value, tangent out.
 struct SourceChannel {

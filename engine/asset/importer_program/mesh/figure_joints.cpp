@@ -1,0 +1,149 @@
+#include "engine/asset/importer_program/mesh/figure_joints.h"
+
+#include "engine/asset/importer_program/source/name_list.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <utility>
+
+namespace stadion::importer {
+namespace {
+
+/// A matrix that mirrors gets a negative scale along x.
+BonePlace placeOf(const Affine& X) {
+  BonePlace place;
+  place.translation = X.translation();
+  Mat3 axes = X.linear();
+  for (int k = 0; k < 3; ++k) place.scale[k] = axes.col(k).norm();
+  if (axes.determinant() < 0) place.scale.x() = -place.scale.x();
+  for (int k = 0; k < 3; ++k)
+    if (place.scale[k] != 0) axes.col(k) /= place.scale[k];
+  const Quat q(axes);
+  place.rotation = q.coeffs().allFinite() && q.norm() > 1e-6 ? q.normalized() : Quat::Identity();
+  return place;
+}
+
+bool allFinite(const std::vector<float>& values) {
+  return std::ranges::all_of(values, [](float v) { return std::isfinite(v); });
+}
+
+bool playable(const SourceChannel& c) {
+  return !c.times.empty() && allFinite(c.times) && allFinite(c.values) && std::ranges::is_sorted(c.times);
+}
+
+}  // namespace
+
+FigureJoints::FigureJoints(const SourceScene& scene, const SkeletonLimits& limits)
+    : scene_(scene), limits_(limits), boneOf_(scene.nodes.size(), -1), jointOfNode_(scene.nodes.size(), -1) {
+  bones_.push_back({{}, -1, scene.toShow, placeOf(scene.toShow)});
+  for (const std::uint32_t root : scene.roots) addBones(root);
+  // A joint may lie outside of the shown scene.
+  for (const SourceSkin& skin : scene.skins)
+    for (std::uint32_t at : skin.joints) {
+      while (boneOf_[at] < 0 && scene.nodes[at].parent >= 0)
+        at = static_cast<std::uint32_t>(scene.nodes[at].parent);
+      addBones(at);
+    }
+  addJoints();
+}
+
+void FigureJoints::addBones(std::uint32_t root) {
+  std::vector<std::pair<std::uint32_t, std::int32_t>> rest{{root, 0}};
+  while (!rest.empty()) {
+    const auto [node, parent] = rest.back();
+    rest.pop_back();
+    if (boneOf_[node] >= 0) continue;
+    if (bones_.size() >= limits_.bones)
+      throw Refusal("has more than " + std::to_string(limits_.bones) + " nodes, too many for a figure");
+    boneOf_[node] = static_cast<std::int32_t>(bones_.size());
+    const SourceNode& from = scene_.nodes[node];
+    bones_.push_back({from.name, parent, from.X_PN, placeOf(from.X_PN)});
+    for (auto child = from.children.rbegin(); child != from.children.rend(); ++child)
+      rest.emplace_back(*child, boneOf_[node]);
+  }
+}
+
+/// Vertices are stored as `toShow` turns those of the primitives.
+void FigureJoints::addJoints() {
+  const Affine toFile = scene_.toShow.inverse();
+  for (std::size_t node = 0; node < scene_.nodes.size(); ++node) {
+    if (boneOf_[node] < 0 || scene_.nodes[node].meshes.empty()) continue;
+    jointOfNode_[node] = static_cast<std::int32_t>(joints_.size());
+    joints_.push_back({static_cast<std::uint32_t>(boneOf_[node]), toFile});
+  }
+  for (const SourceSkin& skin : scene_.skins) {
+    firstOfSkin_.push_back(static_cast<std::uint32_t>(joints_.size()));
+    for (std::size_t i = 0; i < skin.joints.size(); ++i)
+      joints_.push_back({static_cast<std::uint32_t>(boneOf_[skin.joints[i]]), skin.inverseBinds[i] * toFile});
+  }
+  if (joints_.size() > limits_.joints)
+    throw Refusal("has more than " + std::to_string(limits_.joints) + " joints");
+}
+
+std::int32_t FigureJoints::skinOf(std::uint32_t node, std::uint32_t mesh) const {
+  const std::int32_t own = scene_.meshes[mesh].skin;
+  return own >= 0 ? own : scene_.nodes[node].skin;
+}
+
+VertexJoints FigureJoints::carriedBy(std::uint32_t joint) const {
+  VertexJoints v;
+  v.joint[0] = static_cast<std::uint16_t>(joint);
+  return v;
+}
+
+VertexJoints FigureJoints::of(const SourcePrimitive& part, std::size_t vertex, std::uint32_t node,
+                              std::int32_t skin) const {
+  const VertexJoints alone = carriedBy(static_cast<std::uint32_t>(jointOfNode_[node]));
+  if (skin < 0 || vertex >= part.joints.size() || vertex >= part.weights.size()) return alone;
+  const auto number = static_cast<std::size_t>(skin);
+  VertexJoints v;
+  float sum = 0;
+  for (std::size_t k = 0; k < VertexJoints::kMost; ++k) {
+    const float weight = part.weights[vertex][k];
+    const std::uint16_t joint = part.joints[vertex][k];
+    const bool counts = weight > 0 && std::isfinite(weight) && joint < scene_.skins[number].joints.size();
+    v.joint[k] = counts ? static_cast<std::uint16_t>(firstOfSkin_[number] + joint) : 0;
+    v.weight[k] = counts ? weight : 0;
+    sum += v.weight[k];
+  }
+  if (!(sum > 0) || !std::isfinite(sum)) return alone;
+  for (float& weight : v.weight) weight /= sum;
+  return v;
+}
+
+Clip FigureJoints::clipOf(const SourceClip& from, std::size_t number, std::size_t& leftOut) const {
+  Clip clip{from.name.empty() ? "clip" + std::to_string(number + 1) : from.name, 0, {}};
+  for (const SourceChannel& c : from.channels) {
+    if (c.target == ChannelTarget::Weights || boneOf_[c.node] < 0) continue;
+    if (!playable(c)) {
+      ++leftOut;
+      continue;
+    }
+    clip.length = std::max(clip.length, double{c.times.back()});
+    clip.channels.push_back(
+        {static_cast<std::uint32_t>(boneOf_[c.node]), c.target, c.interpolation, c.times, c.values});
+  }
+  return clip;
+}
+
+Skeleton FigureJoints::skeleton(ModelInventory& inventory) const {
+  if (scene_.clips.size() > limits_.clips)
+    throw Refusal("has more than " + std::to_string(limits_.clips) + " clips");
+  Skeleton skeleton{bones_, joints_, {}, {}};
+  std::size_t leftOut = 0;
+  std::uint64_t keys = 0;
+  for (const SourceClip& clip : scene_.clips) {
+    skeleton.clips.push_back(clipOf(clip, skeleton.clips.size(), leftOut));
+    for (const ClipChannel& c : skeleton.clips.back().channels) keys += c.values.size();
+  }
+  if (keys > limits_.keys)
+    throw Refusal("has clips with more than " + std::to_string(limits_.keys) + " numbers");
+  if (leftOut > 0)
+    inventory.add(ContentUse::LeftOut,
+                  counted(leftOut, "channel", "channels") +
+                      " of clips with times that do not ascend or numbers that are not finite");
+  return skeleton;
+}
+
+}  // namespace stadion::importer

@@ -1,0 +1,43 @@
+#pragma once
+/// The skeleton of a scene: each node becomes a bone, and each use of a bone by vertices a joint.
+///
+/// Frames   The first bone is the model itself: it brings the file's coordinates to metres, +Z up.
+/// Ownership  borrows the scene.
+/// Errors   throws Refusal when the scene goes beyond the limits. Channels that cannot be played, with times
+///          that do not ascend for example, are left out and named in the inventory.
+
+#include "engine/asset/importer_program/source/source_scene.h"
+
+#include <vector>
+
+namespace stadion::importer {
+
+class FigureJoints {
+public:
+  FigureJoints(const SourceScene& scene, const SkeletonLimits& limits);
+
+  /// The skin of a node's mesh; -1 = none.
+  std::int32_t skinOf(std::uint32_t node, std::uint32_t mesh) const;
+  /// What carries a vertex of a primitive below that node.
+  VertexJoints of(const SourcePrimitive& part, std::size_t vertex, std::uint32_t node,
+                  std::int32_t skin) const;
+
+  /// Without its reach.
+  Skeleton skeleton(ModelInventory& inventory) const;
+
+private:
+  void addBones(std::uint32_t root);
+  void addJoints();
+  VertexJoints carriedBy(std::uint32_t joint) const;
+  Clip clipOf(const SourceClip& from, std::size_t number, std::size_t& leftOut) const;
+
+  const SourceScene& scene_;
+  SkeletonLimits limits_;
+  std::vector<Bone> bones_;
+  std::vector<Joint> joints_;
+  std::vector<std::int32_t> boneOf_;        ///< by node; -1 = none
+  std::vector<std::int32_t> jointOfNode_;   ///< by node: that of what has no skin; -1 = none
+  std::vector<std::uint32_t> firstOfSkin_;  ///< by skin: its first joint
+};
+
+}  // namespace stadion::importer

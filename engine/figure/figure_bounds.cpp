@@ -1,0 +1,139 @@
+#include "engine/figure/figure_bounds.h"
+
+#include "engine/maths/eigen.h"
+
+#include <Eigen/Eigenvalues>
+
+#include <algorithm>
+#include <cmath>
+
+namespace stadion {
+namespace {
+
+/// Where a bone's origin may be, and how its axes may stand there.
+struct Region {
+  Sphere origin;                 ///< in N
+  bool turns = false;            ///< its axes may stand in any way
+  Mat3 axes = Mat3::Identity();  ///< else they are these, with their scale
+  double scale = 1;              ///< most by which it lengthens what it carries
+};
+
+/// What clips may make of a bone's place.
+struct Range {
+  Aabb translation;
+  bool turns = false;
+  double scale = 0;
+};
+
+double widening(const Mat3& m) {
+  return std::sqrt(
+      std::max(0.0, (m.transpose() * m).selfadjointView<Eigen::Lower>().eigenvalues().maxCoeff()));
+}
+
+/// A cubic segment lies in the hull of its Bézier points, p and p ± interval · m / 3.
+void includeKeys(const ClipChannel& c, Range& range) {
+  const bool cubic = c.interpolation == Interpolation::Cubic;
+  const std::size_t width = c.width(), step = width * (cubic ? 3 : 1);
+  const auto vec = [&](std::size_t at) {
+    return Vec3(double{c.values[at]}, double{c.values[at + 1]}, double{c.values[at + 2]});
+  };
+  const auto take = [&](const Vec3& v) {
+    if (c.target == ChannelTarget::Translation) range.translation.include(v);
+    if (c.target == ChannelTarget::Scale) range.scale = std::max(range.scale, v.cwiseAbs().maxCoeff());
+  };
+  for (std::size_t key = 0; key < c.times.size(); ++key) {
+    const std::size_t at = key * step;
+    if (!cubic) {
+      take(vec(at));
+      continue;
+    }
+    const Vec3 value = vec(at + width);
+    take(value);
+    if (key > 0) take(value - (double{c.times[key]} - double{c.times[key - 1]}) / 3 * vec(at));
+    if (key + 1 < c.times.size())
+      take(value + (double{c.times[key + 1]} - double{c.times[key]}) / 3 * vec(at + 2 * width));
+  }
+}
+
+std::vector<Range> rangesOf(const Skeleton& skeleton) {
+  std::vector<Range> ranges;
+  for (const Bone& bone : skeleton.bones) {
+    Range range;
+    range.translation.include(bone.rest.translation);
+    range.translation.include(Vec3(bone.X_PB.translation()));
+    range.scale = std::max(bone.rest.scale.cwiseAbs().maxCoeff(), widening(bone.X_PB.linear()));
+    ranges.push_back(range);
+  }
+  for (const Clip& clip : skeleton.clips)
+    for (const ClipChannel& channel : clip.channels) {
+      if (channel.target == ChannelTarget::Weights) continue;
+      Range& range = ranges[channel.bone];
+      range.turns |= channel.target != ChannelTarget::Translation;
+      if (channel.target != ChannelTarget::Rotation) includeKeys(channel, range);
+    }
+  return ranges;
+}
+
+/// Where a ball in the bone's coordinates may come to.
+Sphere carried(const Region& region, const Vec3& centre, double radius) {
+  if (region.turns)
+    return {region.origin.centre, region.origin.radius + region.scale * (centre.norm() + radius)};
+  return {region.origin.centre + region.axes * centre, region.origin.radius + region.scale * radius};
+}
+
+Region regionOf(const Bone& bone, const Range& range, const std::vector<Region>& before) {
+  const Region root{{Vec3::Zero(), 0}, false, Mat3::Identity(), 1};
+  const Region& parent = bone.parent < 0 ? root : before[static_cast<std::size_t>(bone.parent)];
+  Region region;
+  const Vec3 middle = range.translation.centre();
+  region.origin = carried(parent, middle, (range.translation.hi - middle).norm());
+  region.turns = parent.turns || range.turns;
+  region.scale = parent.scale * range.scale;
+  if (!region.turns) region.axes = parent.axes * bone.X_PB.linear(), region.scale = widening(region.axes);
+  return region;
+}
+
+/// The part of a mesh that a joint carries, in its bone's coordinates.
+std::vector<Aabb> carriedBoxes(const Skeleton& skeleton, std::span<const std::array<float, 3>> positions,
+                               std::span<const VertexJoints> joints) {
+  std::vector<Aabb> boxes(skeleton.joints.size());
+  for (std::size_t i = 0; i < positions.size(); ++i) {
+    const Vec3 p(double{positions[i][0]}, double{positions[i][1]}, double{positions[i][2]});
+    for (std::size_t k = 0; k < VertexJoints::kMost; ++k)
+      if (joints[i].weight[k] > 0) {
+        const std::size_t joint = joints[i].joint[k];
+        boxes[joint].include(skeleton.joints[joint].X_BN * p);
+      }
+  }
+  return boxes;
+}
+
+}  // namespace
+
+Sphere figureReach(const Skeleton& skeleton, std::span<const std::array<float, 3>> positions,
+                   std::span<const VertexJoints> joints) {
+  const std::vector<Range> ranges = rangesOf(skeleton);
+  std::vector<Region> regions;
+  for (std::size_t i = 0; i < skeleton.bones.size(); ++i)
+    regions.push_back(regionOf(skeleton.bones[i], ranges[i], regions));
+  std::vector<Sphere> spheres;
+  for (const Region& region : regions) spheres.push_back(region.origin);
+  const std::vector<Aabb> boxes = carriedBoxes(skeleton, positions, joints);
+  for (std::size_t j = 0; j < boxes.size(); ++j)
+    if (!boxes[j].empty())
+      spheres.push_back(carried(regions[skeleton.joints[j].bone], boxes[j].centre(),
+                                0.5 * (boxes[j].hi - boxes[j].lo).norm()));
+  Aabb box;
+  for (const Sphere& s : spheres) {
+    box.include(Vec3(s.centre - Vec3::Constant(s.radius)));
+    box.include(Vec3(s.centre + Vec3::Constant(s.radius)));
+  }
+  if (box.empty()) return {};
+  Sphere all{box.centre(), 0};
+  for (const Sphere& s : spheres)
+    all.radius = std::max(all.radius, (s.centre - all.centre).norm() + s.radius);
+  all.radius *= 1 + 1e-6;  // single precision of the vertices
+  return all;
+}
+
+}  // namespace stadion

@@ -1,0 +1,47 @@
+#pragma once
+/// From what a figure plays to where its bones are.
+///
+///     FigurePose pose;
+///     pose.set(skeleton, record);
+///     pose.bone(i);     // X_NB
+///     pose.palette();   // a matrix for each joint, for skinning
+///
+/// Blending  a layer of weight w over a pose: translations and scales on the straight line, rotations with
+///           constant angular velocity, the short way. A bone that a layer's clip does not move counts as at
+///           rest there.
+/// Threads   one at a time for each object; the results depend on the arguments alone.
+
+#include "engine/figure/figure_record.h"
+#include "engine/figure/skeleton.h"
+
+#include <span>
+#include <vector>
+
+namespace stadion {
+
+/// Takes positions of the mesh to where the joint carries them: rows of a matrix (3 x 4).
+using JointMatrix = std::array<float, 12>;
+
+class FigurePose {
+public:
+  /// Layers with unknown clips count for nothing.
+  void set(const Skeleton& skeleton, const FigureRecord& playing);
+
+  /// X_NB of a bone.
+  const Affine& bone(std::size_t i) const { return bones_[i]; }
+  /// By joint. Valid until the next call of set().
+  std::span<const JointMatrix> palette() const { return palette_; }
+
+private:
+  void takeRest(const Skeleton& skeleton, std::vector<BonePlace>& places) const;
+  void blend(const Skeleton& skeleton, const ClipLayer& layer);
+  void placeBones(const Skeleton& skeleton);
+  void makePalette(const Skeleton& skeleton);
+
+  std::vector<BonePlace> places_, layer_;
+  std::vector<char> moved_;  ///< by bone: some layer moves it
+  std::vector<Affine> bones_;
+  std::vector<JointMatrix> palette_;
+};
+
+}  // namespace stadion

@@ -1,0 +1,133 @@
+#include "engine/nodes/clip_words.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <span>
+#include <vector>
+
+#include <fmt/format.h>
+
+namespace stadion {
+namespace {
+
+constexpr double kMostSeconds = 1e6, kMostSpeed = 1000;
+
+using Words = std::vector<std::string_view>;
+
+Words split(std::string_view text) {
+  Words words;
+  for (std::size_t at = 0; at < text.size();) {
+    const std::size_t first = text.find_first_not_of(' ', at);
+    if (first == std::string_view::npos) break;
+    const std::size_t end = std::min(text.find(' ', first), text.size());
+    words.push_back(text.substr(first, end - first));
+    at = end;
+  }
+  return words;
+}
+
+std::optional<double> numberIn(std::string_view word, double least, double most) {
+  double value = 0;
+  const auto [end, fault] = std::from_chars(word.data(), word.data() + word.size(), value);
+  if (fault != std::errc() || end != word.data() + word.size() || !(value >= least && value <= most))
+    return {};
+  return value;
+}
+
+/// A name may have blanks: the longest run of words that is a clip counts. Returns how many words it has.
+struct Found {
+  std::uint32_t clip = 0;
+  std::size_t words = 0;
+};
+std::optional<Found> clipIn(const Words& words, const Skeleton& skeleton) {
+  for (std::size_t count = words.size(); count > 0; --count) {
+    const std::string_view last = words[count - 1];
+    const std::string_view name(words[0].data(),
+                                static_cast<std::size_t>(last.data() + last.size() - words[0].data()));
+    if (const auto clip = clipNamed(skeleton, name)) return Found{*clip, count};
+  }
+  return {};
+}
+
+std::string noSuchClip(std::string_view words, const Skeleton& skeleton) {
+  if (skeleton.clips.empty()) return "its model has no clips";
+  return fmt::format("\"{}\" begins with no clip of its model; there are {}", words, clipNames(skeleton));
+}
+
+ClipPlayer::Start startOf(std::uint32_t clip, const Skeleton& skeleton, ClipPlayer::Start start) {
+  start.clip = clip;
+  start.length = skeleton.clips[clip].length;
+  return start;
+}
+
+/// Reads one option. Returns how many words it has, 0 if it is none.
+std::size_t readOption(std::span<const std::string_view> words, ClipPlayer::Start& start) {
+  if (words[0] == "once" || words[0] == "loop") {
+    start.loop = words[0] == "loop";
+    return 1;
+  }
+  if (words.size() < 2) return 0;
+  const auto seconds = numberIn(words[1], 0, kMostSeconds);
+  const auto factor = numberIn(words[1], -kMostSpeed, kMostSpeed);
+  if (words[0] == "fade" && seconds)
+    start.fade = std::llround(*seconds * 1e9);
+  else if (words[0] == "from" && seconds)
+    start.at = *seconds;
+  else if (words[0] == "speed" && factor)
+    start.speed = *factor;
+  else
+    return 0;
+  return 2;
+}
+
+}  // namespace
+
+std::optional<std::uint32_t> clipNamed(const Skeleton& skeleton, std::string_view name) {
+  const auto at = std::ranges::find(skeleton.clips, name, &Clip::name);
+  if (at == skeleton.clips.end()) return {};
+  return static_cast<std::uint32_t>(at - skeleton.clips.begin());
+}
+
+std::string clipNames(const Skeleton& skeleton) {
+  std::string names;
+  for (const Clip& clip : skeleton.clips)
+    names += fmt::format("{}\"{}\"", names.empty() ? "" : ", ", clip.name);
+  return names;
+}
+
+ClipWords readPlay(std::string_view text, const Skeleton& skeleton, const ClipPlayer::Start& standard) {
+  const Words words = split(text);
+  const auto found = clipIn(words, skeleton);
+  if (!found) return {{}, noSuchClip(text, skeleton)};
+  ClipPlayer::Start start = startOf(found->clip, skeleton, standard);
+  for (std::size_t at = found->words; at < words.size();) {
+    const std::size_t taken = readOption(std::span(words).subspan(at), start);
+    if (taken == 0)
+      return {{},
+              fmt::format("\"{}\" is no option; use fade SECONDS, speed FACTOR, from SECONDS, once or loop",
+                          words[at])};
+    at += taken;
+  }
+  if (start.at > start.length)
+    return {{}, fmt::format("the clip is {} s long, so it cannot begin at {} s", start.length, start.at)};
+  return {start, {}};
+}
+
+ClipWords readPose(std::string_view text, const Skeleton& skeleton) {
+  Words words = split(text);
+  const std::string_view last = words.empty() ? std::string_view() : words.back();
+  const auto seconds = numberIn(last, 0, kMostSeconds);
+  if (words.size() < 2 || !seconds) return {{}, "it needs a clip and a time of it in seconds"};
+  words.pop_back();
+  const auto found = clipIn(words, skeleton);
+  if (!found || found->words < words.size()) return {{}, noSuchClip(text, skeleton)};
+  ClipPlayer::Start still;
+  still.speed = 0;
+  still.loop = false;
+  still = startOf(found->clip, skeleton, still);
+  still.at = std::min(*seconds, still.length);
+  return {still, {}};
+}
+
+}  // namespace stadion

@@ -1,0 +1,86 @@
+/// Figures look alike in every mode: threads, processes, pipelined or not, and after a frame rate's change the
+/// picture at a show time is the same.
+
+#include "tests/engine/asset/rigged_model.h"
+#include "tests/programs/program.h"
+
+#include <filesystem>
+#include <fstream>
+#include <gtest/gtest.h>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace stadion {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A show with figures in sun, one of them turning into the other clip.
+class FigureShow {
+public:
+  FigureShow() {
+    write("tube.glb", test::riggedTube().glb());
+    write("show.evs", R"(light( direction="-1, 2, -3" )
+figure( name=left, file=tube.glb, clip=bend, position="-0.8, 4, 0",
+        eventmessage="looped, right, play bend fade 0.3" )
+figure( name=right, file=tube.glb, clip=lift, phase=0.1, speed=0.6, position="0.8, 4, 0" )
+object( file=tube.glb, position="0, 6, 0" )
+)");
+  }
+
+  /// Picture files by name.
+  std::map<std::string, std::string> played(const std::vector<std::string>& how) const {
+    const TestFolder out;
+    std::vector<std::string> words{"run",     (folder_.path() / "show.evs").string(),
+                                   "--walls", "desktop",
+                                   "--size",  "80x60",
+                                   "--out",   out.path().string()};
+    words.insert(words.end(), how.begin(), how.end());
+    const ProgramResult r = stadionProgram(words);
+    EXPECT_EQ(r.status, 0) << r.err;
+    std::map<std::string, std::string> pictures;
+    for (const auto& entry : fs::directory_iterator(out.path()))
+      if (entry.path().extension() == ".png") pictures[entry.path().filename()] = fileContent(entry.path());
+    return pictures;
+  }
+
+private:
+  void write(const std::string& name, const std::string& bytes) const {
+    std::ofstream(folder_.path() / name, std::ios::binary) << bytes;
+  }
+
+  TestFolder folder_;
+};
+
+TEST(ProgramFigures, EveryModeDrawsTheSamePicturesAndEachFrameIsAnother) {
+  const FigureShow show;
+  const auto drawn = [&](std::vector<std::string> how) {
+    how.insert(how.end(), {"--frames", "80", "--pictures", "all"});
+    return show.played(how);
+  };
+  const auto sequential = drawn({"--mode", "sequential"});
+  ASSERT_GT(sequential.size(), 80u);
+  EXPECT_EQ(sequential, drawn({"--mode", "pipelined"}));
+  EXPECT_EQ(sequential, drawn({"--mode", "pipelined", "--wall-workers", "process"}));
+  std::map<std::string, int> seen;
+  for (const auto& [name, bytes] : sequential) ++seen[bytes];
+  EXPECT_GT(seen.size(), 150u);
+}
+
+TEST(ProgramFigures, ThePictureAtAShowTimeDoesNotDependOnTheRate) {
+  const FigureShow show;
+  std::vector<std::string> pictures;
+  for (const int rate : {30, 60, 90}) {
+    const int last = rate * 4 / 3;
+    const auto drawn = show.played({"--rate", std::to_string(rate), "--frames", std::to_string(last + 1)});
+    for (const auto& [name, bytes] : drawn)
+      if (name.starts_with("screen-left")) pictures.push_back(bytes);
+  }
+  ASSERT_EQ(pictures.size(), 3u);
+  EXPECT_EQ(pictures[0], pictures[1]);
+  EXPECT_EQ(pictures[0], pictures[2]);
+}
+
+}  // namespace
+}  // namespace stadion
