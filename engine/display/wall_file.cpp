@@ -20,6 +20,7 @@ namespace {
 constexpr std::size_t kMaxFileBytes = 4 << 20;
 constexpr double kMaxLength = 1e7;  ///< of any number before units [m or the file's unit]
 constexpr std::uint64_t kMaxPixels = 16384;
+constexpr std::uint64_t kMaxCard = 63;  ///< a larger number is a mistake in the file
 
 class WallParser {
 public:
@@ -43,7 +44,7 @@ public:
 
 private:
   static const Statement<WallParser> kStatements[7];
-  static const StatementField<WallParser> kFields[4];
+  static const StatementField<WallParser> kFields[5];
 
   void unit() {
     const auto unit = lengthUnit(in_);
@@ -124,6 +125,13 @@ private:
   bool lowerRight() { return corner(1); }
   bool upperLeft() { return corner(2); }
   bool wallPixels() { return readPixels(entry_.pixels); }
+  bool card() {
+    const Word* number = in_.word("the number of the graphics card");
+    const auto card =
+        number ? in_.countIn(*number, "the number of the graphics card", 0, kMaxCard) : std::nullopt;
+    if (card) entry_.card = static_cast<std::uint32_t>(*card);
+    return card.has_value();
+  }
 
   void wall() {
     const auto name = in_.name("the wall's name", "a wall");
@@ -211,10 +219,11 @@ constexpr Statement<WallParser> WallParser::kStatements[7] = {
     {"near", &WallParser::near},       {"far", &WallParser::far},
     {"pixels", &WallParser::pixels}};
 
-constexpr StatementField<WallParser> WallParser::kFields[4] = {{"lower-left", &WallParser::lowerLeft},
+constexpr StatementField<WallParser> WallParser::kFields[5] = {{"lower-left", &WallParser::lowerLeft},
                                                                {"lower-right", &WallParser::lowerRight},
                                                                {"upper-left", &WallParser::upperLeft},
-                                                               {"pixels", &WallParser::wallPixels}};
+                                                               {"pixels", &WallParser::wallPixels},
+                                                               {"card", &WallParser::card}};
 
 std::vector<std::string> shippedNames(const std::string& folder) {
   std::vector<std::string> names;
@@ -273,6 +282,7 @@ std::string formatWalls(const WallFile& walls) {
                         corner(entry.wall.upperLeft));
     if (entry.pixels.width > 0)
       text += fmt::format("  pixels {} {}", entry.pixels.width, entry.pixels.height);
+    if (entry.card) text += fmt::format("  card {}", *entry.card);
     text += '\n';
     if (entry.output) text += fmt::format("output {}{}\n", entry.wall.name, formatOutput(*entry.output));
   }

@@ -12,7 +12,7 @@
 ///     eye-separation LENGTH     between the two eyes (0.064 m)
 ///     near LENGTH, far LENGTH   how near and far is drawn from the eye (0.1 m, 1000 m)
 ///     pixels WIDTH HEIGHT       of every wall that does not say otherwise (the run decides)
-///     wall NAME lower-left X Y Z  lower-right X Y Z  upper-left X Y Z  [pixels WIDTH HEIGHT]
+///     wall NAME lower-left X Y Z  lower-right X Y Z  upper-left X Y Z  [pixels WIDTH HEIGHT]  [card N]
 /// Corners are in rig space (+X right, +Y forward, +Z up) as seen from inside the room. A file has 1 to
 /// WallFile::kMaxWalls walls.
 ///
@@ -41,11 +41,12 @@ struct PixelSize {
 /// A wall as a file describes it.
 struct WallEntry {
   Wall wall;
-  PixelSize pixels;                  ///< size of one eye's picture, if the file states it
-  std::optional<WallOutput> output;  ///< output of the wall, if the file states one
-  std::uint32_t line = 0;            ///< in the file; 0 = made by a program
-  std::uint32_t column = 0;          ///< column of the wall's name
-  std::string excerpt;               ///< the line, for messages
+  PixelSize pixels;                   ///< size of one eye's picture, if the file states it
+  std::optional<WallOutput> output;   ///< output of the wall, if the file states one
+  std::optional<std::uint32_t> card;  ///< number of the graphics card that draws it, if the file states one
+  std::uint32_t line = 0;             ///< in the file; 0 = made by a program
+  std::uint32_t column = 0;           ///< column of the wall's name
+  std::string excerpt;                ///< the line, for messages
 };
 
 struct WallFile {

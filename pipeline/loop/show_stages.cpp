@@ -13,22 +13,22 @@ namespace stadion {
 namespace {
 
 std::unique_ptr<WallRenderer> wallRendererFor(const ShowParts& parts) {
-  std::vector<PictureSize> sizes;
-  for (const WallViews& wall : parts.walls) sizes.push_back({wall.width, wall.height});
+  std::vector<WallPicture> pictures;
+  for (const WallViews& wall : parts.walls) pictures.push_back({wall.width, wall.height, wall.card});
   std::vector<std::string> names;
   for (const WallViews& wall : parts.walls) names.push_back(wall.name);
   if (!parts.wallProcesses && parts.pool)
-    return std::make_unique<CpuWallRenderer>(CpuWallRendererParts{parts.meshes, *parts.pool, std::move(sizes),
-                                                                  PictureRung::of(parts.quality),
-                                                                  parts.giveUp, parts.probe});
+    return std::make_unique<CpuWallRenderer>(
+        CpuWallRendererParts{parts.meshes, *parts.pool, std::move(pictures), PictureRung::of(parts.quality),
+                             parts.giveUp, parts.probe});
   if (!parts.wallProcesses && parts.provider)
     return std::make_unique<GlWallRenderer>(
-        GlWallRendererParts{*parts.provider, parts.meshes, std::move(sizes), parts.quality, parts.contexts,
+        GlWallRendererParts{*parts.provider, parts.meshes, std::move(pictures), parts.quality, parts.contexts,
                             parts.giveUp, parts.probe, parts.processors, std::move(names), parts.tell});
   if (!parts.wallProcesses) return {};
   const WallProcesses& w = *parts.wallProcesses;
   PerWallProcessParts wallProcesses{parts.meshes,
-                                    std::move(sizes),
+                                    std::move(pictures),
                                     std::move(names),
                                     parts.quality,
                                     w.renderer,

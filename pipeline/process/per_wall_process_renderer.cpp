@@ -69,7 +69,8 @@ PerWallProcessRenderer::PerWallProcessRenderer(PerWallProcessParts parts)
                                                    parts_.quality,
                                                    parts_.rasteriserThreads,
                                                    i < parts_.processors.size() ? parts_.processors[i]
-                                                                                : ProcessorSet{}};
+                                                                                : ProcessorSet{},
+                                                   parts_.walls[i].card};
     walls_.push_back(
         std::make_unique<Wall>(parts_.names[i], parts_.rate, setting, parts_.meshes, sharedMeshes_));
   }

@@ -26,7 +26,7 @@ namespace stadion {
 
 struct PerWallProcessParts {
   const MeshStore& meshes;
-  std::vector<PictureSize> walls;
+  std::vector<WallPicture> walls;
   std::vector<std::string> names;  ///< names of the walls
   RenderQuality quality{};
   RendererKind renderer = RendererKind::OsMesa;

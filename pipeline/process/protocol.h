@@ -15,6 +15,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 
 namespace stadion::wall_process {
 
@@ -40,7 +41,8 @@ struct OrderHead {
   RendererKind renderer = RendererKind::OsMesa;
   std::uint32_t rasteriserThreads = 0;  ///< 0: the thread that draws makes the pixels, too
   RenderQuality quality{};
-  ProcessorSet processors{};  ///< processors that the process may use; empty: all
+  std::optional<std::uint32_t> card{};  ///< graphics card that draws; none: the provider's choice
+  ProcessorSet processors{};            ///< processors that the process may use; empty: all
   // Of Draw.
   std::uint32_t read = 0;    ///< 1: one answer for drawing and reading, so no crash can fall between them
   std::uint32_t warmUp = 0;  ///< 1: what it draws is not counted

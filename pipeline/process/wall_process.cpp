@@ -93,6 +93,7 @@ std::optional<std::string> WallProcess::start() {
   head.rasteriserThreads = setting_.rasteriserThreads;
   head.quality = setting_.quality;
   head.processors = setting_.processors;
+  head.card = setting_.card;
   const std::array<int, 3> segments{listBytes_.descriptor(), sharedMeshes_.descriptor(),
                                     pictures_.descriptor()};
   order(head, segments);

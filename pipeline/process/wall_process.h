@@ -32,6 +32,7 @@ struct WallProcessSetting {
   RenderQuality quality{};
   std::uint32_t rasteriserThreads = 0;  ///< 0: it rasterises on the thread that draws
   ProcessorSet processors{};            ///< processors that the process may use; empty: all
+  std::optional<std::uint32_t> card{};  ///< graphics card that draws; none: the provider's choice
 };
 
 /// The state of a process, as the system reports it.

@@ -14,6 +14,11 @@ Result<std::unique_ptr<GlProvider>> openGlProvider(GlProviderKind kind) {
   return kind == GlProviderKind::OsMesa ? openOsMesa() : openEgl();
 }
 
+Result<std::unique_ptr<Target>> GlProvider::createOn(std::optional<std::uint32_t>, std::uint32_t width,
+                                                     std::uint32_t height) {
+  return create(width, height);
+}
+
 std::optional<Diagnostic> checkPictureSize(GlProvider& provider, std::uint32_t width, std::uint32_t height) {
   if (auto why = checkPictureSize(width, height)) return why;
   const auto target = provider.create(1, 1);

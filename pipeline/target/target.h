@@ -13,6 +13,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace stadion {
 
@@ -62,6 +63,13 @@ public:
   /// Creates a context with OpenGL 4.5 core, or with 3.3 core if there is no better one. It is current on no
   /// thread.
   virtual Result<std::unique_ptr<Target>> create(std::uint32_t width, std::uint32_t height) = 0;
+  /// Like create(), on the card with this number. Without a number, or without a choice of cards, the card is
+  /// that of create(). Fails with a list of the cards if there is no such card.
+  virtual Result<std::unique_ptr<Target>> createOn(std::optional<std::uint32_t> card, std::uint32_t width,
+                                                   std::uint32_t height);
+  /// Describes the cards of this machine, by number; empty if the implementation has no choice. Graphics cards
+  /// come before what draws in software.
+  virtual std::vector<std::string> cards() { return {}; }
 };
 
 enum class GlProviderKind {

@@ -18,6 +18,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -45,6 +46,8 @@ struct WallViews {
   std::uint32_t width = 800, height = 600;  ///< size of the picture of each view [pixels]
   const FreeCamera* camera = nullptr;       ///< looks in place of the visitor; `views` is one, and not used
   HeadReach reach{};                        ///< how far the visitor's head may go after Cull
+  std::optional<std::uint32_t>
+      card{};  ///< graphics card that draws it (GlProvider); none: the provider's choice
 };
 
 /// How the operator wants the eyes of all walls.

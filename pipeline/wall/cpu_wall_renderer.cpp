@@ -18,7 +18,7 @@ CpuWallRenderer::CpuWallRenderer(CpuWallRendererParts parts)
       renderers_(parts_.walls.size()) {}
 
 Failure CpuWallRenderer::open(std::size_t wall) {
-  const PictureSize size = parts_.walls[wall];
+  const WallPicture size = parts_.walls[wall];
   auto made = CpuRenderer::create(room_, size.width, size.height, parts_.rung);
   if (!made) return Reason(made.error());
   renderers_[wall] = std::move(made.value());

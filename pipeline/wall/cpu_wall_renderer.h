@@ -17,7 +17,7 @@ namespace stadion {
 struct CpuWallRendererParts {
   const MeshStore& meshes;
   DrawPool& pool;
-  std::vector<PictureSize> walls;
+  std::vector<WallPicture> walls;
   PictureRung rung{};
   std::function<bool()> giveUp{};  ///< see Renderer::draw
   FrameProbe* probe = nullptr;

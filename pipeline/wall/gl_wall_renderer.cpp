@@ -19,9 +19,7 @@ GlWallRenderer::GlWallRenderer(GlWallRendererParts parts)
 }
 
 Failure GlWallRenderer::open(std::size_t wall) {
-  const PictureSize size = parts_.walls[wall];
-  if (Failure f =
-          contexts_.open(wall, parts_.provider, parts_.meshes, size.width, size.height, parts_.quality))
+  if (Failure f = contexts_.open(wall, parts_.provider, parts_.meshes, parts_.walls[wall], parts_.quality))
     return f;
   contexts_.renderer(wall).forgetTotals();
   // Not before: with the first context the rasteriser starts threads, which are bound as this one is.

@@ -18,7 +18,7 @@ namespace stadion {
 struct GlWallRendererParts {
   GlProvider& provider;
   const MeshStore& meshes;
-  std::vector<PictureSize> walls;
+  std::vector<WallPicture> walls;
   RenderQuality quality{};
   /// Contexts to use, which must outlive this; null: the walls make their own.
   WallContexts* contexts = nullptr;

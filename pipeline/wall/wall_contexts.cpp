@@ -18,22 +18,22 @@ void WallContexts::resize(std::size_t walls) {
 }
 
 Failure WallContexts::open(std::size_t wall, GlProvider& provider, const MeshStore& meshes,
-                           std::uint32_t width, std::uint32_t height, RenderQuality quality) {
+                           const WallPicture& picture, RenderQuality quality) {
   Context& c = *contexts_[wall];
   if (c.target) {
     if (Failure f = enter(wall)) return f;
-    if (c.renderer && c.width == width && c.height == height && c.quality == quality) return kNoFailure;
+    if (c.renderer && c.picture == picture && c.quality == quality) return kNoFailure;
     close(wall);
   }
-  auto target = provider.create(width, height);
+  auto target = provider.createOn(picture.card, picture.width, picture.height);
   if (!target) return Reason(target.error());
   c.target = std::move(target.value());
   if (Failure f = enter(wall)) return f;
-  auto renderer = GlRenderer::create(c.target->gl(), c.target->turns(), meshes, width, height, quality);
+  auto renderer =
+      GlRenderer::create(c.target->gl(), c.target->turns(), meshes, picture.width, picture.height, quality);
   if (!renderer) return Reason(renderer.error());
   c.renderer = std::move(renderer.value());
-  c.width = width;
-  c.height = height;
+  c.picture = picture;
   c.quality = quality;
   return kNoFailure;
 }

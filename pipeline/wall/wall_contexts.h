@@ -11,7 +11,7 @@
 #include "pipeline/draw_list/renderer.h"
 #include "pipeline/shader/look.h"
 #include "pipeline/target/target.h"
-#include "pipeline/wall/stages.h"
+#include "pipeline/wall/wall_renderer.h"
 
 #include <atomic>
 #include <memory>
@@ -30,9 +30,9 @@ public:
   /// There are so many walls. Before they are opened; those that were there before stay.
   void resize(std::size_t walls);
 
-  /// Enters the wall's context, which is made if there is none of that size.
-  Failure open(std::size_t wall, GlProvider& provider, const MeshStore& meshes, std::uint32_t width,
-               std::uint32_t height, RenderQuality quality = {});
+  /// Enters the wall's context, which is made if there is none for that picture.
+  Failure open(std::size_t wall, GlProvider& provider, const MeshStore& meshes, const WallPicture& picture,
+               RenderQuality quality = {});
   /// Leaves whatever else is current on this thread.
   Failure enter(std::size_t wall);
   void leave(std::size_t wall);
@@ -48,7 +48,7 @@ private:
   struct Context {
     std::unique_ptr<Target> target;
     std::unique_ptr<Renderer> renderer;
-    std::uint32_t width = 0, height = 0;  ///< size of the context's pictures [pixels]
+    WallPicture picture;  ///< the picture for which the context was made
     RenderQuality quality;
     std::atomic<std::thread::id> currentOn;  ///< the thread on which it is current
   };

@@ -12,6 +12,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 
@@ -24,9 +25,12 @@ struct DrawOutcome {
   bool drawn = true;
 };
 
-/// The size of the pictures of a wall's views [pixels].
-struct PictureSize {
+/// The size of the pictures of a wall's views [pixels], and the graphics card that draws them.
+struct WallPicture {
   std::uint32_t width = 0, height = 0;
+  std::optional<std::uint32_t> card{};  ///< with OpenGL (GlProvider::createOn); none: the provider's choice
+
+  bool operator==(const WallPicture&) const = default;
 };
 
 class WallRenderer {

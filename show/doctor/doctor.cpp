@@ -108,10 +108,19 @@ private:
     return renderer.find("llvmpipe") != std::string::npos || renderer.find("softpipe") != std::string::npos;
   }
 
+  /// What a wall file may name with `card N`; empty if there is no choice.
+  std::string cards() const {
+    const std::vector<std::string> all = probes_.cards();
+    std::string text;
+    for (std::size_t i = 0; all.size() > 1 && i < all.size(); ++i)
+      text += fmt::format("; card {}: {}", i, all[i]);
+    return text;
+  }
+
   void gpu() {
     constexpr const char* kLacks = "--renderer auto draws on the processors (cpu), --gl egl too, but slower";
     const auto gl = probes_.hardwareGl();
-    if (gl && !isSoftware(gl.value())) return add("gpu", Health::Works, gl.value());
+    if (gl && !isSoftware(gl.value())) return add("gpu", Health::Works, gl.value() + cards());
     const std::string found = gl ? gl.value() : withoutAdvice(gl.error().message);
     if (!gl) return add("gpu", Health::Missing, found, kLacks, installOf(gl.error().message));
     const std::string node = "/dev/dri/renderD128";

@@ -51,8 +51,9 @@ struct DoctorProbes {
   std::function<std::string(const std::string&)> helper;  ///< path of a program of Stadion; empty: none
   std::function<std::string()> cpuRenderer;               ///< kernels and threads of the CPU renderer
   std::function<Result<std::string>()> softwareGl,
-      hardwareGl;                              ///< description that OSMesa or EGL gives of itself
-  std::function<Result<std::string>()> sound;  ///< the device's name
+      hardwareGl;                                   ///< description that OSMesa or EGL gives of itself
+  std::function<std::vector<std::string>()> cards;  ///< what EGL can draw on, by number
+  std::function<Result<std::string>()> sound;       ///< the device's name
   std::function<Result<std::vector<std::string>>(const std::string& screen)>
       monitors;                                       ///< names of the monitors of an X screen
   std::function<Result<std::string>()> windowPixels;  ///< way of pictures into windows without OpenGL

@@ -61,6 +61,11 @@ Result<std::string> rendererOf(GlProviderKind kind) {
   return renderer;
 }
 
+std::vector<std::string> cardsOfEgl() {
+  auto provider = openGlProvider(GlProviderKind::Egl);
+  return provider ? provider.value()->cards() : std::vector<std::string>();
+}
+
 Result<std::string> soundName() {
   auto device = openSoundDevice();
   if (!device) return device.error();
@@ -195,6 +200,7 @@ DoctorProbes probesOfThisMachine() {
   probes.cpuRenderer = cpuRendererHere;
   probes.softwareGl = [] { return rendererOf(GlProviderKind::OsMesa); };
   probes.hardwareGl = [] { return rendererOf(GlProviderKind::Egl); };
+  probes.cards = cardsOfEgl;
   probes.sound = soundName;
   probes.swapGroups = hasSwapGroups;
   probes.packages = installedPackages;

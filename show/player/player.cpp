@@ -218,6 +218,7 @@ ShowParts Player::parts(StereoLayout stereo, InputDevice* instead) {
     const PixelSize pixels = pixelsOf(entry);
     wall.width = pixels.width;
     wall.height = pixels.height;
+    wall.card = entry.card;
     parts.walls.push_back(std::move(wall));
   }
   for (const WallEntry& entry : others_) {

@@ -84,6 +84,12 @@ std::optional<Diagnostic> ShowRenderer::checkSize(std::uint32_t width, std::uint
   return provider_ ? checkPictureSize(*provider_, width, height) : checkPictureSize(width, height);
 }
 
+std::optional<Diagnostic> ShowRenderer::checkCard(std::uint32_t card) {
+  if (!provider_) return {};
+  const auto target = provider_->createOn(card, 1, 1);
+  return target ? std::nullopt : std::optional(target.error());
+}
+
 void ShowRenderer::drawFor(ShowParts& parts) {
   parts.provider = provider_.get();
   if (threads_ == 0 || parts.wallProcesses) return;

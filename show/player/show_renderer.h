@@ -55,6 +55,8 @@ public:
 
   /// Returns why pictures of this size cannot be drawn, or nothing. May make a context.
   std::optional<Diagnostic> checkSize(std::uint32_t width, std::uint32_t height);
+  /// Returns why this graphics card cannot draw, or nothing. Without OpenGL cards do not matter.
+  std::optional<Diagnostic> checkCard(std::uint32_t card);
   /// The stages draw with this. Expects that `parts` already says whether wall processes draw. In this
   /// process the CPU renderer's threads start with the first call; all later stages share them.
   void drawFor(ShowParts& parts);

@@ -109,7 +109,16 @@ bool OpenSession::canDraw(Diagnostics& findings) {
     before = &wall;
   }
   if (why) findings.error(why->where, "--size: " + why->message);
-  return !why;
+  return !why && haveCards(findings);
+}
+
+/// Whether the graphics cards are there that the wall file names.
+bool OpenSession::haveCards(Diagnostics& findings) {
+  const WallFile& walls = player_->walls();
+  for (const WallEntry& entry : walls.walls)
+    if (const auto why = entry.card ? renderer_->checkCard(*entry.card) : std::nullopt)
+      findings.error({walls.file, entry.line, entry.column}, why->message, entry.excerpt);
+  return !findings.hasErrors();
 }
 
 /// What is only known once the show is open.

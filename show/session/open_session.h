@@ -33,6 +33,7 @@ public:
 private:
   bool openDrawing(Diagnostics& findings);
   bool canDraw(Diagnostics& findings);
+  bool haveCards(Diagnostics& findings);
   void reconsiderDrawing();
   std::unique_ptr<Player> openShow(Diagnostics& findings);
   std::unique_ptr<Player> createPlayer(const ShowOptions& show, Diagnostics& findings);

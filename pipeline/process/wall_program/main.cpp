@@ -142,7 +142,7 @@ std::optional<std::string> DrawnWall::openGl(const OrderHead& order) {
       openGlProvider(order.renderer == RendererKind::Egl ? GlProviderKind::Egl : GlProviderKind::OsMesa);
   if (!provider) return provider.error().message;
   provider_ = std::move(provider.value());
-  auto target = provider_->create(order.width, order.height);
+  auto target = provider_->createOn(order.card, order.width, order.height);
   if (!target) return target.error().message;
   target_ = std::move(target.value());
   if (const auto why = target_->makeCurrent()) return why->message;

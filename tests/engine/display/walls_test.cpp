@@ -110,6 +110,7 @@ TEST(Walls, WrittenAsTextReadBackToTheSameValues) {
   ASSERT_TRUE(walls);
   walls->walls[2].wall.upperLeft.x() = 1.0 / 3;
   walls->walls[0].pixels = {123, 45};
+  walls->walls[1].card = 3;
   walls->depth = {0.07, 1e4};
   const auto back = parseWalls(formatWalls(*walls), "t.walls", out);
   ASSERT_TRUE(back) << listing(out);
@@ -120,8 +121,20 @@ TEST(Walls, WrittenAsTextReadBackToTheSameValues) {
     EXPECT_EQ(back->walls[i].wall.lowerRight, walls->walls[i].wall.lowerRight);
     EXPECT_EQ(back->walls[i].wall.upperLeft, walls->walls[i].wall.upperLeft);
     EXPECT_EQ(back->walls[i].pixels.width, walls->walls[i].pixels.width);
+    EXPECT_EQ(back->walls[i].card, walls->walls[i].card);
   }
   EXPECT_EQ(back->depth.far, 1e4);
+}
+
+TEST(Walls, MayNameTheGraphicsCardThatDrawsThem) {
+  const std::string wall = "wall a lower-left -1 2 0 lower-right 1 2 0 upper-left -1 2 2";
+  Diagnostics out;
+  const auto walls = parseWalls(wall + " card 1 pixels 64 48", "t.walls", out);
+  ASSERT_TRUE(walls) << listing(out);
+  EXPECT_EQ(walls->walls[0].card, 1u);
+  EXPECT_FALSE(parseWalls(wall, "t.walls", out)->walls[0].card);
+  for (const char* bad : {" card", " card -1", " card 64", " card 0.5", " card nvidia", " card 0 card 1"})
+    EXPECT_TRUE(findingsIn(wall + bad).hasErrors()) << bad;
 }
 
 TEST(Walls, ThatAreWrongGetTheListedFindings) {

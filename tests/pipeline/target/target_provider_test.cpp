@@ -107,6 +107,37 @@ TEST_P(TargetProvider, LeavesNoContextBehindAfterRelease) {
   EXPECT_EQ(first->gl().GetString(GL_VERSION), nullptr);
 }
 
+/// The description of what draws on that card, or the reason why nothing does.
+std::string drawnOn(GlProvider& provider, std::optional<std::uint32_t> card) {
+  const auto target = provider.createOn(card, 8, 8);
+  if (!target) return target.error().message;
+  if (const auto why = target.value()->makeCurrent()) return why->message;
+  std::string description = describeGl(target.value()->gl());
+  target.value()->release();
+  return description;
+}
+
+TEST(TargetCard, EachListedCardCanBeChosenAndNoOther) {
+  GlProvider& egl = *test::provider(GlProviderKind::Egl);
+  const std::vector<std::string> cards = egl.cards();
+  if (cards.empty()) GTEST_SKIP() << "this EGL lists no cards";
+  for (std::uint32_t card = 0; card < cards.size(); ++card) {
+    EXPECT_NE(cards[card], "");
+    EXPECT_NE(drawnOn(egl, card).find("OpenGL"), std::string::npos) << drawnOn(egl, card);
+  }
+  const auto none = static_cast<std::uint32_t>(cards.size());
+  EXPECT_EQ(
+      drawnOn(egl, none).find("there is no graphics card " + std::to_string(none) + "; EGL has these: 0 ("),
+      0u)
+      << drawnOn(egl, none);
+}
+
+TEST(TargetCard, AnImplementationWithoutCardsIgnoresTheirNumbers) {
+  GlProvider& osMesa = *test::provider(GlProviderKind::OsMesa);
+  EXPECT_TRUE(osMesa.cards().empty());
+  EXPECT_EQ(drawnOn(osMesa, 7), drawnOn(osMesa, {}));
+}
+
 TEST(TargetLibrary, NamesThePackageOfAMissingLibrary) {
   const auto library = SharedLibrary::open("libnowhere.so.8", "nowhere6");
   ASSERT_FALSE(library);

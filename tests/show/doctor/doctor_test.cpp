@@ -36,6 +36,7 @@ DoctorProbes wellMachine() {
   p.cpuRenderer = [] { return std::string("CPU renderer (AVX2), 2 threads"); };
   p.softwareGl = [] { return Result<std::string>(std::string("llvmpipe")); };
   p.hardwareGl = [] { return Result<std::string>(std::string("NVIDIA H100, OpenGL 4.6")); };
+  p.cards = [] { return std::vector<std::string>{"NVIDIA H100 /dev/dri/card0", "in software"}; };
   p.sound = [] { return Result<std::string>(std::string("HDA Intel")); };
   p.monitors = [](const std::string&) {
     return Result<std::vector<std::string>>(
@@ -258,6 +259,8 @@ TEST(Doctor, ReportsJson) {
   EXPECT_EQ(j["can_work"], true);
   EXPECT_EQ(j["findings"].size(), doctorTopics().size());
   EXPECT_EQ(j["findings"][2]["topic"], "gpu");
+  EXPECT_EQ(j["findings"][2]["found"],
+            "NVIDIA H100, OpenGL 4.6; card 0: NVIDIA H100 /dev/dri/card0; card 1: in software");
   EXPECT_EQ(j["findings"][2]["asked"], true);
 }
 

@@ -45,6 +45,14 @@ TEST(ShowRenderer, NothingDrawsIfThatIsAskedFor) {
   EXPECT_TRUE(rendererFor({RendererChoice::None})->drawsNothing());
 }
 
+TEST(ShowRenderer, CardsMatterWithEglOnly) {
+  EXPECT_FALSE(rendererFor({RendererChoice::Cpu})->checkCard(40));
+  EXPECT_FALSE(rendererFor({RendererChoice::Gl, GlProviderKind::OsMesa})->checkCard(40));
+  const auto why = rendererFor({RendererChoice::Gl, GlProviderKind::Egl})->checkCard(40);
+  ASSERT_TRUE(why);
+  EXPECT_TRUE(has(why->message, "no graphics card 40") || has(why->message, "no card 40")) << why->message;
+}
+
 TEST(ShowRenderer, PicturesHaveASizeThatServes) {
   for (const RendererChoice choice : {RendererChoice::Cpu, RendererChoice::Gl}) {
     const auto renderer = rendererFor({choice});
