@@ -148,8 +148,9 @@ void countWallsOf(PlanOptions& o, Diagnostics& findings) {
 }
 
 void refuseMeasuring(const CLI::App& command, Diagnostics& findings) {
-  for (const char* option : {"--size", "--stereo", "--look", "--frames", "--seconds", "--input",
-                             "--asset-root", "--app-threads", "--gl", "--renderer", "--draw-threads"})
+  for (const char* option :
+       {"--size", "--stereo", "--look", "--frames", "--seconds", "--input", "--asset-root", "--app-threads",
+        "--gl", "--renderer", "--gl-submission", "--draw-threads"})
     if (command.count(option) > 0)
       findings.error({}, std::string(option) + " is for measuring; --from has measured costs");
 }

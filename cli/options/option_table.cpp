@@ -103,6 +103,10 @@ constexpr OptionRow kRows[] = {
      "with a "
      "graphics card, else osmesa",
      Drawing},
+    {"--gl-submission", word("auto|direct|mapped|indirect|both"),
+     "how OpenGL gets its work; pictures do not depend on it. mapped: data through memory that stays mapped; "
+     "indirect: many draws in one call; direct: neither; auto: both with a graphics card, else direct",
+     Drawing},
     {"--draw-threads", whole("N", 1, 1024),
      "threads of --renderer cpu; pictures do not depend on it (default: one for each processor)", Drawing},
     {"--display", flag(),
@@ -319,7 +323,8 @@ constexpr OptionRow kRows[] = {
     {"--moving", whole("N", 0, 4e6), "nodes that move", Benches},
     {"--cold", flag(), "empties the processor's caches before each frame, as drawing does", Benches},
     {"--scenes",
-     word("a|b|c|kick|olympia-1|olympia-2|olympia-3|olympia-4|olympia-5|olympia-6|filled|crowd", ValueTimes::List),
+     word("a|b|c|kick|olympia-1|olympia-2|olympia-3|olympia-4|olympia-5|olympia-6|filled|crowd",
+          ValueTimes::List),
      "scenes of the table; bench walls has a, b and c", Benches},
     {"--rungs", word("8|4|2|1|4-coarse|4-nearest|plain|opengl", ValueTimes::List),
      "rungs of the ladder of pictures (default: all)", Benches},

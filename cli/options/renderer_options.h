@@ -1,5 +1,5 @@
 #pragma once
-/// --renderer, --gl and --draw-threads: what draws. They mean the same in all commands that draw.
+/// --renderer, --gl, --gl-submission and --draw-threads: what draws. They mean the same in all commands that draw.
 ///
 /// Ownership  the options write into this object, which must stay where it is until the command line has been
 ///            read.
@@ -16,9 +16,9 @@ class App;
 namespace stadion {
 
 struct RendererOptions {
-  std::string renderer = "auto", gl = "auto";
+  std::string renderer = "auto", gl = "auto", submission = "auto";
   unsigned threads = 0;  ///< 0: not given
-  bool rendererGiven = false, glGiven = false;
+  bool rendererGiven = false, glGiven = false, submissionGiven = false;
 
   /// `mayDrawNothing`: the command accepts --gl none.
   void addTo(CLI::App& command, bool mayDrawNothing = false);

@@ -70,6 +70,7 @@ Result<GlProgram> GlProgram::build(const GlTable& gl, const std::string& vertex,
     gl.Uniform1i(gl.GetUniformLocation(program.name(), texture.name), static_cast<GLint>(texture.point));
   program.layers_ = gl.GetUniformLocation(program.name(), "layers");
   program.area_ = gl.GetUniformLocation(program.name(), "area");
+  program.firstDraw_ = gl.GetUniformLocation(program.name(), "firstDraw");
   return program;
 }
 

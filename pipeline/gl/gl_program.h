@@ -32,20 +32,22 @@ public:
     if (name_) gl_->DeleteProgram(name_);
   }
   GlProgram(GlProgram&& other) noexcept
-      : gl_(other.gl_), name_(std::exchange(other.name_, 0)), layers_(other.layers_), area_(other.area_) {}
+      : gl_(other.gl_), name_(std::exchange(other.name_, 0)), layers_(other.layers_), area_(other.area_),
+        firstDraw_(other.firstDraw_) {}
   GlProgram& operator=(GlProgram&&) = delete;
 
   GLuint name() const { return name_; }
-  /// The locations of the uniforms "layers" and "area"; -1 if it has none.
+  /// The locations of the uniforms "layers", "area" and "firstDraw"; -1 if it has none.
   GLint layers() const { return layers_; }
   GLint area() const { return area_; }
+  GLint firstDraw() const { return firstDraw_; }
 
 private:
   GlProgram(const GlTable& gl, GLuint name) : gl_(&gl), name_(name) {}
 
   const GlTable* gl_;
   GLuint name_;
-  GLint layers_ = -1, area_ = -1;
+  GLint layers_ = -1, area_ = -1, firstDraw_ = -1;
 };
 
 }  // namespace stadion

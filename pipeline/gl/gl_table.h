@@ -110,10 +110,13 @@ namespace stadion {
 
 /// Functions of newer versions; null if missing. The extension tells whether a context has them.
 #define STADION_GL_MORE_FUNCTIONS(X)                                                                         \
+  X(PFNGLBUFFERSTORAGEPROC, BufferStorage)                                                                   \
   X(PFNGLCLEARBUFFERSUBDATAPROC, ClearBufferSubData)                                                         \
   X(PFNGLCLIPCONTROLPROC, ClipControl)                                                                       \
   X(PFNGLDRAWELEMENTSINSTANCEDBASEINSTANCEPROC, DrawElementsInstancedBaseInstance)                           \
-  X(PFNGLMEMORYBARRIERPROC, MemoryBarrier)
+  X(PFNGLMAPBUFFERRANGEPROC, MapBufferRange)                                                                 \
+  X(PFNGLMEMORYBARRIERPROC, MemoryBarrier)                                                                   \
+  X(PFNGLMULTIDRAWELEMENTSINDIRECTPROC, MultiDrawElementsIndirect)
 
 struct GlTable {
 #define STADION_GL_MEMBER(type, name) type name = nullptr;

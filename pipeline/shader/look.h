@@ -19,6 +19,21 @@ constexpr const char* nameOf(Look look) {
   return look == Look::Plain ? "plain" : "full";
 }
 
+/// When a feature of newer OpenGL is used, if the context has it. No pixel depends on it.
+enum class GlUse : std::uint8_t {
+  OnCard,  ///< if a graphics card draws
+  Always,  ///< in software, too
+  Never,
+};
+
+/// How data and draw calls reach OpenGL.
+struct GlSubmission {
+  GlUse mapped = GlUse::OnCard;    ///< data of a frame in memory that stays mapped (upload_ring.h)
+  GlUse indirect = GlUse::OnCard;  ///< many draws in one call (indirect_draws.h)
+
+  bool operator==(const GlSubmission&) const = default;
+};
+
 struct RenderQuality {
   Look look = Look::Full;
   std::uint32_t samples = 4;  ///< per pixel; 1 = hard edges at about a third of the cost in software
@@ -36,6 +51,8 @@ struct RenderQuality {
   /// Number of fragments of transparent surfaces that are sorted at a time (glass_layers.h); each takes 32
   /// bytes. The picture does not depend on it.
   std::uint32_t mostFragments = 1U << 21;
+
+  GlSubmission submission{};
 
   static constexpr RenderQuality plain() { return {Look::Plain, 1}; }
   bool operator==(const RenderQuality&) const = default;

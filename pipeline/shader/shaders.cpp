@@ -6,6 +6,9 @@ namespace {
 constexpr const char* kVersion = "#version 330 core\n";
 constexpr const char* kStorageVersion = "#version 430 core\n";  ///< with buffers that shaders write
 
+constexpr const char* kDrawVersion =  // with the number of a draw in its call
+    "#version 430 core\n#extension GL_ARB_shader_draw_parameters : require\n";
+
 // The same blocks as uniform_blocks.h.
 constexpr const char* kBlocks = R"(
 layout(std140) uniform View {
@@ -93,6 +96,34 @@ layout(std140) uniform Material {
 };
 )";
 
+// The material of a draw of many, for its vertices: the same for all of them.
+constexpr const char* kDrawMaterialVertex = R"(
+struct MaterialOfDraw {
+  vec4 baseColour;
+  vec4 emissive;
+  vec4 finish;
+};
+layout(std430, binding = 3) readonly buffer Materials { MaterialOfDraw materials[]; };
+layout(std430, binding = 4) readonly buffer Draws { uint draws[]; };  // six a draw; the last one is its material
+uniform int firstDraw;  // of this call
+flat out vec4 baseColour;
+flat out vec4 emissive;
+flat out vec4 finish;
+
+void takeMaterial() {
+  uint which = draws[6 * (firstDraw + gl_DrawIDARB) + 5];
+  baseColour = materials[which].baseColour;
+  emissive = materials[which].emissive;
+  finish = materials[which].finish;
+}
+)";
+
+constexpr const char* kDrawMaterialFragment = R"(
+flat in vec4 baseColour;
+flat in vec4 emissive;
+flat in vec4 finish;
+)";
+
 constexpr const char* kSurfaceVertex = R"(
 layout(location = 0) in vec3 position;
 layout(location = 1) in vec3 normal;
@@ -113,6 +144,9 @@ out vec2 texel;
 #endif
 
 void main() {
+#ifdef INDIRECT
+  takeMaterial();
+#endif
   vec4 p = vec4(position, 1.0);
   placed = vec3(dot(modelX, p), dot(modelY, p), dot(modelZ, p));
   // Normals go by the inverse transpose; up to its length that is the cofactor matrix, whose rows are cross
@@ -296,6 +330,9 @@ out float clearness;
 #endif
 
 void main() {
+#ifdef INDIRECT
+  takeMaterial();
+#endif
   vec4 p = vec4(position, 1.0);
   vec3 placed = vec3(dot(modelX, p), dot(modelY, p), dot(modelZ, p));
   vec3 cofactorX = cross(modelY.xyz, modelZ.xyz);
@@ -483,24 +520,29 @@ std::string definitions(const SurfaceTraits& traits) {
   if (traits.masked) text += "#define MASKED\n";
   if (traits.glowing) text += "#define GLOWING\n";
   if (traits.textured || traits.glowing) text += "#define PICTURES\n";
+  if (traits.indirect) text += "#define INDIRECT\n";
   text += "#define LIGHTS " +
           (traits.lights < 0 ? std::string("lightCount.x") : std::to_string(traits.lights)) + "\n";
   return text;
 }
 
 const char* versionOf(const SurfaceTraits& traits) {
+  if (traits.indirect) return kDrawVersion;
   return traits.writes == SurfaceWrites::Layers ? kStorageVersion : kVersion;
 }
 
 }  // namespace
 
 std::string surfaceVertexShader(const SurfaceTraits& traits) {
-  return versionOf(traits) + definitions(traits) + kBlocks +
-         (traits.look == Look::Plain ? std::string(kMaterial) + kPlainVertex : kSurfaceVertex);
+  const bool plain = traits.look == Look::Plain;
+  const char* material = traits.indirect ? kDrawMaterialVertex : plain ? kMaterial : "";
+  return versionOf(traits) + definitions(traits) + kBlocks + material +
+         (plain ? kPlainVertex : kSurfaceVertex);
 }
 
 std::string surfaceFragmentShader(const SurfaceTraits& traits) {
-  return versionOf(traits) + definitions(traits) + kBlocks + kMaterial + kKeepFragment +
+  return versionOf(traits) + definitions(traits) + kBlocks +
+         (traits.indirect ? kDrawMaterialFragment : kMaterial) + kKeepFragment +
          (traits.look == Look::Plain ? kPlainFragment : kSurfaceFragment);
 }
 

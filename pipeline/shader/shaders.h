@@ -41,9 +41,11 @@ struct SurfaceTraits {
   bool shadowed = false;     ///< a light casts shadows
   bool hazy = false;         ///< there is haze
   SurfaceWrites writes = SurfaceWrites::Picture;
-  bool masked = false;       ///< discards fragments with less alpha than the material's cutoff
-  bool glowing = false;      ///< a texture says where it emits light
+  bool masked = false;   ///< discards fragments with less alpha than the material's cutoff
+  bool glowing = false;  ///< a texture says where it emits light
   Look look = Look::Full;
+  /// One of many draws of a call, each with a material of its own (indirect_draws.h). Only with Picture.
+  bool indirect = false;
   /// The number of lights. Negative: any number, looked up for every vertex or pixel, which a software
   /// rasteriser does lane by lane.
   int lights = -1;

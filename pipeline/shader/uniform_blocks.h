@@ -62,6 +62,8 @@ enum UniformBinding : std::uint32_t {
   kMaterialBinding = 2,
   kShadowBinding = 3
 };
+/// Binding points of the buffers that indirect draws read (indirect_draws.h). The lower ones are those of layers.
+enum StorageBinding : std::uint32_t { kMaterialsBinding = 3, kDrawsBinding = 4 };
 /// The texture units of the shadow maps, and of the emissive texture.
 constexpr int kShadowUnit = 1, kGlowUnit = 2;
 

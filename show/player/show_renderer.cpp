@@ -29,6 +29,7 @@ bool drawsOn(GlProvider& provider) {
 
 Result<std::unique_ptr<ShowRenderer>> ShowRenderer::open(const RendererSettings& settings) {
   std::unique_ptr<ShowRenderer> renderer(new ShowRenderer);
+  renderer->submission_ = settings.submission;
   if (const auto why = renderer->choose(settings)) return *why;
   return Result<std::unique_ptr<ShowRenderer>>(std::move(renderer));
 }
@@ -92,6 +93,7 @@ std::optional<Diagnostic> ShowRenderer::checkCard(std::uint32_t card) {
 
 void ShowRenderer::drawFor(ShowParts& parts) {
   parts.provider = provider_.get();
+  parts.quality.submission = submission_;
   if (threads_ == 0 || parts.wallProcesses) return;
   if (!pool_) pool_ = std::make_unique<DrawPool>(threads_);
   parts.pool = pool_.get();

@@ -10,6 +10,7 @@
 #include "engine/base/diagnostic.h"
 #include "pipeline/draw_list/renderer.h"
 #include "pipeline/platform/draw_pool.h"
+#include "pipeline/shader/look.h"
 #include "pipeline/target/target.h"
 
 #include <cstdint>
@@ -34,6 +35,7 @@ struct RendererSettings {
   /// The implementation of OpenGL; nothing: EGL with a graphics card, else OSMesa.
   std::optional<GlProviderKind> gl{};
   std::uint32_t threads = 0;  ///< threads that draw without OpenGL; 0: one for each processor of this process
+  GlSubmission submission{};  ///< how OpenGL gets data and draws
 
   bool drawsNothing() const { return choice == RendererChoice::None; }
 };
@@ -69,6 +71,7 @@ private:
 
   RendererKind kind_ = RendererKind::Cpu;
   std::unique_ptr<GlProvider> provider_;
+  GlSubmission submission_{};
   std::uint32_t threads_ = 0;
   std::unique_ptr<DrawPool> pool_;  ///< null until stages of this process draw
   std::optional<bool> onCard_{};

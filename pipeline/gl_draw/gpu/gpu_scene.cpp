@@ -1,5 +1,7 @@
 #include "pipeline/gl_draw/gpu/gpu_scene.h"
 
+#include "pipeline/gl_draw/gpu/indirect_draws.h"
+
 #include <algorithm>
 #include <string>
 
@@ -14,20 +16,35 @@ bool canBaseInstances(const GlTable& gl) {
   return gl.DrawElementsInstancedBaseInstance && hasGlExtension(gl, "GL_ARB_base_instance");
 }
 
+bool isUsed(const GlTable& gl, GlUse use) {
+  return use == GlUse::Always || (use == GlUse::OnCard && !isSoftware(gl));
+}
+
 }  // namespace
+
+/// Makes the ring, if it is to be used and the context has one.
+UploadRing* GpuScene::withRing(GlUse use) {
+  if (isUsed(gl_, use) && UploadRing::isSupported(gl_)) uploads_.emplace(gl_);
+  return uploads();
+}
 
 GpuScene::GpuScene(const GlTable& gl, const MeshStore& store, RenderQuality quality, bool sortsObjects,
                    ProblemLog& problems)
     : gl_(gl), look_(quality.look), problems_(problems), calls_(gl, canBaseInstances(gl)),
       cullsTriangles_(quality.samples == 1 && quality.leavesOutUnseen && isSoftware(gl) &&
                       calls_.basesInstances()),
-      meshes_(gl, store, quality.look, cullsTriangles_), surfaces_(gl, quality.look, calls_, problems),
-      instances_(gl, sortsObjects), scene_(gl) {
+      drawsIndirectly_(isUsed(gl, quality.submission.indirect) && IndirectDraws::isSupported(gl) &&
+                       calls_.basesInstances() && !cullsTriangles_ && quality.mostAtOnce > 1),
+      meshes_(gl, store, quality.look, {cullsTriangles_, drawsIndirectly_}),
+      surfaces_(gl, quality.look, drawsIndirectly_, calls_, problems),
+      instances_(gl, withRing(quality.submission.mapped), sortsObjects),
+      scene_(gl, uploads(), GL_UNIFORM_BUFFER) {
   growTo(1);
 }
 
 void GpuScene::begin(const DrawList& list, FrameProbe* probe) {
   calls_.restoreState();
+  if (uploads_) uploads_->beginFrame();
   meshes_.freeUnused();
   if (list.lights.size() > DrawList::kMaxLights)
     problems_.report("more than " + std::to_string(DrawList::kMaxLights) + " lights: the rest are left out");
@@ -41,23 +58,23 @@ void GpuScene::light(const DrawList& list, bool shadowed) {
   skyIsFlat_ =
       look_ == Look::Plain && lighting_.zenith == lighting_.horizon && lighting_.zenith == lighting_.ground;
   if (skyIsFlat_) gl_.ClearColor(lighting_.zenith[0], lighting_.zenith[1], lighting_.zenith[2], 1);
-  stream(gl_, GL_UNIFORM_BUFFER, scene_, std::span<const SceneBlock>(&lighting_, 1));
+  scene_.fill(std::span<const SceneBlock>(&lighting_, 1));
   surfaces_.choose({shadowed, list.sky.hazeDistance > 0, std::ranges::any_of(list.lights, isLocal),
                     std::min(list.lights.size(), DrawList::kMaxLights)});
   isLit_ = true;
 }
 
 void GpuScene::growTo(std::size_t views) {
-  while (views_.size() < views) views_.emplace_back(gl_);
+  while (views_.size() < views) views_.emplace_back(gl_, uploads(), GL_UNIFORM_BUFFER);
 }
 
 void GpuScene::setView(std::size_t view, const ViewBlock& block) {
-  stream(gl_, GL_UNIFORM_BUFFER, views_[view], std::span<const ViewBlock>(&block, 1));
+  views_[view].fill(std::span<const ViewBlock>(&block, 1));
 }
 
 void GpuScene::bindView(std::size_t view) const {
-  gl_.BindBufferBase(GL_UNIFORM_BUFFER, kViewBinding, views_[view].name());
-  gl_.BindBufferBase(GL_UNIFORM_BUFFER, kSceneBinding, scene_.name());
+  views_[view].bindBlock(kViewBinding);
+  scene_.bindBlock(kSceneBinding);
 }
 
 }  // namespace stadion

@@ -15,13 +15,16 @@
 #include "pipeline/draw_list/draw_list.h"
 #include "pipeline/gl/problem_log.h"
 #include "pipeline/gl_draw/gpu/draw_calls.h"
+#include "pipeline/gl_draw/gpu/frame_data.h"
 #include "pipeline/gl_draw/gpu/list_instances.h"
 #include "pipeline/gl_draw/gpu/mesh_cache.h"
 #include "pipeline/gl_draw/gpu/surface_programs.h"
+#include "pipeline/gl_draw/gpu/upload_ring.h"
 #include "pipeline/shader/look.h"
 #include "pipeline/shader/uniform_blocks.h"
 
 #include <cstddef>
+#include <optional>
 #include <vector>
 
 namespace stadion {
@@ -35,6 +38,10 @@ public:
   /// Returns true if triangles are removed before OpenGL sees them (TriangleCuller). It pays where a
   /// processor rasterises with one sample a pixel: most triangles of distant objects cover no pixel.
   bool cullsTriangles() const { return cullsTriangles_; }
+  /// Returns true if opaque objects and shadow casters are drawn by IndirectDraws.
+  bool drawsIndirectly() const { return drawsIndirectly_; }
+  /// Where the data of a frame is uploaded; null: each kind of it has a buffer of its own.
+  UploadRing* uploads() { return uploads_ ? &*uploads_ : nullptr; }
 
   /// Starts a draw list: frees meshes that the store has freed, and takes up the first items. `probe` gets
   /// uploads and the waits for Cull; null = none.
@@ -70,16 +77,19 @@ public:
   }
 
 private:
+  UploadRing* withRing(GlUse use);
+
   const GlTable& gl_;
   Look look_;
   ProblemLog& problems_;
   DrawCalls calls_;
-  bool cullsTriangles_;
+  bool cullsTriangles_, drawsIndirectly_;
+  std::optional<UploadRing> uploads_;
   MeshCache meshes_;
   SurfacePrograms surfaces_;
   ListInstances instances_;
-  GlBuffer scene_;
-  std::vector<GlBuffer> views_;  ///< uniform blocks of the views; at least one
+  FrameData scene_;
+  std::vector<FrameData> views_;  ///< uniform blocks of the views; at least one
   SceneBlock lighting_{};
   bool isLit_ = false, skyIsFlat_ = false;
 };

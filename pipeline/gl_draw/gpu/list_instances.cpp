@@ -12,7 +12,7 @@ void ListInstances::begin(const DrawList& list, FrameProbe* probe) {
   list_ = &list;
   probe_ = probe;
   complete_ = false;
-  uploaded_ = 0;
+  done_ = 0;
   batches_.begin(probe != nullptr);
 }
 
@@ -43,24 +43,19 @@ bool ListInstances::hasOpaque(std::size_t batch) {
 
 void ListInstances::upload() {
   const std::span<const InstanceMatrix> all = batches_.matrices();
-  if (uploaded_ == all.size()) return;
-  if (complete_ && uploaded_ == 0) {
-    stream(gl_, GL_ARRAY_BUFFER, buffer_, all);
+  if (done_ == all.size()) return;
+  if (complete_ && done_ == 0) {
+    uploads_.fill(all);
   } else {
-    const auto bytes = [](std::size_t instances) {
-      return static_cast<GLsizeiptr>(instances * sizeof(InstanceMatrix));
-    };
-    gl_.BindBuffer(GL_ARRAY_BUFFER, buffer_.name());
     const std::size_t most = list_->opaque.size() + list_->transparent.size();
-    if (uploaded_ == 0) gl_.BufferData(GL_ARRAY_BUFFER, bytes(most), nullptr, GL_STREAM_DRAW);
-    gl_.BufferSubData(GL_ARRAY_BUFFER, bytes(uploaded_), bytes(all.size() - uploaded_),
-                      all.data() + uploaded_);
+    if (done_ == 0) uploads_.reserve(most * sizeof(InstanceMatrix));
+    uploads_.write(done_ * sizeof(InstanceMatrix), std::as_bytes(all.subspan(done_)));
   }
-  uploaded_ = all.size();
+  done_ = all.size();
 }
 
 void ListInstances::pointAt(std::uint32_t first) const {
-  pointAtInstances(gl_, buffer_, first);
+  pointAtInstances(gl_, uploads_, first);
 }
 
 }  // namespace stadion

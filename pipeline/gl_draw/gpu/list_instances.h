@@ -9,7 +9,7 @@
 #include "engine/core/frame_probe.h"
 #include "pipeline/draw_list/draw_list.h"
 #include "pipeline/draw_list/instance_batches.h"
-#include "pipeline/gl/gl_object.h"
+#include "pipeline/gl_draw/gpu/frame_data.h"
 
 #include <cstddef>
 #include <vector>
@@ -19,7 +19,9 @@ namespace stadion {
 class ListInstances {
 public:
   /// `sorted`: transparent items are ordered far to near, instead of as they are listed.
-  ListInstances(const GlTable& gl, bool sorted) : gl_(gl), sorted_(sorted), buffer_(gl) {}
+  /// `ring`: where the matrices are uploaded; null = into a buffer of their own.
+  ListInstances(const GlTable& gl, UploadRing* ring, bool sorted)
+      : gl_(gl), sorted_(sorted), uploads_(gl, ring, GL_ARRAY_BUFFER) {}
 
   /// Starts with a list, of which nothing is taken up yet. `probe` gets the waits for Cull; null = none. With
   /// a probe, the owners of the instances are kept, too.
@@ -40,6 +42,8 @@ public:
   void upload();
   /// Points the bound vertex array at the matrices, from instance `first` on.
   void pointAt(std::uint32_t first) const;
+  /// The matrices that were uploaded last.
+  const FrameData& uploaded() const { return uploads_; }
 
 private:
   const GlTable& gl_;
@@ -47,10 +51,10 @@ private:
   const DrawList* list_ = nullptr;
   FrameProbe* probe_ = nullptr;
   InstanceBatches batches_;
-  bool complete_ = false;     ///< all is taken up
-  std::size_t uploaded_ = 0;  ///< instances
+  bool complete_ = false;  ///< all is taken up
+  std::size_t done_ = 0;   ///< uploaded instances
   std::vector<DrawItem> farToNear_;
-  GlBuffer buffer_;
+  FrameData uploads_;
 };
 
 }  // namespace stadion

@@ -68,7 +68,7 @@ struct PartMaker {
     const auto [least, most] = std::ranges::minmax_element(own);
     const std::uint32_t first = own.empty() ? 0 : *least, end = own.empty() ? 0 : *most + 1;
     return {static_cast<GLsizei>(part.indexCount),
-            (before + part.firstIndex) * sizeof(std::uint32_t),
+            (out.place.first.indices + before + part.firstIndex) * sizeof(std::uint32_t),
             static_cast<GLintptr>(part.material * stride),
             textured ? nameOf(material.texture) : 0,
             nameOf(material.emissiveTexture),
@@ -98,16 +98,17 @@ MeshParts partsOf(const GlMesh& mesh, std::uint32_t level) {
   return {&mesh, parts, triangles};
 }
 
-void pointAtInstances(const GlTable& gl, const GlBuffer& instances, std::uint32_t first) {
+void pointAtInstances(const GlTable& gl, const FrameData& instances, std::uint32_t first) {
   constexpr std::size_t kRow = 4 * sizeof(float), kMatrix = 3 * kRow;
-  gl.BindBuffer(GL_ARRAY_BUFFER, instances.name());
+  gl.BindBuffer(GL_ARRAY_BUFFER, instances.buffer());
   for (GLuint row = 0; row < 3; ++row)
     gl.VertexAttribPointer(kModelX + row, 4, GL_FLOAT, GL_FALSE, kMatrix,
-                           inBuffer(first * kMatrix + row * kRow));
+                           inBuffer(instances.offset() + first * kMatrix + row * kRow));
 }
 
-MeshCache::MeshCache(const GlTable& gl, const MeshStore& meshes, Look look, bool culled)
-    : gl_(gl), store_(meshes), look_(look), culls_(culled),
+MeshCache::MeshCache(const GlTable& gl, const MeshStore& meshes, Look look, Layout layout)
+    : gl_(gl), store_(meshes), look_(look), culls_(layout.culled),
+      pages_(gl, sizeof(Vertex), layout.sharesPages),
       anisotropy_(!isSoftware(gl) && (hasGlExtension(gl, "GL_EXT_texture_filter_anisotropic") ||
                                       hasGlExtension(gl, "GL_ARB_texture_filter_anisotropic"))) {
   gl_.GetIntegerv(GL_UNIFORM_BUFFER_OFFSET_ALIGNMENT, &uniformAlignment_);
@@ -148,8 +149,7 @@ std::optional<GlMesh> MeshCache::upload(const Mesh& mesh) {
     report("\"" + mesh.name + "\" cannot be drawn: " + fault);
     return {};
   }
-  GlMesh out{
-      GlVertexArray(gl_), GlBuffer(gl_), GlBuffer(gl_), GlBuffer(gl_), {}, {}, {}, 0, {}, mesh.bounds, {}};
+  GlMesh out{{}, GlBuffer(gl_), {}, {}, {}, 0, {}, mesh.bounds, {}};
   uploadVertices(mesh, out);
   out.textures.reserve(mesh.textures.size());
   for (std::size_t i = 0; i < mesh.textures.size(); ++i)
@@ -165,12 +165,22 @@ std::optional<GlMesh> MeshCache::upload(const Mesh& mesh) {
 
 void MeshCache::uploadVertices(const Mesh& mesh, GlMesh& out) {
   const std::vector<Vertex> vertices = interleave(mesh, look_);
-  gl_.BindVertexArray(out.vertexArray.name());
-  gl_.BindBuffer(GL_ARRAY_BUFFER, out.vertices.name());
-  gl_.BufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(vertices.size() * sizeof(Vertex)), vertices.data(),
-                 GL_STATIC_DRAW);
-  gl_.BindBuffer(GL_ELEMENT_ARRAY_BUFFER, out.indices.name());
-  uploadIndices(mesh, out);
+  std::vector<std::uint32_t> ofLevels;
+  if (!mesh.levels.empty()) {
+    ofLevels = mesh.indices;
+    for (const MeshLevel& level : mesh.levels)
+      ofLevels.insert(ofLevels.end(), level.indices.begin(), level.indices.end());
+  }
+  const std::span<const std::uint32_t> all = mesh.levels.empty() ? std::span(mesh.indices) : ofLevels;
+  out.place = pages_.placeFor({vertices.size(), all.size(), mesh.materials.size()});
+  gl_.BufferSubData(GL_ARRAY_BUFFER, static_cast<GLintptr>(out.place.first.vertices * sizeof(Vertex)),
+                    static_cast<GLsizeiptr>(vertices.size() * sizeof(Vertex)), vertices.data());
+  if (out.place.opensPage) describeVertices();
+  uploadIndices(mesh, all, out);
+}
+
+/// Of the bound vertex array and vertex buffer.
+void MeshCache::describeVertices() const {
   const auto attribute = [&](GLuint at, GLint size, GLenum type, GLboolean normalised, std::size_t from) {
     gl_.EnableVertexAttribArray(at);
     gl_.VertexAttribPointer(at, size, type, normalised, sizeof(Vertex), inBuffer(from));
@@ -185,17 +195,18 @@ void MeshCache::uploadVertices(const Mesh& mesh, GlMesh& out) {
   }
 }
 
-/// Uploads the indices of all levels, one after the other.
-void MeshCache::uploadIndices(const Mesh& mesh, GlMesh& out) {
-  std::vector<std::uint32_t> ofLevels;
-  if (!mesh.levels.empty()) {
-    ofLevels = mesh.indices;
-    for (const MeshLevel& level : mesh.levels)
-      ofLevels.insert(ofLevels.end(), level.indices.begin(), level.indices.end());
+/// Uploads the indices of all levels, one after the other. They count from the start of the page.
+void MeshCache::uploadIndices(const Mesh& mesh, std::span<const std::uint32_t> all, GlMesh& out) {
+  std::vector<std::uint32_t> moved;
+  std::span<const std::uint32_t> inPage = all;
+  if (const auto first = static_cast<std::uint32_t>(out.place.first.vertices); first > 0) {
+    moved.assign(all.begin(), all.end());
+    for (std::uint32_t& index : moved) index += first;
+    inPage = moved;
   }
-  const std::span<const std::uint32_t> all = mesh.levels.empty() ? std::span(mesh.indices) : ofLevels;
-  gl_.BufferData(GL_ELEMENT_ARRAY_BUFFER, static_cast<GLsizeiptr>(all.size_bytes()), all.data(),
-                 GL_STATIC_DRAW);
+  gl_.BufferSubData(GL_ELEMENT_ARRAY_BUFFER,
+                    static_cast<GLintptr>(out.place.first.indices * sizeof(std::uint32_t)),
+                    static_cast<GLsizeiptr>(inPage.size_bytes()), inPage.data());
   if (culls_) out.culler.emplace(mesh, all);
 }
 
@@ -208,12 +219,18 @@ std::size_t MeshCache::materialStride() const {
 void MeshCache::uploadMaterials(const Mesh& mesh, GlMesh& out) {
   const std::size_t stride = materialStride();
   std::vector<std::byte> blocks(stride * mesh.materials.size());
+  std::vector<MaterialBlock> packed(mesh.materials.size());
   for (std::size_t i = 0; i < mesh.materials.size(); ++i) {
-    const MaterialBlock block = fillMaterial(mesh.materials[i], look_);
-    std::memcpy(blocks.data() + i * stride, &block, sizeof block);
+    packed[i] = fillMaterial(mesh.materials[i], look_);
+    std::memcpy(blocks.data() + i * stride, &packed[i], sizeof packed[i]);
   }
   gl_.BindBuffer(GL_UNIFORM_BUFFER, out.materials.name());
   gl_.BufferData(GL_UNIFORM_BUFFER, static_cast<GLsizeiptr>(blocks.size()), blocks.data(), GL_STATIC_DRAW);
+  if (!pages_.areShared()) return;
+  gl_.BindBuffer(GL_SHADER_STORAGE_BUFFER, out.place.page->materials.name());
+  gl_.BufferSubData(GL_SHADER_STORAGE_BUFFER,
+                    static_cast<GLintptr>(out.place.first.materials * sizeof(MaterialBlock)),
+                    static_cast<GLsizeiptr>(packed.size() * sizeof(MaterialBlock)), packed.data());
 }
 
 /// Lists the parts of all levels. Expects the textures.

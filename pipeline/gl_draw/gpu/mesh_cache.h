@@ -9,6 +9,8 @@
 #include "engine/base/diagnostic.h"
 #include "engine/core/frame_probe.h"
 #include "pipeline/gl/gl_object.h"
+#include "pipeline/gl_draw/gpu/frame_data.h"
+#include "pipeline/gl_draw/gpu/mesh_pages.h"
 #include "pipeline/raster/small_object_rasterizer.h"
 #include "pipeline/shader/look.h"
 
@@ -46,17 +48,23 @@ inline TriangleCuller::Facing facingOf(const GlSubmesh& part, bool mirrored) {
 }
 
 struct GlMesh {
-  GlVertexArray vertexArray;
-  GlBuffer vertices, indices, materials;
+  MeshPlace place;
+  GlBuffer materials;
   std::vector<GlTexture> textures;
   std::vector<GlSubmesh> parts;                ///< parts of the full surface
   std::vector<std::vector<GlSubmesh>> levels;  ///< parts of each simplified surface
   std::size_t transparentParts = 0;
-  std::optional<CullerMesh> culler;  ///< all levels, as in `indices`; where triangles are culled
+  std::optional<CullerMesh> culler;  ///< all levels, as in the page's indices; where triangles are culled
   Aabb bounds;                       ///< [m]
   std::optional<MeshShading>
       shading;  ///< there, if it has neither pictures nor holes nor anything to see through
 
+  GLuint vertexArray() const { return place.page->vertexArray.name(); }
+  GLuint indices() const { return place.page->indices.name(); }
+  /// Returns the number of a part's material among those of the page.
+  std::uint32_t materialInPage(const GlSubmesh& part) const {
+    return static_cast<std::uint32_t>(place.first.materials) + part.material;
+  }
   /// Returns the parts to draw at a level of detail. If the mesh has fewer levels, these are the parts of the
   /// coarsest one.
   const std::vector<GlSubmesh>& partsAt(std::uint32_t level) const {
@@ -76,12 +84,15 @@ MeshParts partsOf(const GlMesh& mesh, std::uint32_t level);
 enum VertexAttribute : GLuint { kPosition, kNormal, kUv, kColour, kModelX, kModelY, kModelZ };
 
 /// Points the model matrices of the bound vertex array at `instances`, from number `first` on.
-void pointAtInstances(const GlTable& gl, const GlBuffer& instances, std::uint32_t first);
+void pointAtInstances(const GlTable& gl, const FrameData& instances, std::uint32_t first);
 
 class MeshCache {
 public:
-  /// `culled`: meshes are kept for TriangleCuller, too.
-  MeshCache(const GlTable& gl, const MeshStore& meshes, Look look, bool culled = false);
+  struct Layout {
+    bool culled = false;       ///< meshes are kept for TriangleCuller, too; expects that they share no pages
+    bool sharesPages = false;  ///< meshes share vertex and index buffers (mesh_pages.h)
+  };
+  MeshCache(const GlTable& gl, const MeshStore& meshes, Look look, Layout layout);
 
   /// The mesh, uploaded if this is its first use; nullptr if it cannot be drawn.
   const GlMesh* find(MeshId id);
@@ -99,7 +110,8 @@ public:
 private:
   std::optional<GlMesh> upload(const Mesh& mesh);
   void uploadVertices(const Mesh& mesh, GlMesh& out);
-  void uploadIndices(const Mesh& mesh, GlMesh& out);
+  void describeVertices() const;
+  void uploadIndices(const Mesh& mesh, std::span<const std::uint32_t> all, GlMesh& out);
   void uploadMaterials(const Mesh& mesh, GlMesh& out);
   void listParts(const Mesh& mesh, GlMesh& out) const;
   std::size_t materialStride() const;
@@ -110,6 +122,7 @@ private:
   const MeshStore& store_;
   Look look_;  ///< colours are uploaded as it reckons with them
   bool culls_;
+  MeshPages pages_;
   struct Cached {
     std::uint64_t hash = 0;    ///< hash of the mesh's content: the store may use an id again
     std::optional<GlMesh> gl;  ///< empty: known not to be drawable

@@ -21,8 +21,7 @@ std::optional<Diagnostic> SurfacePrograms::buildUsual(const SurfaceTraits& commo
     traits.localLights = (i & 2) != 0;
     traits.writes = (i & 4) != 0 ? SurfaceWrites::Blended : SurfaceWrites::Picture;
     assert(traits.index() == i);
-    auto built =
-        GlProgram::build(gl_, surfaceVertexShader(traits), surfaceFragmentShader(traits), shaderBindings());
+    auto built = compile(traits);
     if (!built) return built.error();
     set.programs[i].emplace(std::move(built.value()));
   }
@@ -44,14 +43,23 @@ void SurfacePrograms::choose(const Common& of) {
   localLights_ = of.localLights;
 }
 
-const GlProgram& SurfacePrograms::use(const GlSubmesh& part, SurfaceWrites writes) {
+Result<GlProgram> SurfacePrograms::compile(SurfaceTraits traits) const {
+  traits.indirect = indirect_ && traits.writes == SurfaceWrites::Picture;
+  return GlProgram::build(gl_, surfaceVertexShader(traits), surfaceFragmentShader(traits), shaderBindings());
+}
+
+const GlProgram& SurfacePrograms::programFor(const GlSubmesh& part, SurfaceWrites writes) {
   SurfaceTraits traits;
   traits.textured = part.texture != 0;
   traits.localLights = localLights_;
   traits.writes = writes;
   traits.masked = part.masked;
   traits.glowing = part.glowTexture != 0;
-  const GlProgram& program = find(traits);
+  return find(traits);
+}
+
+const GlProgram& SurfacePrograms::use(const GlSubmesh& part, SurfaceWrites writes) {
+  const GlProgram& program = programFor(part, writes);
   calls_.use(program);
   return program;
 }
@@ -65,8 +73,7 @@ const GlProgram& SurfacePrograms::find(SurfaceTraits traits) {
     traits.shadowed = common.shadowed;
     traits.hazy = common.hazy;
     traits.lights = common.lights;
-    auto built =
-        GlProgram::build(gl_, surfaceVertexShader(traits), surfaceFragmentShader(traits), shaderBindings());
+    auto built = compile(traits);
     if (built) {
       program.emplace(std::move(built.value()));
     } else {

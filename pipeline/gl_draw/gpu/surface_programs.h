@@ -21,8 +21,9 @@ namespace stadion {
 
 class SurfacePrograms {
 public:
-  SurfacePrograms(const GlTable& gl, Look look, DrawCalls& calls, ProblemLog& problems)
-      : gl_(gl), look_(look), calls_(calls), problems_(problems) {}
+  /// `indirect`: what writes the picture is drawn by IndirectDraws.
+  SurfacePrograms(const GlTable& gl, Look look, bool indirect, DrawCalls& calls, ProblemLog& problems)
+      : gl_(gl), look_(look), indirect_(indirect), calls_(calls), problems_(problems) {}
 
   /// Builds the usual programs; once, before anything else. Returns why that failed, or nothing.
   std::optional<Diagnostic> build();
@@ -36,7 +37,9 @@ public:
   };
   /// Chooses the programs for a list.
   void choose(const Common& common);
-  /// Uses the program for a part of a mesh. Expects that programs are chosen.
+  /// The program for a part of a mesh. Expects that programs are chosen.
+  const GlProgram& programFor(const GlSubmesh& part, SurfaceWrites writes);
+  /// Uses that program.
   const GlProgram& use(const GlSubmesh& part, SurfaceWrites writes);
 
 private:
@@ -52,9 +55,11 @@ private:
 
   std::optional<Diagnostic> buildUsual(const SurfaceTraits& common, Set& set) const;
   const GlProgram& find(SurfaceTraits traits);
+  Result<GlProgram> compile(SurfaceTraits traits) const;
 
   const GlTable& gl_;
   Look look_;
+  bool indirect_;
   DrawCalls& calls_;
   ProblemLog& problems_;
   std::array<Set, 4 * (kMostCounted + 2)> sets_;

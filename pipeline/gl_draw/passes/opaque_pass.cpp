@@ -13,6 +13,7 @@ OpaquePass::OpaquePass(const PassContext& with, SurfaceDrawing& surfaces)
 /// The near objects first: what they hide of the others can be left out.
 void OpaquePass::draw(const DrawView& from, std::uint32_t view, const SmallObjectPass& small) {
   constexpr float kFar = std::numeric_limits<float>::infinity();
+  surfaces_.forgetOpaque();
   if (culler_) culler_->setView(from);
   const std::optional<float> near = nearQuarter(view, small);
   drawBatches(view, small, {0, near.value_or(kFar)});
@@ -52,16 +53,21 @@ std::optional<float> OpaquePass::nearQuarter(std::uint32_t view, const SmallObje
 void OpaquePass::drawBatches(std::uint32_t view, const SmallObjectPass& small, Distances within) {
   for (std::size_t i = 0; with_.scene.instances().hasOpaque(i); ++i) {
     const InstanceBatch seen = with_.scene.batches().opaque()[i].seenBy(view);
-    const GlMesh* mesh = with_.scene.meshOf(seen);
-    if (!mesh) continue;
-    surfaces_.forEachCall(*mesh, seen, false,
-                          [&](const MeshParts& of, std::uint32_t first, std::uint32_t count) {
-                            if (!of.gl->culler) return surfaces_.drawOpaqueParts(of, first, count, false);
-                            keepSeen(of, first, count, seen.mirrored, small, within);
-                            drawSeen(of, first, count);
-                          });
+    if (const GlMesh* mesh = with_.scene.meshOf(seen)) drawBatch(*mesh, seen, small, within);
+    // Cull may still be finding more. What is known is drawn meanwhile.
+    if (i + 1 == with_.scene.batches().opaque().size()) surfaces_.finishOpaque();
   }
   with_.pieces.endPass();
+}
+
+void OpaquePass::drawBatch(const GlMesh& mesh, const InstanceBatch& seen, const SmallObjectPass& small,
+                           Distances within) {
+  if (!mesh.culler) return surfaces_.drawOpaque(mesh, seen, false);
+  surfaces_.forEachCall(mesh, seen, false,
+                        [&](const MeshParts& of, std::uint32_t first, std::uint32_t count) {
+                          keepSeen(of, first, count, seen.mirrored, small, within);
+                          drawSeen(of, first, count);
+                        });
 }
 
 /// Finds the triangles of each instance that the view may see.
@@ -92,7 +98,7 @@ void OpaquePass::drawSeen(const MeshParts& mesh, std::uint32_t first, std::uint3
       if (const TriangleCuller::Range r = seen_[p * count + i]; r.count > 0)
         calls.drawIndices(r.first * sizeof(std::uint32_t), static_cast<GLsizei>(r.count), first + i, 1);
   }
-  with_.gl.BindBuffer(GL_ELEMENT_ARRAY_BUFFER, mesh.gl->indices.name());  // its vertex array remembers it
+  with_.gl.BindBuffer(GL_ELEMENT_ARRAY_BUFFER, mesh.gl->indices());  // its vertex array remembers it
 }
 
 }  // namespace stadion

@@ -31,6 +31,8 @@ private:
 
   std::optional<float> nearQuarter(std::uint32_t view, const SmallObjectPass& small);
   void drawBatches(std::uint32_t view, const SmallObjectPass& small, Distances within);
+  void drawBatch(const GlMesh& mesh, const InstanceBatch& seen, const SmallObjectPass& small,
+                 Distances within);
   void keepSeen(const MeshParts& mesh, std::uint32_t first, std::uint32_t count, bool mirrored,
                 const SmallObjectPass& small, Distances within);
   void drawSeen(const MeshParts& mesh, std::uint32_t first, std::uint32_t count);

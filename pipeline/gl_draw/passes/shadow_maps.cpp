@@ -35,10 +35,11 @@ void makeMap(const GlTable& gl, const GlTexture& texture, const GlFramebuffer& f
 
 }  // namespace
 
-Result<std::unique_ptr<ShadowMaps>> ShadowMaps::create(const GlTable& gl, ClipDepth clip) {
+Result<std::unique_ptr<ShadowMaps>> ShadowMaps::create(const GlTable& gl, ClipDepth clip, UploadRing* ring,
+                                                       bool indirect) {
   auto program = GlProgram::build(gl, shadowVertexShader(), shadowFragmentShader(), shaderBindings());
   if (!program) return program.error();
-  std::unique_ptr<ShadowMaps> maps(new ShadowMaps(gl, clip, std::move(program.value())));
+  std::unique_ptr<ShadowMaps> maps(new ShadowMaps(gl, clip, ring, indirect, std::move(program.value())));
   for (const GlFramebuffer* into : {&maps->intoStill_, &maps->intoShown_}) {
     gl.BindFramebuffer(GL_FRAMEBUFFER, into->name());
     if (gl.CheckFramebufferStatus(GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE)
@@ -47,9 +48,11 @@ Result<std::unique_ptr<ShadowMaps>> ShadowMaps::create(const GlTable& gl, ClipDe
   return maps;
 }
 
-ShadowMaps::ShadowMaps(const GlTable& gl, ClipDepth clip, GlProgram program)
+ShadowMaps::ShadowMaps(const GlTable& gl, ClipDepth clip, UploadRing* ring, bool indirect, GlProgram program)
     : gl_(gl), clip_(clip), program_(std::move(program)), still_(gl), shown_(gl), intoStill_(gl),
-      intoShown_(gl), view_(gl), block_(gl), instances_(gl) {
+      intoShown_(gl), view_(gl, ring, GL_UNIFORM_BUFFER), block_(gl, ring, GL_UNIFORM_BUFFER),
+      instances_(gl, ring, GL_ARRAY_BUFFER) {
+  if (indirect) indirect_.emplace(gl, ring, IndirectDraws::Order::Any);
   makeMap(gl, still_, intoStill_);
   makeMap(gl, shown_, intoShown_);
 }
@@ -120,6 +123,23 @@ void ShadowMaps::restore(const Area& a) {
 void ShadowMaps::drawCasters(const DrawShadows& shadows, std::size_t index, std::span<const DrawItem> casters,
                              MeshCache& meshes, const std::function<void()>& between) {
   if (casters.empty()) return;
+  setView(shadows, index);
+  sorted_.assign(casters.begin(), casters.end());
+  std::ranges::sort(sorted_, {}, &DrawItem::mesh);
+  batches_.build(sorted_, {});
+  instances_.fill(batches_.matrices());
+  if (indirect_) indirect_->clear();
+  for (const InstanceBatch& batch : batches_.opaque()) {
+    const GlMesh* mesh = meshes.find(batch.mesh);
+    if (!mesh) continue;
+    if (indirect_) collect(*mesh, batch);
+    drawBatch(*mesh, batch, between);
+  }
+  if (indirect_) indirect_->draw(instances_);
+}
+
+/// Looks along the light into a ring.
+void ShadowMaps::setView(const DrawShadows& shadows, std::size_t index) {
   ViewBlock view{};
   Mat4 toClip = Mat4::Identity();
   for (int k = 0; k < 3; ++k) {
@@ -130,24 +150,31 @@ void ShadowMaps::drawCasters(const DrawShadows& shadows, std::size_t index, std:
   }
   toClip(2, 3) = 0.5;
   fillViewProjection(toClip, clip_, view);
-  stream(gl_, GL_UNIFORM_BUFFER, view_, std::span<const ViewBlock>(&view, 1));
-  gl_.BindBufferBase(GL_UNIFORM_BUFFER, kViewBinding, view_.name());
+  view_.fill(std::span<const ViewBlock>(&view, 1));
+  view_.bindBlock(kViewBinding);
+}
 
-  sorted_.assign(casters.begin(), casters.end());
-  std::ranges::sort(sorted_, {}, &DrawItem::mesh);
-  batches_.build(sorted_, {});
-  stream(gl_, GL_ARRAY_BUFFER, instances_, batches_.matrices());
-  for (const InstanceBatch& batch : batches_.opaque()) {
-    const GlMesh* mesh = meshes.find(batch.mesh);
-    if (!mesh) continue;
-    gl_.BindVertexArray(mesh->vertexArray.name());
-    gl_.FrontFace(batch.mirrored ? GL_CW : GL_CCW);
-    for (std::uint32_t done = 0; done < batch.count; done += kMostAtOnce) {
-      between();
-      pointAtInstances(gl_, instances_, batch.first + done);
-      const auto count = static_cast<GLsizei>(std::min(batch.count - done, kMostAtOnce));
-      for (const GlSubmesh& part : mesh->parts) drawPart(*mesh, part, count);
-    }
+/// What has no holes is drawn later, all at once.
+void ShadowMaps::collect(const GlMesh& mesh, const InstanceBatch& batch) {
+  for (const GlSubmesh& part : mesh.parts)
+    if (!part.masked)
+      indirect_->add({&program_, mesh.place.page.get(), 0, 0, part.bothSides, batch.mirrored}, mesh, part,
+                     batch.first, batch.count);
+}
+
+/// Draws the parts that are not drawn later.
+void ShadowMaps::drawBatch(const GlMesh& mesh, const InstanceBatch& batch,
+                           const std::function<void()>& between) {
+  const auto isMasked = [](const GlSubmesh& part) { return part.masked; };
+  if (indirect_ && std::ranges::none_of(mesh.parts, isMasked)) return between();
+  gl_.BindVertexArray(mesh.vertexArray());
+  gl_.FrontFace(batch.mirrored ? GL_CW : GL_CCW);
+  for (std::uint32_t done = 0; done < batch.count; done += kMostAtOnce) {
+    between();
+    pointAtInstances(gl_, instances_, batch.first + done);
+    const auto count = static_cast<GLsizei>(std::min(batch.count - done, kMostAtOnce));
+    for (const GlSubmesh& part : mesh.parts)
+      if (!indirect_ || part.masked) drawPart(mesh, part, count);
   }
 }
 
@@ -202,11 +229,11 @@ void ShadowMaps::fillBlock(const DrawShadows& shadows) {
                     0.5f + 0.5f * offset[2] / depth, scale};
     out.lift[i] = kWithin * 2 * reach / kTile;
   }
-  stream(gl_, GL_UNIFORM_BUFFER, block_, std::span<const ShadowBlock>(&out, 1));
+  block_.fill(std::span<const ShadowBlock>(&out, 1));
 }
 
 void ShadowMaps::bind() const {
-  gl_.BindBufferBase(GL_UNIFORM_BUFFER, kShadowBinding, block_.name());
+  block_.bindBlock(kShadowBinding);
   gl_.ActiveTexture(GL_TEXTURE0 + kShadowUnit);
   gl_.BindTexture(GL_TEXTURE_2D, shown_.name());
   gl_.ActiveTexture(GL_TEXTURE0);

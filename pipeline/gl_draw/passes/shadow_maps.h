@@ -13,6 +13,7 @@
 #include "pipeline/draw_list/draw_list.h"
 #include "pipeline/draw_list/instance_batches.h"
 #include "pipeline/gl/gl_program.h"
+#include "pipeline/gl_draw/gpu/indirect_draws.h"
 #include "pipeline/gl_draw/gpu/mesh_cache.h"
 
 #include <array>
@@ -23,8 +24,11 @@ namespace stadion {
 
 class ShadowMaps {
 public:
-  /// Fails with the compiler's words, or if the context has no such framebuffers.
-  static Result<std::unique_ptr<ShadowMaps>> create(const GlTable& gl, ClipDepth clip);
+  /// `ring`: where data is uploaded; null = into buffers of its own. `indirect`: casters are drawn by
+  /// IndirectDraws, which expects that meshes share pages. Fails with the compiler's words, or if the context
+  /// has no such framebuffers.
+  static Result<std::unique_ptr<ShadowMaps>> create(const GlTable& gl, ClipDepth clip, UploadRing* ring,
+                                                    bool indirect);
 
   /// Brings the maps up to date. `between` is called now and then; it may throw. Leaves another framebuffer
   /// bound, and another viewport.
@@ -33,7 +37,7 @@ public:
   void bind() const;
 
 private:
-  ShadowMaps(const GlTable& gl, ClipDepth clip, GlProgram program);
+  ShadowMaps(const GlTable& gl, ClipDepth clip, UploadRing* ring, bool indirect, GlProgram program);
 
   /// Texels of the whole texture: x, y, width, height.
   struct Area {
@@ -53,6 +57,9 @@ private:
                   const std::function<void()>& between);
   void drawCasters(const DrawShadows& shadows, std::size_t index, std::span<const DrawItem> casters,
                    MeshCache& meshes, const std::function<void()>& between);
+  void setView(const DrawShadows& shadows, std::size_t index);
+  void collect(const GlMesh& mesh, const InstanceBatch& batch);
+  void drawBatch(const GlMesh& mesh, const InstanceBatch& batch, const std::function<void()>& between);
   void drawPart(const GlMesh& mesh, const GlSubmesh& part, GLsizei instances);
   const GlProgram& programFor(const GlSubmesh& part);
   void restore(const Area& area);
@@ -67,7 +74,8 @@ private:
   std::array<bool, 2> maskedFailed_{};
   GlTexture still_, shown_;
   GlFramebuffer intoStill_, intoShown_;
-  GlBuffer view_, block_, instances_;
+  FrameData view_, block_, instances_;
+  std::optional<IndirectDraws> indirect_;  ///< casters without holes; where that is a gain
   InstanceBatches batches_;
   std::vector<DrawItem> sorted_;
   std::array<Ring, kShadowRings> rings_;

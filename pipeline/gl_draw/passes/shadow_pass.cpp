@@ -4,7 +4,7 @@ namespace stadion {
 
 bool ShadowPass::draw(const DrawShadows& shadows) {
   if (!maps_ && !failed_) {
-    auto made = ShadowMaps::create(with_.gl, clip_);
+    auto made = ShadowMaps::create(with_.gl, clip_, with_.scene.uploads(), with_.scene.drawsIndirectly());
     if (made)
       maps_ = std::move(made.value());
     else

@@ -3,15 +3,17 @@
 ///
 /// Threads  the thread on which the context is current.
 
+#include "pipeline/gl_draw/gpu/indirect_draws.h"
 #include "pipeline/gl_draw/passes/pass_context.h"
 
 #include <cstdint>
+#include <optional>
 
 namespace stadion {
 
 class SurfaceDrawing {
 public:
-  explicit SurfaceDrawing(const PassContext& with) : with_(with) {}
+  explicit SurfaceDrawing(const PassContext& with);
 
   /// The instances that one call draws: draw(mesh, first instance, count), with the mesh's vertex array and
   /// the instance matrices bound. `mesh` is that of the batch, `seen` what the view sees of it. `oneByOne`:
@@ -40,11 +42,20 @@ public:
   /// Draws the parts of some instances; `opaqueOnly`: without the transparent ones.
   void drawOpaqueParts(const MeshParts& mesh, std::uint32_t first, std::uint32_t count, bool opaqueOnly);
 
+  /// Draws the opaque parts of what the view sees of a batch. They may be collected until finishOpaque().
+  void drawOpaque(const GlMesh& mesh, const InstanceBatch& seen, bool opaqueOnly);
+  /// Draws what is collected.
+  void finishOpaque();
+  /// Forgets what an interrupted drawing has collected.
+  void forgetOpaque();
+
 private:
   void beginBatch(const GlMesh& mesh, const InstanceBatch& seen);
   void beginCall(std::uint32_t first);
+  void collectOpaque(const MeshParts& mesh, const InstanceBatch& seen, bool opaqueOnly);
 
   const PassContext& with_;
+  std::optional<IndirectDraws> indirect_;  ///< opaque parts that are still to be drawn; where that is a gain
 };
 
 }  // namespace stadion

@@ -59,11 +59,9 @@ void TransparentPass::drawOpaqueParts(std::uint32_t view) {
     const InstanceBatch seen = batch.seenBy(view);
     const GlMesh* mesh = with_.scene.meshOf(seen);
     if (!mesh || mesh->transparentParts == mesh->parts.size()) continue;
-    surfaces_.forEachCall(*mesh, seen, false,
-                          [&](const MeshParts& of, std::uint32_t first, std::uint32_t count) {
-                            surfaces_.drawOpaqueParts(of, first, count, true);
-                          });
+    surfaces_.drawOpaque(*mesh, seen, true);
   }
+  surfaces_.finishOpaque();
   with_.pieces.endPass();
 }
 

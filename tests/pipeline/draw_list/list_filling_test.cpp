@@ -56,7 +56,9 @@ TEST(ThreadsListFilling, PicturesAreThoseOfTheWholeList) {
   Random random(71);
   RenderQuality byOpenGl = RenderQuality::plain();
   byOpenGl.drawsSmallObjects = false;
-  for (const RenderQuality quality : {RenderQuality::plain(), byOpenGl, RenderQuality{}})
+  RenderQuality asOnCard;
+  asOnCard.submission = {GlUse::Always, GlUse::Always};
+  for (const RenderQuality quality : {RenderQuality::plain(), byOpenGl, RenderQuality{}, asOnCard})
     for (const bool lamps : {false, true}) {
       MeshStore meshes;
       const DrawList whole = crowdedList(meshes, random, lamps);
