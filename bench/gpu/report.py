@@ -30,7 +30,8 @@ def first(name):
 
 
 def rate(run):
-    return run["frames"] / run["elapsed_seconds"]
+    """Frames a second, without the time before the first frame, in which shaders are compiled."""
+    return run["frames"] / (run["elapsed_seconds"] - run["warm_up_ms"] / 1000)
 
 
 def stages(run):
@@ -76,6 +77,23 @@ if any(row for _, row in rows):
                 f"  {scene}: {row['fps']:.1f} frames a second; latency p50 {row['latency_ms_median']:.2f} ms,"
                 f" p99 {row['latency_ms_p99']:.2f} ms; {row['renderer']}"
             )
+ways = {way: [r for r in (first(f"gpu-olympia-{way}-{n}") for n in (1, 2)) if r] for way in ("direct", "mapped", "indirect", "both")}
+if any(ways.values()):
+    print("\nHow OpenGL gets its work (--gl-submission), Olympia as above; the faster of two runs")
+    for way, runs in ways.items():
+        if not runs:
+            continue
+        best = max(runs, key=rate)
+        calls = sum(view["calls"] / view["frames"] for view in best["drawn"])
+        draw = [ms for (stage, wall), ms in stages(best).items() if stage == "draw"]
+        print(f"  {way:8} {rate(best):8.1f} frames a second; draw {max(draw, default=0):.2f} ms; {calls:.0f} draw calls a frame")
+    for way in ("direct", "both"):
+        row = first(f"gpu-walls-b-{way}")
+        if row:
+            print(f"  {way:8} {row['fps']:8.1f} frames a second in scene b of bench walls")
+run = first("gpu-olympia-cards")
+if run:
+    print(f"\nOlympia with its walls on several cards: {rate(run):.1f} frames a second; limit: {limit(run)}")
 looks = [row for row in objects("gpu-looks") if "rung" in row]
 if looks:
     print("\nErrors against 64 samples a pixel, of 255")
