@@ -1,5 +1,5 @@
 #pragma once
-/// Data that OpenGL reads, filled anew for each frame or several times in one.
+/// Data that OpenGL reads, filled in each frame, or several times in one.
 ///
 /// Ways       with a ring, the data takes a place there. Without one, or if the ring has no memory, it has a
 ///            buffer of its own, which gets new storage with each filling.

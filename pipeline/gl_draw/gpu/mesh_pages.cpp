@@ -7,7 +7,8 @@
 namespace stadion {
 namespace {
 
-constexpr MeshRoom kUsualPage{std::size_t{1} << 18, std::size_t{1} << 20, std::size_t{1} << 12};
+/// Of 30 MB: Olympia needs one.
+constexpr MeshRoom kUsualPage{std::size_t{1} << 19, std::size_t{1} << 21, std::size_t{1} << 12};
 
 MeshRoom sum(const MeshRoom& a, const MeshRoom& b) {
   return {a.vertices + b.vertices, a.indices + b.indices, a.materials + b.materials};

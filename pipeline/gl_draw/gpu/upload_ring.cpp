@@ -59,7 +59,7 @@ std::optional<UploadRing::Place> UploadRing::take(std::size_t bytes) {
   return Place{now.buffer.name(), offset, now.memory + offset};
 }
 
-/// Puts a new buffer in the place of the last one. Nobody has read or written it yet.
+/// Makes the buffer that is used from now on. It is new, so no fence protects it.
 bool UploadRing::map(std::size_t segmentBytes) {
   constexpr GLbitfield kAccess = GL_MAP_WRITE_BIT | GL_MAP_PERSISTENT_BIT | GL_MAP_COHERENT_BIT;
   const auto bytes = static_cast<GLsizeiptr>(kSegments * segmentBytes);

@@ -75,7 +75,8 @@ private:
   GlTexture still_, shown_;
   GlFramebuffer intoStill_, intoShown_;
   FrameData view_, block_, instances_;
-  std::optional<IndirectDraws> indirect_;  ///< casters without holes; where that is a gain
+  std::optional<IndirectDraws>
+      indirect_;  ///< casters without holes, still to be drawn; none: they are drawn at once
   InstanceBatches batches_;
   std::vector<DrawItem> sorted_;
   std::array<Ring, kShadowRings> rings_;

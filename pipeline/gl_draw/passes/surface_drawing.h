@@ -55,7 +55,7 @@ private:
   void collectOpaque(const MeshParts& mesh, const InstanceBatch& seen, bool opaqueOnly);
 
   const PassContext& with_;
-  std::optional<IndirectDraws> indirect_;  ///< opaque parts that are still to be drawn; where that is a gain
+  std::optional<IndirectDraws> indirect_;  ///< opaque parts still to be drawn; none: they are drawn at once
 };
 
 }  // namespace stadion
