@@ -55,6 +55,7 @@ public:
 
   void ignore(ContactSide a, ContactSide b, bool on);
   void setBodiesCollide(bool on) { bodiesCollide_ = on; }
+  bool bodiesCollide() const { return bodiesCollide_; }
   /// Returns true if the two sides collide with each other.
   bool mayTouch(const Side& a, const Side& b) const;
 

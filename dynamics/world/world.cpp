@@ -184,7 +184,11 @@ void World::ignorePair(ContactSide a, ContactSide b, bool on) {
 }
 
 void World::setBodiesCollide(bool on) {
+  if (core_->objects_.bodiesCollide() == on) return;
   core_->objects_.setBodiesCollide(on);
+  if (on) return;
+  for (const RigidBody& b : core_->objects_.bodies())
+    core_->waking_.wakeOnto({true, b.id}, core_->time_.partEnd());
 }
 
 FieldId World::addField(const ForceField& field, bool on) {

@@ -77,7 +77,8 @@ public:
   bool enableBody(BodyId id, bool on);
   /// Sets whether a pair never collides (selfcollide off, or a body and the geometry that carries it).
   void ignorePair(ContactSide a, ContactSide b, bool ignored);
-  /// Sets whether bodies collide with each other; on by default.
+  /// Sets whether bodies collide with each other; on by default. If they stop, those that lean on each other
+  /// wake.
   void setBodiesCollide(bool on);
   /// Divides the steps of lasting contact and of pulled balls on faces by 1, 2, 4, 8 or 16. This is more
   /// exact and costs more. Expects that the world has not been advanced.

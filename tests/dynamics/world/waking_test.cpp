@@ -197,6 +197,8 @@ const std::vector<Cause>& causesOnShelf() {
          for (const BodyId b : r.sleepers) r.w.ignorePair(r.shelf, {true, b}, true);
          return true;
        }},
+      {"a body, and bodies no longer collide",
+       [](Room r) { return r.shelf.isBody && (r.w.setBodiesCollide(false), true); }},
   };
   return all;
 }
@@ -404,6 +406,21 @@ TEST(Waking, AFieldsDurationEndsSleep) {
     room.play(5 - toSeconds(room.now) + kNotices);
     EXPECT_TRUE(room.noticed(0)) << scenes::nameOf(s);
   }
+}
+
+TEST(Waking, BodiesThatNoLongerCollideFallThroughEachOther) {
+  for (const Lying l : {Lying::Chain, Lying::Pile})
+    for (const Solid s : {Solid::Ball, Solid::Box, Solid::Mesh}) {
+      SCOPED_TRACE(nameOf(l) + " of " + scenes::nameOf(s));
+      Bedroom room(Carrier::Box, l, s);
+      ASSERT_TRUE(room.settles());
+      room.w.setBodiesCollide(false);
+      room.play(kNotices);
+      const std::size_t lowest = l == Lying::Chain ? 1 : 9;
+      for (std::size_t i = lowest; i < room.sleepers.size(); ++i)
+        EXPECT_NEAR(room.w.pose(room.sleepers[i]).p.z(), room.beds[0].z(), 1e-3) << i;
+      for (std::size_t i = 0; i < lowest; ++i) EXPECT_LT(room.farthest[i], 1e-4) << i;
+    }
 }
 
 TEST(Waking, OneTakenFromAPileWakesThoseOnIt) {
