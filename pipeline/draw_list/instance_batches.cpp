@@ -21,7 +21,7 @@ Handedness handednessOf(const InstanceMatrix& m) {
 }
 
 bool alike(const DrawItem& a, const DrawItem& b) {
-  return a.mesh == b.mesh && a.level == b.level;
+  return a.mesh == b.mesh && a.level == b.level && a.figure == b.figure;
 }
 
 }  // namespace
@@ -49,7 +49,7 @@ void InstanceBatches::add(const DrawItem& item) {
 void InstanceBatches::addRun(std::span<const DrawItem> run, bool mirrored) {
   const auto first = static_cast<std::uint32_t>(matrices_.size());
   const Handedness wanted = mirrored ? Handedness::Mirrored : Handedness::Kept;
-  InstanceBatch batch{run.front().mesh, run.front().level, first, 0, mirrored, {}, {}};
+  InstanceBatch batch{run.front().mesh, run.front().level, run.front().figure, first, 0, mirrored, {}, {}};
   for (const DrawItem& item : run) {
     if (handednessOf(item.model) != wanted) continue;
     add(item);
@@ -99,9 +99,16 @@ void InstanceBatches::addTransparent(std::span<const DrawItem> items) {
     if (hand == Handedness::NotFinite) continue;
     const bool mirrored = hand == Handedness::Mirrored;
     if (transparent_.empty() || transparent_.back().mesh != item.mesh ||
-        transparent_.back().level != item.level || transparent_.back().mirrored != mirrored)
-      transparent_.push_back(
-          {item.mesh, item.level, static_cast<std::uint32_t>(matrices_.size()), 0, mirrored, {}, {}});
+        transparent_.back().level != item.level || transparent_.back().figure != item.figure ||
+        transparent_.back().mirrored != mirrored)
+      transparent_.push_back({item.mesh,
+                              item.level,
+                              item.figure,
+                              static_cast<std::uint32_t>(matrices_.size()),
+                              0,
+                              mirrored,
+                              {},
+                              {}});
     add(item);
     transparent_.back().add(DrawItem::kAllViews);
   }

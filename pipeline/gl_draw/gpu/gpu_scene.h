@@ -15,6 +15,7 @@
 #include "pipeline/draw_list/draw_list.h"
 #include "pipeline/gl/problem_log.h"
 #include "pipeline/gl_draw/gpu/draw_calls.h"
+#include "pipeline/gl_draw/gpu/figure_meshes.h"
 #include "pipeline/gl_draw/gpu/frame_data.h"
 #include "pipeline/gl_draw/gpu/list_instances.h"
 #include "pipeline/gl_draw/gpu/mesh_cache.h"
@@ -73,7 +74,8 @@ public:
 
   /// The batch's mesh; null if no instance is seen or the mesh cannot be drawn.
   const GlMesh* meshOf(const InstanceBatch& seen) {
-    return seen.count > 0 ? meshes_.find(seen.mesh) : nullptr;
+    if (seen.count == 0) return nullptr;
+    return seen.figure != 0 ? figures_.find(seen.mesh, seen.figure) : meshes_.find(seen.mesh);
   }
 
 private:
@@ -86,6 +88,7 @@ private:
   bool cullsTriangles_, drawsIndirectly_;
   std::optional<UploadRing> uploads_;
   MeshCache meshes_;
+  FigureMeshes figures_;
   SurfacePrograms surfaces_;
   ListInstances instances_;
   FrameData scene_;

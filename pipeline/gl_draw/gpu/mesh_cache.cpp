@@ -53,11 +53,12 @@ std::vector<Vertex> interleave(const Mesh& mesh, Look look) {
 struct PartMaker {
   const Mesh& mesh;
   const GlMesh& out;
+  const std::vector<GlTexture>& textures;
   std::size_t stride;  ///< between two materials [bytes]
   bool open;           ///< the mesh shows its back faces
 
   GLuint nameOf(std::int32_t texture) const {
-    return texture >= 0 ? out.textures[static_cast<std::size_t>(texture)].name() : 0;
+    return texture >= 0 ? textures[static_cast<std::size_t>(texture)].name() : 0;
   }
 
   /// `before`: number of indices of the levels before that of `indices`.
@@ -155,12 +156,39 @@ std::optional<GlMesh> MeshCache::upload(const Mesh& mesh) {
   for (std::size_t i = 0; i < mesh.textures.size(); ++i)
     out.textures.push_back(uploadTexture(mesh.textures[i], textureCutoff(mesh, i)));
   uploadMaterials(mesh, out);
-  listParts(mesh, out);
+  listParts(mesh, out.textures, out);
   if (const GLenum error = gl_.GetError(); error != GL_NO_ERROR) {
     report("\"" + mesh.name + "\" cannot be drawn: OpenGL says " + glErrorName(error));
     return {};
   }
   return out;
+}
+
+std::optional<GlMesh> MeshCache::copyOf(const Mesh& mesh, const GlMesh& original) {
+  GlMesh out{{}, GlBuffer(gl_), {}, {}, {}, 0, {}, mesh.bounds, {}};
+  uploadVertices(mesh, out);
+  uploadMaterials(mesh, out);
+  listParts(mesh, original.textures, out);
+  // They know the original's form.
+  out.culler.reset();
+  out.shading.reset();
+  if (const GLenum error = gl_.GetError(); error != GL_NO_ERROR) {
+    report("\"" + mesh.name + "\" cannot be drawn in another form: OpenGL says " + glErrorName(error));
+    return {};
+  }
+  return out;
+}
+
+void MeshCache::setVertices(const Mesh& mesh, std::span<const SkinnedVertex> moved, const GlMesh& copy) {
+  const SpanScope span(probe_, Span::Upload);
+  std::vector<Vertex> vertices = interleave(mesh, look_);
+  for (std::size_t i = 0; i < vertices.size(); ++i) {
+    std::ranges::transform(moved[i].position, vertices[i].position.begin(), finite);
+    std::ranges::transform(moved[i].normal, vertices[i].normal.begin(), finite);
+  }
+  gl_.BindBuffer(GL_ARRAY_BUFFER, copy.place.page->vertices.name());
+  gl_.BufferSubData(GL_ARRAY_BUFFER, static_cast<GLintptr>(copy.place.first.vertices * sizeof(Vertex)),
+                    static_cast<GLsizeiptr>(vertices.size() * sizeof(Vertex)), vertices.data());
 }
 
 void MeshCache::uploadVertices(const Mesh& mesh, GlMesh& out) {
@@ -234,8 +262,8 @@ void MeshCache::uploadMaterials(const Mesh& mesh, GlMesh& out) {
 }
 
 /// Lists the parts of all levels. Expects the textures.
-void MeshCache::listParts(const Mesh& mesh, GlMesh& out) const {
-  const PartMaker make{mesh, out, materialStride(), !encloses(mesh)};
+void MeshCache::listParts(const Mesh& mesh, const std::vector<GlTexture>& textures, GlMesh& out) const {
+  const PartMaker make{mesh, out, textures, materialStride(), !encloses(mesh)};
   for (const Submesh& part : mesh.submeshes) {
     out.parts.push_back(make.partOf(part, mesh.indices, 0));
     out.transparentParts += mesh.materials[part.material].transparent();

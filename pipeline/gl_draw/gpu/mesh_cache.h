@@ -8,6 +8,7 @@
 #include "engine/asset/mesh_store.h"
 #include "engine/base/diagnostic.h"
 #include "engine/core/frame_probe.h"
+#include "engine/figure/skinning.h"
 #include "pipeline/gl/gl_object.h"
 #include "pipeline/gl_draw/gpu/frame_data.h"
 #include "pipeline/gl_draw/gpu/mesh_pages.h"
@@ -16,6 +17,7 @@
 
 #include <algorithm>
 #include <optional>
+#include <span>
 #include <unordered_map>
 #include <vector>
 
@@ -96,6 +98,11 @@ public:
 
   /// The mesh, uploaded if this is its first use; nullptr if it cannot be drawn.
   const GlMesh* find(MeshId id);
+  /// Returns another copy of a mesh, with vertices of its own and the textures of `original`, which must
+  /// outlive it. Nothing if OpenGL has no memory for it.
+  std::optional<GlMesh> copyOf(const Mesh& mesh, const GlMesh& original);
+  /// Gives a copy other positions and normals.
+  void setVertices(const Mesh& mesh, std::span<const SkinnedVertex> vertices, const GlMesh& copy);
   /// Returns true if find() has it already, and uploads nothing.
   bool holds(MeshId id) const;
   /// Reports uploads to this probe from now on; null = none.
@@ -113,7 +120,7 @@ private:
   void describeVertices() const;
   void uploadIndices(const Mesh& mesh, std::span<const std::uint32_t> all, GlMesh& out);
   void uploadMaterials(const Mesh& mesh, GlMesh& out);
-  void listParts(const Mesh& mesh, GlMesh& out) const;
+  void listParts(const Mesh& mesh, const std::vector<GlTexture>& textures, GlMesh& out) const;
   std::size_t materialStride() const;
   GlTexture uploadTexture(const Texture& texture, float alphaCutoff);
   void report(std::string what);

@@ -80,18 +80,18 @@ ShadowMaps::Area ShadowMaps::around(const Area& a, const Area& b) {
   return {x, y, std::max(a.x + a.width, b.x + b.width) - x, std::max(a.y + a.height, b.y + b.height) - y};
 }
 
-void ShadowMaps::update(const DrawShadows& shadows, MeshCache& meshes, const std::function<void()>& between) {
+void ShadowMaps::update(const DrawShadows& shadows, GpuScene& scene, const std::function<void()>& between) {
   gl_.UseProgram(program_.name());
   gl_.Enable(GL_POLYGON_OFFSET_FILL);
   gl_.PolygonOffset(kSlopeOffset, kStepOffset);
   gl_.Enable(GL_SCISSOR_TEST);
-  for (std::size_t ring = 0; ring < kShadowRings; ++ring) updateRing(shadows, ring, meshes, between);
+  for (std::size_t ring = 0; ring < kShadowRings; ++ring) updateRing(shadows, ring, scene, between);
   gl_.Disable(GL_SCISSOR_TEST);
   gl_.Disable(GL_POLYGON_OFFSET_FILL);
   fillBlock(shadows);
 }
 
-void ShadowMaps::updateRing(const DrawShadows& shadows, std::size_t index, MeshCache& meshes,
+void ShadowMaps::updateRing(const DrawShadows& shadows, std::size_t index, GpuScene& scene,
                             const std::function<void()>& between) {
   const DrawShadowRing& now = shadows.rings[index];
   Ring& held = rings_[index];
@@ -104,11 +104,11 @@ void ShadowMaps::updateRing(const DrawShadows& shadows, std::size_t index, MeshC
   if (redraw) {
     gl_.BindFramebuffer(GL_FRAMEBUFFER, intoStill_.name());
     gl_.Clear(GL_DEPTH_BUFFER_BIT);
-    if (now.still) drawCasters(shadows, index, *now.still, meshes, between);
+    if (now.still) drawCasters(shadows, index, *now.still, scene, between);
   }
   restore(redraw ? tile : around(held.moved, moved));
   gl_.BindFramebuffer(GL_FRAMEBUFFER, intoShown_.name());
-  drawCasters(shadows, index, now.moving, meshes, between);
+  drawCasters(shadows, index, now.moving, scene, between);
   held = {now.stillKey, now.movingKey, true, moved};
 }
 
@@ -121,7 +121,7 @@ void ShadowMaps::restore(const Area& a) {
 }
 
 void ShadowMaps::drawCasters(const DrawShadows& shadows, std::size_t index, std::span<const DrawItem> casters,
-                             MeshCache& meshes, const std::function<void()>& between) {
+                             GpuScene& scene, const std::function<void()>& between) {
   if (casters.empty()) return;
   setView(shadows, index);
   sorted_.assign(casters.begin(), casters.end());
@@ -130,7 +130,7 @@ void ShadowMaps::drawCasters(const DrawShadows& shadows, std::size_t index, std:
   instances_.fill(batches_.matrices());
   if (indirect_) indirect_->clear();
   for (const InstanceBatch& batch : batches_.opaque()) {
-    const GlMesh* mesh = meshes.find(batch.mesh);
+    const GlMesh* mesh = scene.meshOf(batch);
     if (!mesh) continue;
     if (indirect_) collect(*mesh, batch);
     drawBatch(*mesh, batch, between);

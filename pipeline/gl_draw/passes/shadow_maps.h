@@ -13,8 +13,8 @@
 #include "pipeline/draw_list/draw_list.h"
 #include "pipeline/draw_list/instance_batches.h"
 #include "pipeline/gl/gl_program.h"
+#include "pipeline/gl_draw/gpu/gpu_scene.h"
 #include "pipeline/gl_draw/gpu/indirect_draws.h"
-#include "pipeline/gl_draw/gpu/mesh_cache.h"
 
 #include <array>
 #include <functional>
@@ -32,7 +32,7 @@ public:
 
   /// Brings the maps up to date. `between` is called now and then; it may throw. Leaves another framebuffer
   /// bound, and another viewport.
-  void update(const DrawShadows& shadows, MeshCache& meshes, const std::function<void()>& between);
+  void update(const DrawShadows& shadows, GpuScene& scene, const std::function<void()>& between);
   /// For the surface shaders: the texture at kShadowUnit, the block at kShadowBinding.
   void bind() const;
 
@@ -53,10 +53,10 @@ private:
   static Area tileOf(std::size_t ring);
   static Area coveredBy(const DrawShadowRing& ring, const Area& tile);
   static Area around(const Area& a, const Area& b);
-  void updateRing(const DrawShadows& shadows, std::size_t index, MeshCache& meshes,
+  void updateRing(const DrawShadows& shadows, std::size_t index, GpuScene& scene,
                   const std::function<void()>& between);
   void drawCasters(const DrawShadows& shadows, std::size_t index, std::span<const DrawItem> casters,
-                   MeshCache& meshes, const std::function<void()>& between);
+                   GpuScene& scene, const std::function<void()>& between);
   void setView(const DrawShadows& shadows, std::size_t index);
   void collect(const GlMesh& mesh, const InstanceBatch& batch);
   void drawBatch(const GlMesh& mesh, const InstanceBatch& batch, const std::function<void()>& between);

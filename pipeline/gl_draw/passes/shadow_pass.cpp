@@ -12,7 +12,7 @@ bool ShadowPass::draw(const DrawShadows& shadows) {
     failed_ = !made;
   }
   if (failed_) return false;
-  maps_->update(shadows, with_.scene.meshes(), [this] { with_.stop.check(); });
+  maps_->update(shadows, with_.scene, [this] { with_.stop.check(); });
   maps_->bind();
   return true;
 }

@@ -111,6 +111,43 @@ TEST(FigureDrawing, APoseIsDrawnAsAMeshOfThatForm) {
   }
 }
 
+TEST(FigureDrawing, OpenGlDrawsTheSameAsOfAMeshOfThatForm) {
+  for (const Look look : {Look::Full, Look::Plain})
+    for (const std::uint32_t samples : {1u, 4u}) {
+      RenderQuality quality;
+      quality.look = look;
+      quality.samples = samples;
+      for (const double time : {0.4, 1.0}) {
+        const FigureScene scene(time);
+        EXPECT_EQ(drawnByOpenGl(scene.meshes, scene.asFigure, kSide, kSide, quality),
+                  drawnByOpenGl(scene.meshes, scene.asMesh, kSide, kSide, quality))
+            << time << " " << samples;
+      }
+    }
+}
+
+/// One renderer draws list after list: a figure's vertices follow it.
+TEST(FigureDrawing, OpenGlFollowsAFigureFromFrameToFrame) {
+  FigureScene scene(1);
+  Stage stage(scene.meshes, kSide, kSide);
+  std::vector<Picture> pictures;
+  for (const double time : {0.0, 0.5, 1.0, 0.5}) {
+    scene.asFigure.figures[1] = at(time);
+    pictures.push_back(stage.draw(scene.asFigure));
+  }
+  EXPECT_EQ(pictures[1], pictures[3]);
+  EXPECT_NE(pictures[0], pictures[1]);
+  EXPECT_EQ(pictures[2], stage.draw(scene.asMesh));
+}
+
+TEST(FigureDrawing, BothRenderersDrawFiguresAlike) {
+  const FigureScene scene(0.7);
+  const PictureDifference d = difference(drawnByCpu(scene.meshes, scene.asFigure, kSide, kSide),
+                                         drawnByOpenGl(scene.meshes, scene.asFigure, kSide, kSide));
+  EXPECT_LE(d.mean, 0.3);
+  EXPECT_GE(d.alike, 0.995);
+}
+
 TEST(FigureDrawing, TwoFiguresOfOneModelHaveTheirOwnPoses) {
   FigureScene scene(1);
   const MeshId figure = scene.asFigure.opaque[0].mesh;
