@@ -56,9 +56,10 @@ void FigurePose::makePalette(const Skeleton& skeleton) {
   palette_.clear();
   for (const Joint& joint : skeleton.joints) {
     const Affine X = bones_[joint.bone] * joint.X_BN;
-    JointMatrix& rows = palette_.emplace_back();
-    for (int row = 0; row < 3; ++row)
-      for (int k = 0; k < 4; ++k) rows[static_cast<std::size_t>(4 * row + k)] = static_cast<float>(X(row, k));
+    JointMatrix& columns = palette_.emplace_back();
+    for (int k = 0; k < 4; ++k)
+      for (int row = 0; row < 3; ++row)
+        columns[static_cast<std::size_t>(4 * k + row)] = static_cast<float>(X(row, k));
   }
 }
 

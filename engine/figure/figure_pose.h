@@ -19,8 +19,9 @@
 
 namespace stadion {
 
-/// Takes positions of the mesh to where the joint carries them: rows of a matrix (3 x 4).
-using JointMatrix = std::array<float, 12>;
+/// Takes positions of the mesh to where the joint carries them: the four columns of a matrix (3 x 4), each
+/// with a fourth number of no use.
+using JointMatrix = std::array<float, 16>;
 
 class FigurePose {
 public:

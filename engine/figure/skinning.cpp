@@ -19,9 +19,11 @@ struct Columns {
   Lanes x, y, z, origin;
 };
 
-Columns columnsOf(const JointMatrix& rows) {
-  return {Lanes{rows[0], rows[4], rows[8], 0}, Lanes{rows[1], rows[5], rows[9], 0},
-          Lanes{rows[2], rows[6], rows[10], 0}, Lanes{rows[3], rows[7], rows[11], 0}};
+Columns columnsOf(const JointMatrix& m) {
+  Columns c;
+  static_assert(sizeof c == sizeof m);
+  std::memcpy(&c, m.data(), sizeof c);
+  return c;
 }
 
 Columns weighted(const Columns& c, float weight) {
