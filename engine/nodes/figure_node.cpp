@@ -7,6 +7,7 @@
 #include "engine/nodes/model_node.h"
 #include "engine/scene/scene.h"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -101,12 +102,63 @@ void FigureNode::simulate(FrameContext& frame) {
   if (!skeleton_) return;
   const Nanoseconds now = frame.now.time;
   endClips(now);
+  traceCarried(frame);
   player_.forget(now);
   show(now, frame.scene);
 }
 
+void FigureNode::carry(NodeRef node, std::uint32_t bone) {
+  letGo(node);
+  carried_.push_back({node, bone});
+}
+
+void FigureNode::letGo(NodeRef node) {
+  std::erase_if(carried_, [&](const Carried& c) { return c.node == node; });
+}
+
+/// Null if it is not there, or a tracker or a dynamics node moves it.
+PlacedNode* FigureNode::carriedNode(NodeRef node, Scene& scene) const {
+  Node* found = scene.find(node);
+  PlacedNode* placed = found ? found->placed() : nullptr;
+  return placed && !placed->isMovedFromOutside() ? placed : nullptr;
+}
+
+void FigureNode::placeCarried(Nanoseconds time, Scene& scene) {
+  if (carried_.empty()) return;
+  pose_.set(*skeleton_, player_.at(time));
+  const Affine X_WN = scene.placements().world(placement());
+  for (const Carried& c : carried_)
+    if (PlacedNode* node = carriedNode(c.node, scene))
+      node->place(scene, X_WN * pose_.bone(c.bone) * node->attributes().X_PN);
+}
+
+/// Reports the motion within the frame to nodes that watch: chords, as of a path that bends.
+void FigureNode::traceCarried(FrameContext& frame) {
+  const Placements& placements = frame.scene.placements();
+  PoseTracks& tracks = frame.scene.poseTracks();
+  std::vector<std::pair<PlacedNode*, std::uint32_t>> watched;
+  for (const Carried& c : carried_)
+    if (PlacedNode* node = carriedNode(c.node, frame.scene);
+        node && placements.watchedBelow(node->placement()))
+      watched.emplace_back(node, c.bone);
+  if (watched.empty() || frame.start() >= frame.now.time) return;
+  for (const auto& [node, bone] : watched)
+    tracks.of(node->placement(), {frame.start(), poseOf(placements.world(node->placement())), false});
+  const Affine X_WN = placements.world(placement());
+  for (Nanoseconds t = (frame.start() / kChord + 1) * kChord;; t += kChord) {
+    t = std::min(t, frame.now.time);
+    pose_.set(*skeleton_, player_.at(t));
+    const Affine at = withScale(tracks.at(placement(), t, placements), X_WN);
+    for (const auto& [node, bone] : watched)
+      tracks.of(node->placement(), {})
+          .push_back({t, poseOf(at * pose_.bone(bone) * node->attributes().X_PN), false});
+    if (t == frame.now.time) break;
+  }
+}
+
 void FigureNode::show(Nanoseconds time, Scene& scene) {
   scene.figures().set(number_, player_.at(time));
+  placeCarried(time, scene);
   moves_ = player_.moves(time);
 }
 

@@ -8,14 +8,17 @@
 /// It is not visited while nothing moves it.
 
 #include "engine/figure/clip_player.h"
+#include "engine/figure/figure_pose.h"
 #include "engine/figure/skeleton.h"
 #include "engine/scene/figure_records.h"
 #include "engine/scene/object_node.h"
+#include "engine/scene/scene.h"
 
 #include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace stadion {
 
@@ -29,6 +32,12 @@ public:
   /// `skeleton`: that of its mesh; null: it has none, and plays nothing.
   FigureNode(NodeRef self, std::string name, PlaceAttributes place, Appearance appearance,
              std::shared_ptr<const Skeleton> skeleton, ClipPlayer::Start standard, Beginning beginning);
+
+  /// From now on the node goes with a bone. Its place in the bone's coordinates is its home (attributes()).
+  void carry(NodeRef node, std::uint32_t bone);
+  void letGo(NodeRef node);
+  /// Puts the nodes that bones carry where these are now.
+  void placeCarried(Scene& scene) { placeCarried(scene.now(), scene); }
 
   Rank rank() const override { return Rank::Motion; }
   bool busy() const override { return ObjectNode::busy() || moves_; }
@@ -50,6 +59,14 @@ private:
   void pose(std::string_view words, Nanoseconds when, Scene& scene);
   void endClips(Nanoseconds time);
   void show(Nanoseconds time, Scene& scene);
+  PlacedNode* carriedNode(NodeRef node, Scene& scene) const;
+  void placeCarried(Nanoseconds time, Scene& scene);
+  void traceCarried(FrameContext& frame);
+
+  struct Carried {
+    NodeRef node;
+    std::uint32_t bone = 0;
+  };
 
   std::shared_ptr<const Skeleton> skeleton_;
   ClipPlayer::Start standard_;  ///< speed, loop and fade if a command does not state them
@@ -57,6 +74,8 @@ private:
   ClipPlayer player_;
   FigureRecords::Number number_ = 0;
   bool moves_ = false;
+  std::vector<Carried> carried_;  ///< nodes that bones carry; each says so itself, also after a restart
+  FigurePose pose_;               ///< placeCarried()'s and traceCarried()'s own
 };
 
 }  // namespace stadion

@@ -1,3 +1,4 @@
+#include "engine/nodes/bone_node.h"
 #include "engine/nodes/figure_node.h"
 #include "tests/engine/figure/figures.h"
 #include "tests/engine/scene/show_fixture.h"
@@ -112,6 +113,72 @@ TEST(FigureNode, WrongWordsAreToldAndChangeNothing) {
     EXPECT_NE(show.loader.reported[0].message.find("play: "), std::string::npos);
     EXPECT_EQ(show.record().layers[0].clip, 0u);
   }
+}
+
+/// A bone of the figure with an object that hangs from it.
+struct CarryingShow : ShowFixture {
+  explicit CarryingShow(double rate_) {
+    rate = rate_;
+    loader.files["show"] = [=, this](LoadedScene& load) {
+      auto mesh = unitMesh();
+      mesh->skeleton = walker();
+      Appearance look;
+      look.mesh = meshes.add(std::move(mesh));
+      PlaceAttributes place;
+      place.X_PN = moved(5, 0, 0);
+      ClipPlayer::Start start;
+      start.length = 0.8;
+      const auto& figure =
+          addNode<FigureNode>(load, "figure", place, look, walker(), ClipPlayer::Start(), start);
+      PlaceAttributes grip;
+      grip.parent = figure.self();
+      grip.X_PN = moved(0, 0.5, 0);
+      bone = &addNode<BoneNode>(load, "hand", grip, 1u);
+      PlaceAttributes held;
+      held.parent = bone->self();
+      held.X_PN = moved(0, 0, 0.25);
+      discus = &addNode<MovingNode>(load, "discus", held, false);
+    };
+    scene.open("show");
+  }
+  Vec3 at(const PlacedNode* node) const { return scene.placements().world(node->placement()).translation(); }
+  BoneNode* bone = nullptr;
+  MovingNode* discus = nullptr;
+};
+
+TEST(BoneNode, WhatHangsFromABoneGoesWithIt) {
+  for (const double rate : {30.0, 60.0, 90.0}) {
+    CarryingShow show(rate);
+    EXPECT_EQ(show.at(show.bone), Vec3(5, 0.5, 1));
+    show.frames(static_cast<std::uint64_t>(rate / 3) + 1);  // 1/3 s: the bone is 1 + 1/3 / 0.8 m high
+    const double height = 1 + toSeconds(show.scene.now()) / double{0.8f};
+    EXPECT_LT((show.at(show.bone) - Vec3(5, 0.5, height)).norm(), 1e-9) << rate;
+    EXPECT_LT((show.at(show.discus) - Vec3(5, 0.5, height + 0.25)).norm(), 1e-9) << rate;
+  }
+}
+
+TEST(BoneNode, ItsWayWithinAFrameIsKnownToWatchers) {
+  CarryingShow show(10);
+  show.scene.placements().watch(show.discus->placement());
+  show.frames(3);
+  const Pose middle =
+      show.scene.poseTracks().at(show.bone->placement(), fromSeconds(0.15), show.scene.placements());
+  EXPECT_NEAR(middle.p.z(), 1 + 0.15 / double{0.8f}, 1e-9);
+}
+
+TEST(BoneNode, DetachedAndResetItReturnsToTheBone) {
+  CarryingShow show(60);
+  show.tracker("foot", Vec3(1, 2, 3));
+  show.frames(10);
+  show.scene.command("hand", CommandId::Attach, {"all"}, show.scene.now());
+  show.frames(5);
+  EXPECT_LT((show.at(show.bone) - Vec3(1, 2, 3)).norm(), 1e-9);
+  show.scene.command("figure", commandNamed("pause"), {}, show.scene.now());
+  show.scene.command("hand", CommandId::Reset, {}, show.scene.now());
+  show.frames(5);
+  EXPECT_EQ(show.at(show.bone).x(), 5);
+  EXPECT_EQ(show.at(show.bone).y(), 0.5);
+  EXPECT_GT(show.at(show.bone).z(), 1);
 }
 
 }  // namespace
