@@ -9,6 +9,7 @@
 #include <cmath>
 #include <memory>
 #include <numeric>
+#include <tuple>
 #include <utility>
 
 namespace stadion {
@@ -128,15 +129,22 @@ void finish(Mesh& mesh) {
   mesh.hash = contentHash(mesh);
 }
 
-std::vector<std::uint32_t> weldPositions(const std::vector<std::array<float, 3>>& positions) {
+std::vector<std::uint32_t> weldPositions(const std::vector<std::array<float, 3>>& positions,
+                                         const std::vector<VertexJoints>& joints) {
+  const auto alike = [&](std::uint32_t a, std::uint32_t b) {
+    return joints.empty() || (joints[a].joint == joints[b].joint && joints[a].weight == joints[b].weight);
+  };
   std::vector<std::uint32_t> order(positions.size());
   std::iota(order.begin(), order.end(), 0u);
   std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
-    return positions[a] != positions[b] ? positions[a] < positions[b] : a < b;
+    if (positions[a] != positions[b]) return positions[a] < positions[b];
+    if (alike(a, b)) return a < b;
+    return std::tie(joints[a].joint, joints[a].weight) < std::tie(joints[b].joint, joints[b].weight);
   });
   std::vector<std::uint32_t> first(positions.size());
   for (std::size_t i = 0; i < order.size(); ++i) {
-    const bool same = i > 0 && positions[order[i]] == positions[order[i - 1]];
+    const bool same =
+        i > 0 && positions[order[i]] == positions[order[i - 1]] && alike(order[i], order[i - 1]);
     first[order[i]] = same ? first[order[i - 1]] : order[i];
   }
   return first;
@@ -144,7 +152,7 @@ std::vector<std::uint32_t> weldPositions(const std::vector<std::array<float, 3>>
 
 bool closed(const Mesh& mesh) {
   if (mesh.indices.empty()) return false;
-  const std::vector<std::uint32_t> weld = weldPositions(mesh.positions);
+  const std::vector<std::uint32_t> weld = weldPositions(mesh.positions, mesh.joints);
   // Each edge as (low end, high end), with the direction in the lowest bit of the second word.
   std::vector<std::pair<std::uint32_t, std::uint64_t>> edges;
   edges.reserve(mesh.indices.size());

@@ -15,7 +15,9 @@ bool closed(const Mesh& mesh);
 /// Sum of the areas of all triangles [m²].
 double area(const Mesh& mesh);
 
-/// For every vertex the number of the first vertex at the same position.
-std::vector<std::uint32_t> weldPositions(const std::vector<std::array<float, 3>>& positions);
+/// For every vertex the number of the first vertex at the same position, of a figure with the same joints: other
+/// vertices leave it when the figure moves. `joints` is empty or as long as the positions.
+std::vector<std::uint32_t> weldPositions(const std::vector<std::array<float, 3>>& positions,
+                                         const std::vector<VertexJoints>& joints = {});
 
 }  // namespace stadion

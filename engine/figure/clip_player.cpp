@@ -17,7 +17,8 @@ double seconds(Nanoseconds time) {
 void ClipPlayer::play(const Start& start, Nanoseconds when) {
   resume(when);
   if (start.fade <= 0) layers_.clear();
-  if (layers_.size() == FigureRecord::kMostLayers) layers_.erase(layers_.begin());
+  // The lowest has the most weight, so the one above it goes.
+  if (layers_.size() == FigureRecord::kMostLayers) layers_.erase(layers_.begin() + 1);
   Layer layer;
   layer.clip = start.clip;
   layer.length = start.length;
@@ -51,7 +52,8 @@ Nanoseconds ClipPlayer::reached(Nanoseconds time) const {
 double ClipPlayer::timeIn(const Layer& layer, Nanoseconds time) {
   const double t = layer.start + layer.speed * seconds(time - layer.since);
   if (!layer.loop) return std::clamp(t, 0.0, layer.length);
-  const double within = t - std::floor(t / layer.length) * layer.length;
+  double within = t - std::floor(t / layer.length) * layer.length;
+  if (layer.speed < 0 && within == 0) within = layer.length;  // a pass backwards begins at the end
   return std::clamp(within, 0.0, layer.length);
 }
 

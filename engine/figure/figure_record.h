@@ -9,8 +9,8 @@
 
 namespace stadion {
 
-/// A clip at a time of it. The first layer takes all of a figure. Each further one is blended over those
-/// before it.
+/// A clip at a time of it. The first layer is blended over the pose at rest, each further one over those before
+/// it.
 struct ClipLayer {
   std::uint32_t clip = 0;  ///< into Skeleton::clips
   float weight = 1;        ///< 0: nothing of it, 1: nothing of those before it

@@ -61,23 +61,31 @@ ClipPlayer::Start startOf(std::uint32_t clip, const Skeleton& skeleton, ClipPlay
   return start;
 }
 
-/// Reads one option. Returns how many words it has, 0 if it is none.
-std::size_t readOption(std::span<const std::string_view> words, ClipPlayer::Start& start) {
+/// Reads one option. Returns how many words it has; 0 if there is a fault.
+std::size_t readOption(std::span<const std::string_view> words, ClipPlayer::Start& start,
+                       std::string& fault) {
   if (words[0] == "once" || words[0] == "loop") {
     start.loop = words[0] == "loop";
     return 1;
   }
-  if (words.size() < 2) return 0;
-  const auto seconds = numberIn(words[1], 0, kMostSeconds);
-  const auto factor = numberIn(words[1], -kMostSpeed, kMostSpeed);
-  if (words[0] == "fade" && seconds)
-    start.fade = std::llround(*seconds * 1e9);
-  else if (words[0] == "from" && seconds)
-    start.at = *seconds;
-  else if (words[0] == "speed" && factor)
-    start.speed = *factor;
-  else
+  const bool isSpeed = words[0] == "speed";
+  if (!isSpeed && words[0] != "fade" && words[0] != "from") {
+    fault = fmt::format("\"{}\" is no option; use fade SECONDS, speed FACTOR, from SECONDS, once or loop",
+                        words[0]);
     return 0;
+  }
+  const double least = isSpeed ? -kMostSpeed : 0, most = isSpeed ? kMostSpeed : kMostSeconds;
+  const auto number = words.size() > 1 ? numberIn(words[1], least, most) : std::nullopt;
+  if (!number) {
+    fault = fmt::format("\"{}\" needs a number from {} to {} after it", words[0], least, most);
+    return 0;
+  }
+  if (isSpeed)
+    start.speed = *number;
+  else if (words[0] == "fade")
+    start.fade = std::llround(*number * 1e9);
+  else
+    start.at = *number;
   return 2;
 }
 
@@ -90,9 +98,11 @@ std::optional<std::uint32_t> clipNamed(const Skeleton& skeleton, std::string_vie
 }
 
 std::string clipNames(const Skeleton& skeleton) {
+  constexpr std::size_t kMost = 20;
   std::string names;
-  for (const Clip& clip : skeleton.clips)
-    names += fmt::format("{}\"{}\"", names.empty() ? "" : ", ", clip.name);
+  for (std::size_t i = 0; i < std::min(kMost, skeleton.clips.size()); ++i)
+    names += fmt::format("{}\"{}\"", names.empty() ? "" : ", ", skeleton.clips[i].name);
+  if (skeleton.clips.size() > kMost) names += fmt::format(" and {} more", skeleton.clips.size() - kMost);
   return names;
 }
 
@@ -102,11 +112,9 @@ ClipWords readPlay(std::string_view text, const Skeleton& skeleton, const ClipPl
   if (!found) return {{}, noSuchClip(text, skeleton)};
   ClipPlayer::Start start = startOf(found->clip, skeleton, standard);
   for (std::size_t at = found->words; at < words.size();) {
-    const std::size_t taken = readOption(std::span(words).subspan(at), start);
-    if (taken == 0)
-      return {{},
-              fmt::format("\"{}\" is no option; use fade SECONDS, speed FACTOR, from SECONDS, once or loop",
-                          words[at])};
+    std::string fault;
+    const std::size_t taken = readOption(std::span(words).subspan(at), start, fault);
+    if (taken == 0) return {{}, fault};
     at += taken;
   }
   if (start.at > start.length)
@@ -118,7 +126,8 @@ ClipWords readPose(std::string_view text, const Skeleton& skeleton) {
   Words words = split(text);
   const std::string_view last = words.empty() ? std::string_view() : words.back();
   const auto seconds = numberIn(last, 0, kMostSeconds);
-  if (words.size() < 2 || !seconds) return {{}, "it needs a clip and a time of it in seconds"};
+  if (words.size() < 2 || !seconds)
+    return {{}, "it needs a clip, and a time of it in seconds that is not negative"};
   words.pop_back();
   const auto found = clipIn(words, skeleton);
   if (!found || found->words < words.size()) return {{}, noSuchClip(text, skeleton)};

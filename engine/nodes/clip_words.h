@@ -17,13 +17,13 @@ std::optional<std::uint32_t> clipNamed(const Skeleton& skeleton, std::string_vie
 /// `"run", "throw"`: the clips that there are.
 std::string clipNames(const Skeleton& skeleton);
 
-/// What a command asks for, or what is wrong with it, in a sentence.
+/// The start that a command asks for, or a sentence about its fault.
 struct ClipWords {
   std::optional<ClipPlayer::Start> start{};
   std::string fault{};
 };
 
-/// `CLIP [fade SECONDS] [speed FACTOR] [from SECONDS] [once]`. `standard` has what is not stated.
+/// `CLIP [fade SECONDS] [speed FACTOR] [from SECONDS] [once|loop]`. `standard` has what is not stated.
 ClipWords readPlay(std::string_view words, const Skeleton& skeleton, const ClipPlayer::Start& standard);
 /// `CLIP SECONDS`: stands still at a time of the clip.
 ClipWords readPose(std::string_view words, const Skeleton& skeleton);

@@ -197,7 +197,8 @@ FigureNode::Beginning beginningOf(const NodeRequest& r, const Skeleton& skeleton
   start.clip = *clip;
   start.length = skeleton.clips[*clip].length;
   start.at = d.number("phase");
-  if (start.length > 0) start.at -= std::floor(start.at / start.length) * start.length;
+  if (!start.loop) start.at = std::min(start.at, start.length);
+  if (start.loop && start.length > 0) start.at -= std::floor(start.at / start.length) * start.length;
   return start;
 }
 

@@ -3,7 +3,7 @@
 ///
 /// Events    finished, when a clip that does not repeat has ended; looped, at the end of each pass of one that
 ///           repeats. Both at the exact time.
-/// Commands  play [CLIP [fade SECONDS] [speed FACTOR] [from SECONDS] [once]], pause, stop, pose CLIP SECONDS,
+/// Commands  play [CLIP [fade SECONDS] [speed FACTOR] [from SECONDS] [once|loop]], pause, stop, pose CLIP SECONDS,
 ///           reset, and those of a placed node.
 /// It is not visited while nothing moves it.
 

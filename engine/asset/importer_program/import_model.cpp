@@ -74,6 +74,7 @@ ImportedModel importModel(const Request& request) {
     throw Refusal(dropped.notFinite ? "holds no triangles with finite corners" : "holds no triangles");
   readMaterials(scene, picturesOf(request), seenThrough(flat), result.mesh, result.inventory);
   makeNormals(flat);
+  turnMirrored(flat);
   joinInto(flat, result.mesh);
   return result;
 }

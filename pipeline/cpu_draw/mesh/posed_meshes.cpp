@@ -3,6 +3,7 @@
 #include "engine/figure/figure_pose.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cstring>
 
 namespace stadion {
@@ -74,6 +75,8 @@ void PosedMeshes::begin(std::uint64_t frame) {
     std::erase_if(poses, isOld);
     ++figure;
   }
+  // What others have read of a mesh that they gave back comes before it is written again.
+  std::atomic_thread_fence(std::memory_order_acquire);
 }
 
 std::size_t PosedMeshes::size() const {

@@ -21,6 +21,16 @@ std::uint64_t placeOf(const std::array<float, 3>& p) {
   return stir(stir(bits(p[0]) | bits(p[1]) << 32) + bits(p[2]));
 }
 
+/// Of a figure, vertices with other joints lie elsewhere once it moves.
+std::uint64_t placeOf(const Mesh& mesh, std::uint32_t vertex) {
+  std::uint64_t place = placeOf(mesh.positions[vertex]);
+  if (mesh.joints.empty()) return place;
+  const VertexJoints& carried = mesh.joints[vertex];
+  for (std::size_t k = 0; k < VertexJoints::kMost; ++k)
+    place = stir(place + (std::uint64_t{carried.joint[k]} | bits(carried.weight[k]) << 32));
+  return place;
+}
+
 std::uint64_t edge(std::uint64_t from, std::uint64_t to) {
   return stir(from + 3 * to);
 }
@@ -30,9 +40,9 @@ std::uint64_t edge(std::uint64_t from, std::uint64_t to) {
 bool encloses(const Mesh& mesh) {
   std::uint64_t balance = 0;
   for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
-    const std::uint64_t a = placeOf(mesh.positions[mesh.indices[i]]);
-    const std::uint64_t b = placeOf(mesh.positions[mesh.indices[i + 1]]);
-    const std::uint64_t c = placeOf(mesh.positions[mesh.indices[i + 2]]);
+    const std::uint64_t a = placeOf(mesh, mesh.indices[i]);
+    const std::uint64_t b = placeOf(mesh, mesh.indices[i + 1]);
+    const std::uint64_t c = placeOf(mesh, mesh.indices[i + 2]);
     balance += edge(a, b) + edge(b, c) + edge(c, a) - edge(b, a) - edge(c, b) - edge(a, c);
   }
   return balance == 0 && !mesh.indices.empty();

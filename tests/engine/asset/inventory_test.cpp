@@ -97,7 +97,7 @@ TEST(ModelInventory, NamesWhatAFileHolds) {
   for (const char* text :
        {"2 lights (\"sun\", \"lamp\")", "1 camera (\"front\")",
         "2 clips (\"walk\", \"wave\"): an object plays none, use figure( )",
-        "1 skin (\"rig\") of 1 bone: an object stands in its rest pose, use figure( )",
+        "1 skin (\"rig\") of 1 bone: an object stands as its meshes are stored, use figure( )",
         "1 morph target (\"smile\")", "1 line", "2 points", "normal map of 1 material (\"skin\")",
         "occlusion map of 1 material (\"skin\")", "metallic-roughness map of 1 material (\"skin\")",
         "unlit of 1 material (\"skin\"): it is lit", "further texture coordinates of 1 mesh (\"body\")",

@@ -52,7 +52,9 @@ TEST(ClipPlayer, BackwardsItBeginsAtTheEnd) {
   ClipPlayer::Start s = clip(0, 2);
   s.speed = -1;
   player.play(s, 0);
+  EXPECT_DOUBLE_EQ(player.at(0).layers[0].time, 2);
   EXPECT_DOUBLE_EQ(player.at(0.5_s).layers[0].time, 1.5);
+  EXPECT_DOUBLE_EQ(player.at(2.0_s).layers[0].time, 2);
   EXPECT_EQ(player.takeEnd(5.0_s)->when, 2.0_s);
   EXPECT_EQ(player.takeEnd(5.0_s)->when, 4.0_s);
 }
@@ -116,11 +118,12 @@ TEST(ClipPlayer, AtMostFourClipsFadeAtATime) {
   ClipPlayer player;
   for (std::uint32_t i = 0; i < 7; ++i) {
     ClipPlayer::Start s = clip(i, 1);
-    s.fade = 10.0_s;
+    s.fade = i == 0 ? 0 : 10.0_s;
     player.play(s, static_cast<Nanoseconds>(i) * 1'000'000);
   }
   const FigureRecord r = player.at(0.1_s);
   ASSERT_EQ(r.layerCount, FigureRecord::kMostLayers);
+  EXPECT_EQ(r.layers[0].clip, 0u) << "the others are blended over it";
   EXPECT_EQ(r.layers[3].clip, 6u);
 }
 

@@ -12,16 +12,12 @@ Affine matrixOf(const std::array<float, 16>& m) {
   return X;
 }
 
-Affine poseOf(const GltfValue& node) {
-  if (node.has("matrix")) return matrixOf(node.reals<16>("matrix", {}));
+BonePlace placeOf(const GltfValue& node) {
   const Float3 t = node.reals<3>("translation", {0, 0, 0}), s = node.reals<3>("scale", {1, 1, 1});
   const Float4 r = node.reals<4>("rotation", {0, 0, 0, 1});
   Quat q(double{r[3]}, double{r[0]}, double{r[1]}, double{r[2]});
   if (!(q.norm() > 1e-6)) q = Quat::Identity();
-  Affine X = Affine::Identity();
-  X.linear() = q.normalized().toRotationMatrix() * Vec3(s[0], s[1], s[2]).asDiagonal();
-  X.translation() = Vec3(t[0], t[1], t[2]);
-  return X;
+  return {Vec3(t[0], t[1], t[2]), q.normalized(), Vec3(s[0], s[1], s[2])};
 }
 
 std::int32_t numberOr(std::optional<std::uint32_t> index) {
@@ -61,7 +57,12 @@ private:
   SourceNode nodeOf(const GltfValue& from, std::size_t nodes, std::size_t skins) const {
     SourceNode node;
     node.name = nameOf(from);
-    node.X_PN = poseOf(from);
+    if (from.has("matrix")) {
+      node.X_PN = matrixOf(from.reals<16>("matrix", {}));
+    } else {
+      node.place = placeOf(from);
+      node.X_PN = node.place->matrix();
+    }
     if (const auto mesh = from.index("mesh", to_.meshes.size())) node.meshes.push_back(*mesh);
     node.children = from.indices("children", nodes);
     node.skin = numberOr(from.index("skin", skins));

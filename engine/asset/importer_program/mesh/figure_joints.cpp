@@ -24,6 +24,26 @@ BonePlace placeOf(const Affine& X) {
   return place;
 }
 
+/// A name that a script can write: without control characters and quotation marks, without blanks at its ends,
+/// and given once.
+std::string nameFor(const SourceClip& clip, const std::vector<Clip>& before, ModelInventory& inventory) {
+  std::string name = clip.name;
+  for (char& c : name)
+    if (static_cast<unsigned char>(c) < ' ' || c == '"' || c == '\\' || c == 127) c = '_';
+  const std::size_t first = name.find_first_not_of(' ');
+  name = first == std::string::npos ? "clip" + std::to_string(before.size() + 1)
+                                    : name.substr(first, name.find_last_not_of(' ') + 1 - first);
+  const auto isTaken = [&](const std::string& wanted) {
+    return std::ranges::any_of(before, [&](const Clip& c) { return c.name == wanted; });
+  };
+  std::string own = name;
+  for (int n = 2; isTaken(own); ++n) own = name + "_" + std::to_string(n);
+  if (own != clip.name && !clip.name.empty())
+    inventory.add(ContentUse::Approximated,
+                  "clip " + inQuotes(clip.name) + ": it is called " + inQuotes(own));
+  return own;
+}
+
 bool allFinite(const std::vector<float>& values) {
   return std::ranges::all_of(values, [](float v) { return std::isfinite(v); });
 }
@@ -58,7 +78,7 @@ void FigureJoints::addBones(std::uint32_t root) {
       throw Refusal("has more than " + std::to_string(limits_.bones) + " nodes, too many for a figure");
     boneOf_[node] = static_cast<std::int32_t>(bones_.size());
     const SourceNode& from = scene_.nodes[node];
-    bones_.push_back({from.name, parent, from.X_PN, placeOf(from.X_PN)});
+    bones_.push_back({from.name, parent, from.X_PN, from.place.value_or(placeOf(from.X_PN))});
     for (auto child = from.children.rbegin(); child != from.children.rend(); ++child)
       rest.emplace_back(*child, boneOf_[node]);
   }
@@ -73,6 +93,8 @@ void FigureJoints::addJoints() {
     joints_.push_back({static_cast<std::uint32_t>(boneOf_[node]), toFile});
   }
   for (const SourceSkin& skin : scene_.skins) {
+    if (std::ranges::any_of(skin.inverseBinds, [](const Affine& X) { return !X.matrix().allFinite(); }))
+      throw Refusal("has a skin " + inQuotes(skin.name) + " with an inverse bind matrix that is not finite");
     firstOfSkin_.push_back(static_cast<std::uint32_t>(joints_.size()));
     for (std::size_t i = 0; i < skin.joints.size(); ++i)
       joints_.push_back({static_cast<std::uint32_t>(boneOf_[skin.joints[i]]), skin.inverseBinds[i] * toFile});
@@ -112,8 +134,8 @@ VertexJoints FigureJoints::of(const SourcePrimitive& part, std::size_t vertex, s
   return v;
 }
 
-Clip FigureJoints::clipOf(const SourceClip& from, std::size_t number, std::size_t& leftOut) const {
-  Clip clip{from.name.empty() ? "clip" + std::to_string(number + 1) : from.name, 0, {}};
+Clip FigureJoints::clipOf(const SourceClip& from, std::string name, std::size_t& leftOut) const {
+  Clip clip{std::move(name), 0, {}};
   for (const SourceChannel& c : from.channels) {
     if (c.target == ChannelTarget::Weights || boneOf_[c.node] < 0) continue;
     if (!playable(c)) {
@@ -134,7 +156,7 @@ Skeleton FigureJoints::skeleton(ModelInventory& inventory) const {
   std::size_t leftOut = 0;
   std::uint64_t keys = 0;
   for (const SourceClip& clip : scene_.clips) {
-    skeleton.clips.push_back(clipOf(clip, skeleton.clips.size(), leftOut));
+    skeleton.clips.push_back(clipOf(clip, nameFor(clip, skeleton.clips, inventory), leftOut));
     for (const ClipChannel& c : skeleton.clips.back().channels) keys += c.values.size();
   }
   if (keys > limits_.keys)

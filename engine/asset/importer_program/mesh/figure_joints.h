@@ -29,7 +29,7 @@ private:
   void addBones(std::uint32_t root);
   void addJoints();
   VertexJoints carriedBy(std::uint32_t joint) const;
-  Clip clipOf(const SourceClip& from, std::size_t number, std::size_t& leftOut) const;
+  Clip clipOf(const SourceClip& from, std::string name, std::size_t& leftOut) const;
 
   const SourceScene& scene_;
   SkeletonLimits limits_;

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace stadion::importer {
 namespace {
@@ -81,8 +82,9 @@ public:
     for (const std::uint32_t mesh : node.meshes)
       for (const SourcePrimitive& primitive : scene_.meshes[mesh].primitives) {
         const std::size_t first = flat.vertices.size();
-        append(primitive, joints_ ? scene_.toShow : X, X.linear().determinant() < 0);
-        if (joints_) takeJoints(primitive, index, joints_->skinOf(index, mesh), first);
+        const std::int32_t skin = joints_ ? joints_->skinOf(index, mesh) : -1;
+        append(primitive, joints_ ? scene_.toShow : X, skin < 0 && X.linear().determinant() < 0);
+        if (joints_) takeJoints(primitive, index, skin, first);
       }
     for (const std::uint32_t child : node.children) visit(child, X, depth + 1);
   }
@@ -100,8 +102,7 @@ private:
     appendVertices(part, X);
     for (std::array<std::uint32_t, 3> corner : part.triangles) {
       for (std::uint32_t& c : corner) c += first;
-      if (mirrored) std::swap(corner[1], corner[2]);
-      flat.triangles.push_back({corner, part.material});
+      flat.triangles.push_back({corner, part.material, mirrored});
     }
   }
 
@@ -173,6 +174,7 @@ bool closedSurface(const Flat& flat, const std::vector<Fault>& faults) {
 Flat flatten(const SourceScene& scene, const FlattenLimits& limits) {
   Flattener flattener(scene, nullptr, limits);
   for (const std::uint32_t root : scene.roots) flattener.visit(root, scene.toShow, 0);
+  turnMirrored(flattener.flat);
   return std::move(flattener.flat);
 }
 
@@ -180,6 +182,11 @@ Flat flattenFigure(const SourceScene& scene, const FigureJoints& joints, const F
   Flattener flattener(scene, &joints, limits);
   for (const std::uint32_t root : scene.roots) flattener.visit(root, scene.toShow, 0);
   return std::move(flattener.flat);
+}
+
+void turnMirrored(Flat& flat) {
+  for (FlatTriangle& t : flat.triangles)
+    if (std::exchange(t.mirrored, false)) std::swap(t.corner[1], t.corner[2]);
 }
 
 DroppedTriangles dropBadTriangles(Flat& flat) {

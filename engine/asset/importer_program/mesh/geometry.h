@@ -21,6 +21,7 @@ struct FlatVertex {
 struct FlatTriangle {
   std::array<std::uint32_t, 3> corner;
   std::uint32_t material;
+  bool mirrored = false;  ///< of a figure: its node turns left into right, so its corners are to be turned
 };
 
 struct Flat {
@@ -50,6 +51,9 @@ DroppedTriangles dropBadTriangles(Flat& flat);
 
 /// Makes the normals that are missing: smooth, except across edges sharper than 40 degrees.
 void makeNormals(Flat& flat);
+
+/// Turns the corners of mirrored triangles. After makeNormals(), which looks at the surface as it is bound.
+void turnMirrored(Flat& flat);
 
 /// Joins equal vertices and sorts the triangles into one run per material.
 void joinInto(const Flat& flat, Mesh& mesh);

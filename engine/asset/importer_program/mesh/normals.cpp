@@ -50,8 +50,11 @@ struct CornerTable {
 
   explicit CornerTable(const Flat& flat) {
     std::vector<std::array<float, 3>> positions;
+    std::vector<VertexJoints> joints;
     for (const FlatVertex& v : flat.vertices) positions.push_back(v.position);
-    weld = weldPositions(positions);
+    for (std::size_t i = 0; flat.hasJoints && i < flat.vertices.size(); ++i)
+      joints.push_back(flat.vertices[i].joints);
+    weld = weldPositions(positions, joints);
     start.assign(flat.vertices.size() + 1, 0);
     for (const FlatTriangle& t : flat.triangles)
       for (std::uint32_t c : t.corner) ++start[weld[c] + 1];

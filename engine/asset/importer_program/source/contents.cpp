@@ -170,7 +170,7 @@ private:
     if (!scene_.skins.empty())
       add(figure_ ? ContentUse::Used : ContentUse::LeftOut,
           listed(namesOf(scene_.skins), "skin") + " of " + counted(bones, "bone") +
-              (figure_ ? "" : ": an object stands in its rest pose, use figure( )"));
+              (figure_ ? "" : ": an object stands as its meshes are stored, use figure( )"));
     if (!scene_.clips.empty())
       add(figure_ ? ContentUse::Used : ContentUse::LeftOut,
           listed(namesOf(scene_.clips), "clip") + (figure_ ? "" : ": an object plays none, use figure( )"));

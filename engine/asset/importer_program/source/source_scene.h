@@ -112,6 +112,7 @@ struct SourceMesh {
 struct SourceNode {
   std::string name;
   Affine X_PN = Affine::Identity();  ///< node to parent, or to the file's coordinates for a root
+  std::optional<BonePlace> place;    ///< the same in the file's own parts, if it states these
   std::int32_t parent = -1, skin = -1, camera = -1, light = -1;
   std::vector<std::uint32_t> children, meshes;
 };
