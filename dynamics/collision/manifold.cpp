@@ -163,6 +163,12 @@ void ballPoints(const Side& ball, const Side& other, double tau, double margin,
   if (g.distance < margin) points.push_back({g, 1});
 }
 
+/// Where the two are nearest, as at a corner beside an edge.
+void addNearest(const Side& a, const Side& b, double tau, double margin, std::vector<ManifoldPoint>& points) {
+  const Gap nearest = gapBetween(a, b, tau, {margin});
+  if (nearest.distance < margin) points.push_back({nearest, 99});
+}
+
 /// Meshes, and bounded planes against them.
 bool triangleManifold(const Side& a, const Side& b, double tau, double margin,
                       std::vector<ManifoldPoint>& points) {
@@ -192,14 +198,14 @@ void manifold(const Side& a, const Side& b, double tau, double margin, std::vect
              boxA && boxB) {
     boxManifold(a.at(tau).pose * boxA->pose, boxA->half, b.at(tau).pose * boxB->pose, boxB->half, margin,
                 points);
+    if (points.empty() && (a.collider || b.collider)) addNearest(a, b, tau, margin, points);
   } else if (triangleManifold(a, b, tau, margin, points) || solidManifold(a, b, tau, margin, points)) {
     return;
   } else {
     if (!isPlaneSide(a)) cornersNear(a, b, tau, margin, false, 1000, points);
     if (!isPlaneSide(b)) cornersNear(b, a, tau, margin, true, 1000000, points);
     if (isPlaneSide(a) || isPlaneSide(b)) return;
-    const Gap nearest = points.empty() ? gapBetween(a, b, tau, {margin}) : Gap{};
-    if (nearest.distance < margin) points.push_back({nearest, 99});
+    if (points.empty()) addNearest(a, b, tau, margin, points);
   }
 }
 

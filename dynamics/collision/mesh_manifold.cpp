@@ -11,14 +11,14 @@ namespace stadion {
 namespace {
 
 constexpr std::size_t kMostPoints = 8;  ///< points of a pair
-constexpr double kSunk = 0.1;            ///< share of a mesh's size by which it may have sunk into another
-constexpr double kSheet = 0.2;           ///< the same into an open mesh
-constexpr double kTurnedAway = 1e-3;     ///< cosine above which a face looks away
-constexpr double kParallel = 1e-5;       ///< sine of the angle between edges that do not cross
-constexpr double kHollow = 1e-3;         ///< sine of the angle by which faces at a hollow edge rise
-constexpr double kSunkIntoWall = 1e-3;   ///< beyond a hollow edge, a corner is over the floor up to here [m]
-constexpr double kFlat = 1e-5;           ///< sine of the angle of an edge that is none
-constexpr double kSame = 1e-6;           ///< distances that differ less are equal [m]
+constexpr double kSunk = 0.1;           ///< share of a mesh's size by which it may have sunk into another
+constexpr double kSheet = 0.2;          ///< the same into an open mesh
+constexpr double kTurnedAway = 1e-3;    ///< cosine above which a face looks away
+constexpr double kParallel = 1e-5;      ///< sine of the angle between edges that do not cross
+constexpr double kHollow = 1e-3;        ///< sine of the angle by which faces at a hollow edge rise
+constexpr double kSunkIntoWall = 1e-3;  ///< beyond a hollow edge, a corner is over the floor up to here [m]
+constexpr double kFlat = 1e-5;          ///< sine of the angle of an edge that is none
+constexpr double kSame = 1e-6;          ///< distances that differ less are equal [m]
 
 /// One of the two meshes, in the frame of B, in which the search is done.
 struct Body {
@@ -179,17 +179,17 @@ private:
     return static_cast<std::uint32_t>(2 * axis + (local[axis] < 0 ? 1 : 0));
   }
   /// Whether x is not over triangle t, because it lies beyond its edge m. A wall may stand there: what has sunk into
-  /// the wall is still over the floor.
-  static bool isBeyondEdge(const Body& faces, const Triangle& t, std::size_t m, const Vec3& n,
-                           const Vec3& x) {
+  /// the wall is still over the floor. If the wall leans back, what comes to it along the floor is over both.
+  bool isBeyondEdge(const Body& faces, const Triangle& t, std::size_t m, const Vec3& n, const Vec3& x) const {
     const Vec3 inwards = t.normal.cross(t.v[(m + 1) % 3] - t.v[m]);
     const double inside = inwards.dot(x - t.v[m]) / inwards.norm();
     if (inside >= -1e-9) return false;
     const std::int32_t next = t.next[m];
-    if (next < 0 || inside < -kSunkIntoWall) return true;
-    const Triangle& other = faces.tree.triangles()[static_cast<std::size_t>(next)];
+    if (next < 0 || inside < -std::max(kSunkIntoWall, margin_)) return true;
+    const Vec3 other = faces.X.q * faces.tree.triangles()[static_cast<std::size_t>(next)].normal;
     const double side = n.dot(t.normal);
-    return !(side * inwards.dot(faces.X.q * other.normal) > kHollow * inwards.norm());
+    return !(side * inwards.dot(other) > kHollow * inwards.norm()) ||
+           side * other.dot(x - t.v[m]) < -kSunkIntoWall;
   }
 
   void cornerOverFace(const Body& corners, std::uint32_t c, const Vec3& x, const Body& faces,
