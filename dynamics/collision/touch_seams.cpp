@@ -14,6 +14,8 @@ constexpr double kOpposed = -0.99;   ///< cosine below which two surfaces squeez
 constexpr double kSteep = 0.5;       ///< cosine below which a contact stands across the surface
 constexpr double kAlong = 2e-3;      ///< how far the surface is followed [m]
 constexpr double kInPlane = 0.1;     ///< share of a way by which it may leave a plane
+constexpr double kOnRise = 1e-2;     ///< a slope is straight so far from its foot [m]
+constexpr double kLeastRise = 1e-2;  ///< sine of the least angle between a slope and the surface before it
 constexpr double kOwn = 1e-9;        ///< sine of the angle between normals that are the same
 constexpr double kStraight = 1e-3;   ///< sine of the angle between two ways along one surface
 constexpr double kOnePlace = 1e-6;   ///< points that are nearer to each other count once [m]
@@ -63,6 +65,28 @@ bool isHidden(const Bearing& own, const Bearing& on, const std::vector<Bearing>&
   if (!(n.cross(m).norm() > kOwn)) return false;
   return !risesAbove(gap, *own.shape, own.X_WN, m, height) &&
          (cosine < kSteep || goesOn(gap, on, height, others));
+}
+
+std::optional<Vec3> normalOfRise(const Bearing& own, const Bearing& on) {
+  const Vec3& m = on.gap.normal;
+  const auto surfaceOver = [&](double way) {  // from the contact, to what is nearest to a place over it
+    double away = 0;
+    return Vec3(nearestTo(own.gap.point + way * m, *own.shape, own.X_WN, 1.01 * way, away) - own.gap.point);
+  };
+  const Vec3 far = surfaceOver(kOnRise);
+  if (!(far.norm() > kLeastRise * kOnRise) || !(m.dot(far) > kLeastRise * far.norm())) return {};
+  // It rises straight from the contact. The upper edge of a flush piece is at one height instead.
+  const Vec3 near = surfaceOver(0.5 * kOnRise), normal = kOnRise * m - far;
+  if ((2 * near - far).norm() > kStraight * far.norm() || !(normal.norm() > kLeastRise * kOnRise) ||
+      !(normal.dot(own.gap.normal) > 0))
+    return {};
+  return normal.normalized();
+}
+
+bool isInSurface(const Bearing& own, const Bearing& on) {
+  const Vec3& m = on.gap.normal;
+  return !own.gap.face && own.gap.normal.dot(m) > kAlike &&
+         std::fabs(m.dot(own.gap.point - on.gap.point)) <= kFlush + std::max(0.0, -on.gap.distance);
 }
 
 bool isSquareToPiece(const Bearing& on) {
@@ -184,19 +208,30 @@ std::vector<char> hiddenAmong(std::vector<Bearing>& points) {
   if (n < 2 || std::ranges::none_of(points, differs)) return {};
   std::vector<char> hidden(n, 0), gone(n, 0);
   std::vector<std::pair<std::size_t, std::size_t>> hides;  // which bearing, which other
+  std::vector<std::pair<std::size_t, Vec3>> rises;         // which bearing, the normal of its slope
   for (std::size_t i = 0; i < n; ++i)
     for (std::size_t k = 0; k < n; ++k) {
       const Bearing &p = points[i], &on = points[k];
       if (i == k || on.gap.distance > kTouching) continue;
       if (p.of == on.of && !std::holds_alternative<MeshShape>(*p.shape)) continue;
-      if (isHidden(p, on, points)) {
+      const bool isBehind = isHidden(p, on, points);
+      if (!isBehind && !isInSurface(p, on)) continue;
+      if (const auto normal = normalOfRise(p, on)) {
+        if (rises.empty() || rises.back().first != i) rises.emplace_back(i, *normal);
+      } else if (isBehind) {
         hides.emplace_back(k, i);
         hidden[i] = 1;
       }
     }
   for (const auto& [by, hiddenOne] : hides)
     if (!hidden[by]) gone[hiddenOne] = 1;
-  if (!joinOverSlits(points, gone) && hides.empty()) return {};
+  for (const auto& [i, normal] : rises) {
+    Gap& gap = points[i].gap;
+    if (gone[i]) continue;
+    gap.distance *= normal.dot(gap.normal);
+    gap.normal = normal;
+  }
+  if (!joinOverSlits(points, gone) && hides.empty() && rises.empty()) return {};
   return gone;
 }
 

@@ -9,6 +9,7 @@
 ///          2. the touched piece does not go on along n's plane to above that surface, and
 ///          3. where n and m differ by less than 60 degrees, the surface goes on on the side that n leans to.
 ///          So steps below kFlush are no edges; a step above it is one.
+/// Slopes   if the piece rises from there in a slope, the body meets the slope next. The contact gets its normal.
 /// Slits    a corner that comes down between two flush pieces touches an edge of each. Both normals are the
 ///          body's then. The surface that the pieces make up gives the one normal that counts.
 
@@ -33,6 +34,13 @@ struct Bearing {
 /// surface may go on over the pieces of `others`.
 bool isHidden(const Bearing& own, const Bearing& on, const std::vector<Bearing>& others);
 
+/// Returns true if the contact `own`, at an edge, is one more of the surface `on`.
+bool isInSurface(const Bearing& own, const Bearing& on);
+
+/// Returns the normal of the slope by which the piece of `own` rises from there above the surface `on`. Expects a
+/// contact that is hidden or in the surface. Nothing if the piece does not rise, or stands upright there.
+std::optional<Vec3> normalOfRise(const Bearing& own, const Bearing& on);
+
 /// Returns true if the normal of this contact is the one of the piece's surface, as it is not at an edge that
 /// the body leans over.
 bool isSquareToPiece(const Bearing& on);
@@ -43,7 +51,7 @@ std::optional<Vec3> normalOverSlit(const Bearing& a, const std::vector<Bearing>&
 
 /// Which points of one body the surfaces at others hide, one flag each; empty if none. What only hidden ones
 /// hide counts as not hidden: something must carry the body. Points at a slit get the normal of the surface,
-/// and count once.
+/// and count once. Points at the foot of a slope get its normal.
 std::vector<char> hiddenAmong(std::vector<Bearing>& points);
 
 }  // namespace stadion

@@ -251,7 +251,7 @@ void ContactFinder::dropHidden(const RigidBody& b, double tau, std::size_t first
   std::vector<char> gone(found.size(), 0);
   for (std::size_t k = 0; k < hidden.size(); ++k)
     if (!hidden[k]) {
-      found[whose[k]].gap.normal = points[k].gap.normal;
+      found[whose[k]].gap = points[k].gap;
     } else {
       beside_.push_back({b.id, found[whose[k]].b, false});
       gone[whose[k]] = 1;

@@ -134,7 +134,13 @@ bool FlushSurfaces::isHiddenTouch(const Side& a, const Side& b, Touch& touch) co
   const std::vector<Bearing> bearings = bearingsOf(*body.body, touch.tau, *piece.collider);
   const auto normal = normalOverSlit(own, bearings);
   for (const Bearing& on : bearings) {
+    const bool inSurface = !normal && isInSurface(own, on);
     const bool hides = normal ? (on.gap.point - own.gap.point).norm() <= kFlush : isHidden(own, on, bearings);
+    if (!hides && !inSurface) continue;
+    if (const auto slope = normal ? std::nullopt : normalOfRise(own, on)) {
+      touch.gap.normal = a.body ? *slope : Vec3(-*slope);
+      return false;
+    }
     if (!hides) continue;
     // Where each hides the other, as at a slit, the one counts that carries the body already.
     if (carriesAlready(*body.body, on.of)) return true;
