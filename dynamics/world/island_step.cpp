@@ -1,5 +1,6 @@
 #include "dynamics/world/island_step.h"
 
+#include "dynamics/collision/manifold.h"
 #include "dynamics/contact/island_energy.h"
 #include "dynamics/world/ball_support.h"
 
@@ -25,6 +26,8 @@ constexpr double kMostSubsteps = 32;  ///< substeps of a step in which the lowes
 constexpr double kGive = 1;           ///< share of what presses that a hand or a lift yields
 constexpr double kShort = 1e-3;       ///< a floor missed by less is reached, nearly [m/s]
 constexpr double kLanding = 1e-5;     ///< shortest step towards a touch [s]
+constexpr double kOneWay = 0.98;      ///< cosine below which two surfaces are a valley or an edge
+constexpr double kUnknown = 5e-5;     ///< overlap by which a corner is down that was not near [m]
 
 bool staysWedged(const ContactIsland& s) {
   return s.wedged && std::ranges::any_of(s.found, [&](const FoundContact& f) {
@@ -104,6 +107,48 @@ bool inFold(const RigidBody& b, const Collider& c, const Support& face, double t
     const double distance = from.norm();
     return distance < reach && from.dot(local) < -kClosingIn * distance;
   });
+}
+
+/// Returns true if surfaces of two directions are near the body.
+bool isInValley(const ContactIsland& s, std::size_t body) {
+  const FoundContact* first = nullptr;
+  for (const FoundContact& f : s.found) {
+    if (f.contact.a != body) continue;
+    if (first && first->gap.normal.dot(f.gap.normal) < kOneWay) return true;
+    if (!first) first = &f;
+  }
+  return false;
+}
+
+/// Returns when a corner of the body that is not known yet reaches the still collider of contact `first`, the first of
+/// its pair; h if none does before. X: pose of the body at the start.
+double untilDown(const ContactIsland& s, std::size_t first, const Collider& c, const Pose& X, double h) {
+  constexpr int kMostLooks = 4;
+  const FoundContact& f = s.found[first];
+  const SolverBody& m = s.start[f.contact.a];
+  double known = 0;
+  for (std::size_t k = first; k < s.found.size() && s.found[k].a == f.a && s.found[k].b == f.b; ++k)
+    known = std::min(known, s.found[k].gap.distance);
+  Collider body;
+  body.shape = s.set[f.contact.a]->shape;
+  body.bound = s.set[f.contact.a]->bound;
+  std::vector<ManifoldPoint> points;
+  for (int look = 0; look < kMostLooks; ++look) {
+    const Quat turn = det::expRotation(h * m.omega);
+    const Vec3 p = m.p + h * m.v;
+    body.motion.end = {p + turn * (X.p - m.p), turn * X.q};
+    manifold(Side::of(body), Side::of(c), 0, 0, points);
+    double late = 0;
+    for (const ManifoldPoint& at : points) {
+      const double closing = -at.gap.normal.dot(m.v + m.omega.cross(at.gap.point - p));
+      if (at.gap.distance < known - kUnknown && closing > kRestitutionSpeed)
+        late = std::max(late, -at.gap.distance / closing);
+    }
+    if (!(late > 0)) return h;
+    if (!(h - late > kLanding)) return kLanding;
+    h -= late;
+  }
+  return h;
 }
 
 }  // namespace
@@ -402,6 +447,25 @@ double IslandStep::stepOf(const ContactIsland& s, double tau, double h) const {
   return h / std::max(1.0, parts);
 }
 
+/// A pair in contact has no predicted touches. But where two surfaces meet in a valley, one more corner of the body
+/// may come over the edge of a collider that another corner touches. The step ends when that corner is down.
+double IslandStep::untilNextCorner(const ContactIsland& s, double tau, double h) const {
+  for (std::size_t i = 0; i < s.set.size(); ++i) {
+    const RigidBody& b = *s.set[i];
+    const SolverBody& m = s.start[i];
+    const bool fast = m.v.norm() + m.omega.norm() * b.reach > kRestitutionSpeed;
+    if (!fast || b.isBall() || !b.grip.recoveries.empty() || !isInValley(s, i)) continue;
+    for (std::size_t k = 0; k < s.found.size(); ++k) {
+      const FoundContact& f = s.found[k];
+      if (f.contact.a != i || f.b.isBody || (k > 0 && s.found[k - 1].a == f.a && s.found[k - 1].b == f.b))
+        continue;
+      const Collider& c = *objects_.collider(f.b.id);
+      if (!c.motion.moving) h = untilDown(s, k, c, b.at(tau).pose, h);
+    }
+  }
+  return h;
+}
+
 void IslandStep::advance(ContactIsland& s, double tau, double h) {
   begin(s, tau);
   stopApproaches(s, tau);
@@ -419,7 +483,7 @@ void IslandStep::advance(ContactIsland& s, double tau, double h) {
   }
   s.glides = last > 0;
   if (!s.glides) {
-    h = stepOf(s, tau, h);
+    h = untilNextCorner(s, tau, stepOf(s, tau, h));
     const bool holds = solveStep(s, tau, h, Effort::Moving);
     for (RigidBody* b : s.set) b->contact.unsolved = !holds;
     boundStep(s, h);

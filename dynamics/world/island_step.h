@@ -74,6 +74,7 @@ private:
   double glideAt(const ContactIsland& island, const FoundContact& f, double probe, double most,
                  std::vector<ContactSide>& way);
   double stepOf(const ContactIsland& island, double tau, double h) const;
+  double untilNextCorner(const ContactIsland& island, double tau, double h) const;
   void holdRims(ContactIsland& island, const std::vector<SolverBody>& solved) const;
   void conclude(ContactIsland& island, double tau, double h);
   void concludeFreely(RigidBody& b, const SolverBody& start, double tau);
