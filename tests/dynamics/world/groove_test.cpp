@@ -12,8 +12,8 @@ using namespace scenes;
 enum class Groove { Boxes, Convexes, OneMesh };
 constexpr std::array kGrooves{Groove::Boxes, Groove::Convexes, Groove::OneMesh};
 
-constexpr double kLength = 6;
-const Vec3 kHalf(0.25, 0.2, 0.15);  ///< of each body [m]
+constexpr double kGrooveLength = 6;
+const Vec3 kBrickHalf(0.25, 0.2, 0.15);  ///< of each body [m]
 
 /// Turns z to the upward normal of the side that rises to the left (-1) or to the right (1).
 Quat side(int which, double slope) {
@@ -27,7 +27,8 @@ void addGroove(World& w, Groove kind, double slope, const Surface& surface) {
     const Quat q = side(which, slope);
     const auto at = [&](double along, double y) { return Vec3(q * Vec3(which * along, y, 0)); };
     if (kind == Groove::OneMesh) {
-      const Vec3 a = at(0, -kLength), b = at(kLength, -kLength), c = at(kLength, kLength), d = at(0, kLength);
+      const Vec3 a = at(0, -kGrooveLength), b = at(kGrooveLength, -kGrooveLength),
+                 c = at(kGrooveLength, kGrooveLength), d = at(0, kGrooveLength);
       if (which > 0) {
         mesh.triangles.push_back({a, b, c});
         mesh.triangles.push_back({a, c, d});
@@ -36,8 +37,8 @@ void addGroove(World& w, Groove kind, double slope, const Surface& surface) {
         mesh.triangles.push_back({a, d, c});
       }
     } else {
-      addPiece(w, kind == Groove::Boxes ? Ground::Boxes : Ground::Convexes, {at(0.5 * kLength, 0), q},
-               -0.5 * kLength, 0.5 * kLength, -kLength, kLength, 0, surface);
+      addPiece(w, kind == Groove::Boxes ? Ground::Boxes : Ground::Convexes, {at(0.5 * kGrooveLength, 0), q},
+               -0.5 * kGrooveLength, 0.5 * kGrooveLength, -kGrooveLength, kGrooveLength, 0, surface);
     }
   }
   if (!mesh.triangles.empty()) w.addCollider({w.addShape(mesh.shape()), {}, surface});
@@ -47,11 +48,11 @@ BodyDef brick(World& w, Solid kind) {
   BodyDef d;
   std::vector<Vec3> corners;
   for (int i = 0; i < 8; ++i)
-    corners.emplace_back(kHalf.cwiseProduct(Vec3(i & 1 ? 1 : -1, i & 2 ? 1 : -1, i & 4 ? 1 : -1)));
-  d.shape = kind == Solid::Box      ? w.addShape(BoxShape{{}, kHalf})
+    corners.emplace_back(kBrickHalf.cwiseProduct(Vec3(i & 1 ? 1 : -1, i & 2 ? 1 : -1, i & 4 ? 1 : -1)));
+  d.shape = kind == Solid::Box      ? w.addShape(BoxShape{{}, kBrickHalf})
             : kind == Solid::Convex ? w.addShape(*convexHull(corners))
-                                    : w.addShape(MeshShape(TriangleTree(boxMesh(kHalf))));
-  d.mass = massOfBox({}, kHalf, 1).withMass(1);
+                                    : w.addShape(MeshShape(TriangleTree(boxMesh(kBrickHalf))));
+  d.mass = massOfBox({}, kBrickHalf, 1).withMass(1);
   return d;
 }
 
@@ -60,7 +61,7 @@ double overlapOf(const Pose& X, double slope) {
   double deepest = -1e300;
   for (const int which : {-1, 1}) {
     const Vec3 n = side(which, slope) * Vec3::UnitZ();
-    deepest = std::max(deepest, (X.q.conjugate() * n).cwiseAbs().dot(kHalf) - n.dot(X.p));
+    deepest = std::max(deepest, (X.q.conjugate() * n).cwiseAbs().dot(kBrickHalf) - n.dot(X.p));
   }
   return deepest;
 }
@@ -77,7 +78,7 @@ double deepestOf(Groove groove, Solid kind, const Slide& s) {
   addGroove(w, groove, s.slope, surface);
   BodyDef d = brick(w, kind);
   const Quat face = side(1, s.slope);
-  d.pose = {face * Vec3(1.2, 0, kHalf.z()), face * Quat(Eigen::AngleAxisd(s.turn, Vec3::UnitZ()))};
+  d.pose = {face * Vec3(1.2, 0, kBrickHalf.z()), face * Quat(Eigen::AngleAxisd(s.turn, Vec3::UnitZ()))};
   d.v = face * Vec3(-s.speed, 0.1, 0);
   d.omega = face * Vec3(0, 0, s.spin);
   d.surface = surface;
@@ -91,15 +92,18 @@ double deepestOf(Groove groove, Solid kind, const Slide& s) {
 // so it looked like the hidden side of a flush piece. The greatest overlap is 0.05 mm. But in run 36 a brick turns
 // about a corner at 7 rad/s, and that corner sinks in by 0.17 mm.
 TEST(Groove, ABrickThatSlidesIntoItStopsAtTheOtherSide) {
-  constexpr std::array kRates{25.0, 60.0, 240.0};
+  constexpr std::array kFramesASecond{25.0, 60.0, 240.0};
   for (int run = 0; run < 45; ++run) {
     Chance chance(static_cast<unsigned>(run));
     const Groove groove = kGrooves[static_cast<std::size_t>(run) % 3];
     Solid kind = std::array{Solid::Mesh, Solid::Convex, Solid::Box}[static_cast<std::size_t>(run / 3) % 3];
     if (groove == Groove::OneMesh) kind = Solid::Mesh;
-    const Slide slide{
-        chance.between(0.25, 0.75), chance.between(0.5, 4), chance.between(-1.5, 1.5),
-        chance.between(-3, 3),      run % 2 * 0.2,          kRates[static_cast<std::size_t>(run / 9) % 3]};
+    const Slide slide{chance.between(0.25, 0.75),
+                      chance.between(0.5, 4),
+                      chance.between(-1.5, 1.5),
+                      chance.between(-3, 3),
+                      run % 2 * 0.2,
+                      kFramesASecond[static_cast<std::size_t>(run / 9) % 3]};
     EXPECT_LT(deepestOf(groove, kind, slide), run == 36 ? 2e-4 : 1e-4) << run << ": " << nameOf(kind);
   }
 }
