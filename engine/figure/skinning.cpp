@@ -8,7 +8,6 @@ namespace {
 
 /// Four numbers at a time, by the compiler's vectors.
 using Lanes = float __attribute__((vector_size(16)));
-using LaneNumbers = int __attribute__((vector_size(16)));
 
 constexpr Lanes all(float v) {
   return Lanes{v, v, v, v};
@@ -40,7 +39,7 @@ void add(Columns& sum, const Columns& c, float weight) {
 }
 
 Lanes turned(Lanes v) {
-  return __builtin_shuffle(v, LaneNumbers{1, 2, 0, 3});
+  return __builtin_shufflevector(v, v, 1, 2, 0, 3);
 }
 
 Lanes cross(Lanes a, Lanes b) {

@@ -87,7 +87,7 @@ private:
     if (!call_.queryDevices(count, devices.data(), &count)) return;
     devices.resize(static_cast<std::size_t>(std::max(count, 0)));
     for (const EGLDeviceEXT device : devices) cards_.push_back(describe(device));
-    std::ranges::stable_partition(cards_, [](const EglCard& card) { return !card.software; });
+    std::stable_partition(cards_.begin(), cards_.end(), [](const EglCard& card) { return !card.software; });
   }
 
   EglCard describe(EGLDeviceEXT device) const {

@@ -12,6 +12,7 @@
 #include <map>
 #include <memory>
 #include <mutex>
+#include <utility>
 #include <vector>
 
 namespace stadion {
@@ -32,15 +33,20 @@ private:
     std::mutex mutex;          ///< held while it is made
     std::shared_ptr<CpuMesh> mesh;
   };
-  using Poses = std::vector<std::shared_ptr<Pose>>;
+  /// Meshes of one figure that nothing draws any more.
+  class Spares;
+  struct Figure {
+    std::vector<std::shared_ptr<Pose>> poses;
+    std::shared_ptr<Spares> spares;
+  };
 
-  std::shared_ptr<Pose> poseOf(const std::shared_ptr<const CpuMesh>& rest, const FigureRecord& playing);
-  std::shared_ptr<CpuMesh> takeSpare(const std::shared_ptr<const CpuMesh>& rest);
+  /// The pose, and the spare meshes of its figure.
+  std::pair<std::shared_ptr<Pose>, std::shared_ptr<Spares>> poseOf(const std::shared_ptr<const CpuMesh>& rest,
+                                                                   const FigureRecord& playing);
 
   mutable std::mutex mutex_;
-  std::uint64_t frame_ = 0;                                ///< the newest
-  std::map<std::shared_ptr<const CpuMesh>, Poses> poses_;  ///< by the figure at rest
-  std::map<std::shared_ptr<const CpuMesh>, std::vector<std::shared_ptr<CpuMesh>>> spare_;
+  std::uint64_t frame_ = 0;                                   ///< the newest
+  std::map<std::shared_ptr<const CpuMesh>, Figure> figures_;  ///< by the figure at rest
 };
 
 }  // namespace stadion
