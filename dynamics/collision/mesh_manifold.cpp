@@ -17,6 +17,7 @@ constexpr double kTurnedAway = 1e-3;    ///< cosine above which a face looks awa
 constexpr double kParallel = 1e-5;      ///< sine of the angle between edges that do not cross
 constexpr double kHollow = 1e-3;        ///< sine of the angle by which faces at a hollow edge rise
 constexpr double kSunkIntoWall = 1e-3;  ///< beyond a hollow edge, a corner is over the floor up to here [m]
+constexpr double kOverFace = 1e-9;      ///< a corner that is beyond an edge by less is over the face [m]
 constexpr double kFlat = 1e-5;          ///< sine of the angle of an edge that is none
 constexpr double kSame = 1e-6;          ///< distances that differ less are equal [m]
 
@@ -59,6 +60,25 @@ struct Edge {
   bool border;
 };
 
+/// How far the other may be below a face of this one.
+double limitOf(const Body& faces, const Body& other) {
+  return faces.tree.closed() ? kSunk * std::min(faces.size, other.size) : kSheet * other.size;
+}
+
+/// The axis of the mesh that a face's normal is nearest to, with its sign: a number below 6. A corner may touch
+/// several faces, and each of these contacts has its own forces.
+std::uint32_t mainAxisOf(const Body& faces, const Vec3& n) {
+  const Vec3 local = faces.X.q.conjugate() * n;
+  Eigen::Index axis = 0;
+  local.cwiseAbs().maxCoeff(&axis);
+  return static_cast<std::uint32_t>(2 * axis + (local[axis] < 0 ? 1 : 0));
+}
+
+/// Names the contact of a corner over a face with normal n.
+std::uint32_t cornerKey(std::uint32_t corner, const Body& faces, const Vec3& n, bool flipped) {
+  return (flipped ? 1u << 30 : 0u) + (mainAxisOf(faces, n) << 27) + corner;
+}
+
 class Gather {
 public:
   Gather(const Body& a, const Body& b, double margin, std::vector<ManifoldPoint>& found)
@@ -87,10 +107,6 @@ private:
     std::array<Vec3, 3> v;
   };
 
-  /// How far the other may be below a face of this one.
-  static double limitOf(const Body& faces, const Body& other) {
-    return faces.tree.closed() ? kSunk * std::min(faces.size, other.size) : kSheet * other.size;
-  }
   static double sideOf(const Body& faces, const Triangle& t, const Vec3& other) {
     return faces.tree.closed() || t.normal.dot(other - t.v[0]) >= 0 ? 1 : -1;
   }
@@ -170,20 +186,12 @@ private:
     return (p.array() >= box.lo.array()).all() && (p.array() <= box.hi.array()).all();
   }
 
-  /// The axis of the mesh that a face's normal is nearest to, with its sign: a number below 6. A corner may touch
-  /// several faces, and each of these contacts has its own forces.
-  static std::uint32_t mainAxisOf(const Body& faces, const Vec3& n) {
-    const Vec3 local = faces.X.q.conjugate() * n;
-    Eigen::Index axis = 0;
-    local.cwiseAbs().maxCoeff(&axis);
-    return static_cast<std::uint32_t>(2 * axis + (local[axis] < 0 ? 1 : 0));
-  }
   /// Whether x is not over triangle t, because it lies beyond its edge m. A wall may stand there: what has sunk into
   /// the wall is still over the floor. If the wall leans back, what comes to it along the floor is over both.
   bool isBeyondEdge(const Body& faces, const Triangle& t, std::size_t m, const Vec3& n, const Vec3& x) const {
     const Vec3 inwards = t.normal.cross(t.v[(m + 1) % 3] - t.v[m]);
     const double inside = inwards.dot(x - t.v[m]) / inwards.norm();
-    if (inside >= -1e-9) return false;
+    if (inside >= -kOverFace) return false;
     const std::int32_t next = t.next[m];
     if (next < 0 || inside < -std::max(kSunkIntoWall, margin_)) return true;
     const Vec3 other = faces.X.q * faces.tree.triangles()[static_cast<std::size_t>(next)].normal;
@@ -198,7 +206,7 @@ private:
     if (!(height < margin_) || height < -sunk) return;
     for (std::size_t m = 0; m < 3; ++m)
       if (isBeyondEdge(faces, t, m, n, x)) return;
-    const std::uint32_t key = (flipped ? 1u << 30 : 0u) + (mainAxisOf(faces, n) << 27) + c;
+    const std::uint32_t key = cornerKey(c, faces, n, flipped);
     for (std::size_t f = 0; f < keys_.size(); ++f)  // on a seam it is over both faces
       if (keys_[f] == key && found_[f].gap.normal.dot(flipped ? Vec3(-n) : n) > 0.999) return;
     if (!corners.facesAgainst(c, n) || (height < 0 && !faces.nothingNearer(x, -height))) return;
@@ -267,6 +275,10 @@ private:
   std::unique_ptr<Vec3[]> corners_;
 };
 
+Body bodyOf(const TriangleTree& mesh, const Pose& X, const Vec3& middle) {
+  return {mesh, X, middle, 0.5 * (mesh.bounds().hi - mesh.bounds().lo).norm()};
+}
+
 /// Keeps the deepest point and the widest spread, the same ones while they differ only by rounding.
 void thin(std::vector<ManifoldPoint>& points, double size) {
   if (points.size() <= kMostPoints) return;
@@ -308,11 +320,7 @@ bool meshesManifold(const TriangleTree& a, const Pose& X_WA, const Vec3& middleA
                     const Pose& X_WB, const Vec3& middleB, double margin,
                     std::vector<ManifoldPoint>& points) {
   const Pose X_BW = X_WB.inverse();
-  const auto bodyOf = [&](const TriangleTree& m, const Pose& X, const Vec3& middle) {
-    const Aabb& box = m.bounds();
-    return Body{m, X, X_BW * middle, 0.5 * (box.hi - box.lo).norm()};
-  };
-  const Body ba = bodyOf(a, X_BW * X_WA, middleA), bb = bodyOf(b, {}, middleB);
+  const Body ba = bodyOf(a, X_BW * X_WA, X_BW * middleA), bb = bodyOf(b, {}, X_BW * middleB);
   std::vector<ManifoldPoint> found;
   const bool near = Gather(ba, bb, margin, found).run();
   thin(found, std::min(ba.size, bb.size));
@@ -322,6 +330,30 @@ bool meshesManifold(const TriangleTree& a, const Pose& X_WA, const Vec3& middleA
   }
   points.insert(points.end(), found.begin(), found.end());
   return near;
+}
+
+void cornersBeyondBorder(const TriangleTree& a, const Pose& X_WA, const Vec3& middleA, const TriangleTree& b,
+                         const Pose& X_WB, double margin, std::vector<CornerBeyond>& corners) {
+  const Pose X_BW = X_WB.inverse();
+  const Body ba = bodyOf(a, X_BW * X_WA, X_BW * middleA), bb = bodyOf(b, {}, Vec3::Zero());
+  const double most = std::max(kSunkIntoWall, margin), sunk = limitOf(bb, ba);
+  for (std::uint32_t c = 0; c < a.corners().size(); ++c) {
+    const Vec3 x = ba.X * a.corners()[c];
+    ClosestPoint at;
+    const std::int32_t i = b.nearest(x, 2 * most, at);
+    if (i < 0 || at.edge < 0) continue;
+    const Triangle& t = b.triangles()[static_cast<std::size_t>(i)];
+    const Vec3 n = t.normal.dot(ba.middle - t.v[0]) >= 0 ? t.normal : Vec3(-t.normal);
+    const double height = n.dot(x - t.v[0]);
+    const Vec3 inwards = at.point - x + height * n;
+    const double beyond = inwards.norm();
+    if (!(beyond > kOverFace) || beyond > most || !(height < margin) || height < -sunk ||
+        !ba.facesAgainst(c, n))
+      continue;
+    const Gap gap{height, X_WB * (x - height * n), X_WB.q * n, true, i};
+    corners.push_back(
+        {{gap, cornerKey(c, bb, n, false), Carrier::A}, X_WB * at.point, X_WB.q * (inwards / beyond)});
+  }
 }
 
 }  // namespace stadion

@@ -21,4 +21,16 @@ const TriangleTree* trianglesOf(const Shape& shape, TriangleTree& sheet);
 bool meshesManifold(const TriangleTree& a, const Pose& X_WA, const Vec3& middleA, const TriangleTree& b,
                     const Pose& X_WB, const Vec3& middleB, double margin, std::vector<ManifoldPoint>& points);
 
+/// A corner of a mesh that is over no face of a sheet, but a little beyond its border.
+struct CornerBeyond {
+  ManifoldPoint point;  ///< on the plane of the sheet
+  Vec3 border;          ///< the place of the border that is nearest
+  Vec3 inwards;         ///< from the corner to there, along the sheet, unit
+};
+
+/// Appends the corners of a that are beyond the border of the sheet b by no more than `margin`. Another piece may
+/// begin there and rise: then what has sunk into that piece is still over the sheet.
+void cornersBeyondBorder(const TriangleTree& a, const Pose& X_WA, const Vec3& middleA, const TriangleTree& b,
+                         const Pose& X_WB, double margin, std::vector<CornerBeyond>& corners);
+
 }  // namespace stadion

@@ -67,20 +67,41 @@ bool isHidden(const Bearing& own, const Bearing& on, const std::vector<Bearing>&
          (cosine < kSteep || goesOn(gap, on, height, others));
 }
 
-std::optional<Vec3> normalOfRise(const Bearing& own, const Bearing& on) {
-  const Vec3& m = on.gap.normal;
-  const auto surfaceOver = [&](double way) {  // from the contact, to what is nearest to a place over it
+namespace {
+
+/// The same as normalOfRise() for a place on the piece, looked for in the direction `up` from there.
+std::optional<Vec3> slopeTowards(const Vec3& up, const Vec3& foot, const Vec3& m, const Shape& piece,
+                                 const Pose& X) {
+  const double reach = up.norm();
+  const auto surfaceOver = [&](double way) {  // from the foot, to what is nearest to a place over it
     double away = 0;
-    return Vec3(nearestTo(own.gap.point + way * m, *own.shape, own.X_WN, 1.01 * way, away) - own.gap.point);
+    return Vec3(nearestTo(foot + way * up, piece, X, 1.01 * way * reach, away) - foot);
   };
   const Vec3 far = surfaceOver(kOnRise);
   if (!(far.norm() > kLeastRise * kOnRise) || !(m.dot(far) > kLeastRise * far.norm())) return {};
-  // It rises straight from the contact. The upper edge of a flush piece is at one height instead.
-  const Vec3 near = surfaceOver(0.5 * kOnRise), normal = kOnRise * m - far;
-  if ((2 * near - far).norm() > kStraight * far.norm() || !(normal.norm() > kLeastRise * kOnRise) ||
-      !(normal.dot(own.gap.normal) > 0))
-    return {};
+  // It rises straight from the foot. The upper edge of a flush piece is at one height instead.
+  const Vec3 near = surfaceOver(0.5 * kOnRise), normal = kOnRise * up - far;
+  if ((2 * near - far).norm() > kStraight * far.norm() || !(normal.norm() > kLeastRise * kOnRise)) return {};
   return normal.normalized();
+}
+
+}  // namespace
+
+std::optional<Vec3> normalOfSlope(const Shape& piece, const Pose& X, const Vec3& foot, const Vec3& m,
+                                  const Vec3& side) {
+  // A piece that stands upright or leans over is behind what is straight over its foot.
+  for (const Vec3& up : {m, Vec3(m + side)})
+    if (const auto normal = slopeTowards(up, foot, m, piece, X); normal && normal->dot(side) > 0)
+      return normal;
+  return {};
+}
+
+std::optional<Vec3> normalOfRise(const Bearing& own, const Bearing& on) {
+  const Vec3 &n = own.gap.normal, &m = on.gap.normal, along = n - m * n.dot(m);
+  const double size = along.norm();
+  const Vec3 side = size > kOwn ? Vec3(along / size) : n;
+  const auto normal = normalOfSlope(*own.shape, own.X_WN, own.gap.point, m, side);
+  return normal && normal->dot(n) > 0 ? normal : std::nullopt;
 }
 
 bool isInSurface(const Bearing& own, const Bearing& on) {

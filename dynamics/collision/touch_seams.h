@@ -38,8 +38,13 @@ bool isHidden(const Bearing& own, const Bearing& on, const std::vector<Bearing>&
 bool isInSurface(const Bearing& own, const Bearing& on);
 
 /// Returns the normal of the slope by which the piece of `own` rises from there above the surface `on`. Expects a
-/// contact that is hidden or in the surface. Nothing if the piece does not rise, or stands upright there.
+/// contact that is hidden or in the surface. Nothing if the piece does not rise there.
 std::optional<Vec3> normalOfRise(const Bearing& own, const Bearing& on);
+
+/// Returns the normal of the slope by which a piece rises from the place `foot` above a plane with normal m. The
+/// body is on the side of the slope that `side` leads to. Nothing if the piece does not rise there.
+std::optional<Vec3> normalOfSlope(const Shape& piece, const Pose& X, const Vec3& foot, const Vec3& m,
+                                  const Vec3& side);
 
 /// Returns true if the normal of this contact is the one of the piece's surface, as it is not at an edge that
 /// the body leans over.

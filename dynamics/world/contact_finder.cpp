@@ -1,5 +1,6 @@
 #include "dynamics/world/contact_finder.h"
 
+#include "dynamics/collision/mesh_manifold.h"
 #include "dynamics/collision/touch_seams.h"
 #include "dynamics/contact/penetration_recovery.h"
 #include "dynamics/world/penetration_recoveries.h"
@@ -13,6 +14,7 @@ namespace {
 constexpr double kUsualPull = 9.81;  ///< that others in contact feel at least [m/s2]
 constexpr double kOneHeight = 1e-7;  ///< points that differ less in height lie in one plane [m]
 constexpr double kBeside = 1e-5;  ///< the point of an edge that is nearest to a body is known this well [m]
+constexpr double kSunkIn = 1e-3;  ///< what has sunk into a piece by more is not on the sheet before it [m]
 constexpr double kOneDirection = 1 - 1e-12;     ///< cosine between normals that are one
 constexpr std::uint32_t kNowhere = 0xffffffff;  ///< slot of a body that is in no set yet
 
@@ -106,6 +108,13 @@ bool isEvenOver(const std::vector<std::size_t>& group, const std::vector<FoundCo
   return true;
 }
 
+/// Returns true if the piece begins at the border beside the corner, and rises on the side away from the sheet.
+bool risesFrom(const Collider& piece, double tau, const CornerBeyond& c) {
+  const Gap& gap = c.point.gap;
+  const auto m = normalOfSlope(*piece.shape, piece.motion.at(tau).pose, c.border, gap.normal, c.inwards);
+  return m && m->dot(gap.point + gap.distance * gap.normal - c.border) > -kSunkIn;
+}
+
 template <class T>
 void eraseMarked(std::vector<T>& list, std::size_t first, const std::vector<char>& marked) {
   std::size_t kept = first;
@@ -134,6 +143,20 @@ void ContactFinder::sort() {
 std::span<const ContactFinder::Beside> ContactFinder::besideOf(BodyId id) const {
   return {std::ranges::lower_bound(beside_, id, {}, &Beside::body),
           std::ranges::upper_bound(beside_, id, {}, &Beside::body)};
+}
+
+void ContactFinder::addPoint(const RigidBody& b, const Side& other, const ManifoldPoint& p,
+                             std::vector<FoundContact>& found) const {
+  FoundContact f;
+  f.a = Side::of(b).key;
+  f.b = other.key;
+  f.surface = combine(b.surface, objects_.surfaceOf(other.key));
+  f.gap = p.gap;
+  f.carrier = p.carrier;
+  f.rounding = p.rounding;
+  f.key = pairKey(f.a, f.b, p.key);
+  f.contact.friction = f.surface.friction;
+  found.push_back(f);
 }
 
 /// A ball that has been put deep into a mesh leaves by one way: the shortest that nothing else that it
@@ -182,18 +205,7 @@ void ContactFinder::find(RigidBody& b, double tau, std::vector<FoundContact>& fo
   std::vector<ManifoldPoint> points;
   const auto against = [&](const Side& other, const Side& form) {
     manifold(self, form, tau, margin, points);
-    for (const ManifoldPoint& p : points) {
-      FoundContact f;
-      f.a = self.key;
-      f.b = other.key;
-      f.surface = combine(b.surface, objects_.surfaceOf(other.key));
-      f.gap = p.gap;
-      f.carrier = p.carrier;
-      f.rounding = p.rounding;
-      f.key = pairKey(f.a, f.b, p.key);
-      f.contact.friction = f.surface.friction;
-      found.push_back(f);
-    }
+    for (const ManifoldPoint& p : points) addPoint(b, other, p, found);
   };
   forgetRecoveries(b, objects_, tau);
   for (const PenetrationRecovery& w : b.grip.recoveries) {
@@ -224,8 +236,38 @@ void ContactFinder::find(RigidBody& b, double tau, std::vector<FoundContact>& fo
     against(other, other);
   });
   chooseRecovery(b, first, found);
+  addBeyondBorders(b, tau, margin, first, found);
   dropHidden(b, tau, first, found);
   joinFlush(b, first, found);
+}
+
+/// Where a sheet ends and another piece rises, corners that have sunk into that piece a little are beyond the border
+/// of the sheet. They stay contacts of the sheet, as on one mesh. Otherwise they would sink into both by turns.
+void ContactFinder::addBeyondBorders(const RigidBody& b, double tau, double margin, std::size_t first,
+                                     std::vector<FoundContact>& found) const {
+  const auto* mesh = std::get_if<MeshShape>(b.shape);
+  if (!mesh) return;
+  std::vector<ContactSide> pieces;
+  for (std::size_t i = first; i < found.size(); ++i)
+    if (!found[i].b.isBody && std::ranges::find(pieces, found[i].b) == pieces.end())
+      pieces.push_back(found[i].b);
+  if (pieces.size() < 2) return;
+  std::ranges::sort(pieces);
+  const Kinematics k = b.at(tau);
+  std::vector<CornerBeyond> corners;
+  for (const ContactSide piece : pieces) {
+    const Collider& c = *objects_.collider(piece.id);
+    TriangleTree sheet;
+    const TriangleTree* faces = trianglesOf(*c.shape, sheet);
+    if (!faces || faces->closed()) continue;
+    corners.clear();
+    cornersBeyondBorder(mesh->tree, k.pose, k.p, *faces, c.motion.at(tau).pose, margin, corners);
+    for (const CornerBeyond& corner : corners)
+      if (std::ranges::any_of(pieces, [&](ContactSide other) {
+            return other != piece && risesFrom(*objects_.collider(other.id), tau, corner);
+          }))
+        addPoint(b, Side::of(c), corner.point, found);
+  }
 }
 
 /// Takes what is hidden out of a body's contacts, which begin at `first`.

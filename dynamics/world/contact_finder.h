@@ -52,6 +52,11 @@ public:
 
 private:
   void chooseRecovery(const RigidBody& b, std::size_t first, std::vector<FoundContact>& found) const;
+  /// Adds a point of the body at another side.
+  void addPoint(const RigidBody& b, const Side& other, const ManifoldPoint& p,
+                std::vector<FoundContact>& found) const;
+  void addBeyondBorders(const RigidBody& b, double tau, double margin, std::size_t first,
+                        std::vector<FoundContact>& found) const;
   void dropHidden(const RigidBody& b, double tau, std::size_t first, std::vector<FoundContact>& found);
   void joinFlush(const RigidBody& b, std::size_t first, std::vector<FoundContact>& found);
   bool isOnStillCollider(const FoundContact& f) const;
