@@ -27,6 +27,12 @@ Vec3 nearestTo(const Vec3& x, const Shape& shape, const Pose& X, double limit, d
   return g.distance > 0 ? g.point : x;
 }
 
+/// Returns true if contacts with one such shape may hide each other. A sheet has edges and corners in its surface,
+/// as a mesh has.
+bool isOfTriangles(const Shape& shape) {
+  return std::holds_alternative<MeshShape>(shape) || std::holds_alternative<PlaneShape>(shape);
+}
+
 /// Whether the piece goes on along the contact's plane to above the surface.
 bool risesAbove(const Gap& gap, const Shape& piece, const Pose& X, const Vec3& m, double height) {
   const Vec3& n = gap.normal;
@@ -188,7 +194,7 @@ std::optional<Vec3> normalOverSlit(const Bearing& a, const std::vector<Bearing>&
     const double cosine = a.gap.normal.dot(on.gap.normal);
     if (!areAtOnePlace(a, on) || !(cosine < least) || cosine < kOpposed) continue;
     if (a.gap.normal.cross(on.gap.normal).norm() < kOwn) continue;
-    if (a.of == on.of && !std::holds_alternative<MeshShape>(*a.shape)) continue;
+    if (a.of == on.of && !isOfTriangles(*a.shape)) continue;
     if (const auto normal = normalOver(a, on, up); normal && faces(*normal)) found = normal, least = cosine;
   }
   return found;
@@ -234,7 +240,7 @@ std::vector<char> hiddenAmong(std::vector<Bearing>& points) {
     for (std::size_t k = 0; k < n; ++k) {
       const Bearing &p = points[i], &on = points[k];
       if (i == k || on.gap.distance > kTouching) continue;
-      if (p.of == on.of && !std::holds_alternative<MeshShape>(*p.shape)) continue;
+      if (p.of == on.of && !isOfTriangles(*p.shape)) continue;
       const bool isBehind = isHidden(p, on, points);
       if (!isBehind && !isInSurface(p, on)) continue;
       if (const auto normal = normalOfRise(p, on)) {

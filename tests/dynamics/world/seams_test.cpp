@@ -138,6 +138,43 @@ TEST(Seams, AlongAWallOfPiecesItGoesAsAlongOne) {
       }
 }
 
+/// Slides a body for a second along a wall of rows of pieces that stands on a box, pulled against it.
+Slid slideAlongFlushWall(Ground wall, Slider kind, const Pose& frame, double friction, double rate,
+                         bool single) {
+  constexpr double kHeight = 2, kLength = 0.78, kPull = 5;
+  constexpr int kRows = 3;
+  World w;
+  const FieldId g = addGravity(w, frame.q * Vec3(-kPull, 0, -kG));
+  const Surface surface{friction, 0.0, 0.0};
+  addPiece(w, Ground::Boxes, frame, -3, 4, -3, 9, 0, surface);
+  // The near side is x = 0. The rows of addFloorOf() lie above each other.
+  const Pose upright{{0, 0, kHeight - 1.7}, Quat(Eigen::AngleAxisd(M_PI / 2, Vec3::UnitY()))};
+  addFloorOf(w, wall, frame * upright, surface, single, kHeight / kRows, kLength, kRows, 11);
+  BodyDef d = slider(w, kind);
+  d.pose.p.x() = 0.25;
+  d.v = frame.q * Vec3(0, 3.8, 0);
+  d.pose = frame * d.pose;
+  d.surface = surface;
+  return watchSlide(w, addSolid(w, g, d), frame, 1, rate);
+}
+
+// A corner of the next sheet, in front of a mesh that slides along the wall, was an obstacle.
+TEST(Seams, AlongAWallOfSheetsItGoesAsAlongOne) {
+  for (const Slider kind : {Slider::Box, Slider::Convex, Slider::Mesh, Slider::RodAlong})
+    for (const Ground wall : {Ground::Sheets, Ground::OpenMeshes, Ground::Mixed})
+      for (const double friction : {0.0, 0.5})
+        for (const double rate : {25.0, 60.0, 240.0}) {
+          const Pose frame = rate == 60 ? turnedFrame() : Pose{};
+          SCOPED_TRACE(std::string(nameOf(kind)) + " along " + nameOf(wall) + ", friction " +
+                       std::to_string(friction) + ", " + std::to_string(rate) + " Hz");
+          const Slid whole = slideAlongFlushWall(wall, kind, frame, friction, rate, true),
+                     pieces = slideAlongFlushWall(wall, kind, frame, friction, rate, false);
+          EXPECT_LT((pieces.end - whole.end).norm(), 3e-4);
+          EXPECT_EQ(pieces.events, 0u);
+          EXPECT_LT(pieces.turned, 1e-4);
+        }
+}
+
 /// A body slides from a floor to one that is `step` higher.
 Slid slideToStep(Ground ground, Slider kind, double step, double rolling = 0.2) {
   World w;
