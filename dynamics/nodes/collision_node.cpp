@@ -9,6 +9,7 @@
 #include "engine/core/shared_rows.h"
 #include "engine/core/state_fields.h"
 #include "engine/scene/scene.h"
+#include "engine/script/object_parts.h"
 
 #include <algorithm>
 #include <cmath>
@@ -529,11 +530,31 @@ CollisionAttributes collisionAttributesOf(const NodeRequest& r, ShapeStore& shap
   return a;
 }
 
+/// A part that the script names is no longer in its object.
+static void lintParts(const Declaration& node, LintScope& scope) {
+  const auto colliders = node.references("collider");
+  const auto isNamed = [&](std::string_view name) {
+    return std::ranges::any_of(colliders, [&](const NodeReference& r) { return r.name == name; });
+  };
+  for (const Declaration part : scope.document()) {
+    if (!isPartByUse(part)) continue;
+    const std::string_view object = part.name().substr(0, part.name().find('/'));
+    for (const NodeReference& r : colliders)
+      if (r.name == object && !isNamed(part.name()))
+        scope.warnAt(
+            r.where,
+            fmt::format("\"{}\" collides without its part \"{}\", which line {} names; add collider={} if "
+                        "the part is to collide too",
+                        object, part.name(), part.line(), part.name()));
+  }
+}
+
 void lintContacts(const Declaration& node, LintScope& scope) {
   const auto collidees = node.references("collidee");
   if (collidees.empty())
     scope.warn(node, "name", fmt::format("{} has no collidee and so no effect", LintScope::called(node)));
   scope.warnRepeated(node, "collider");
+  lintParts(node, scope);
   scope.warnNeverOn(node);
 }
 

@@ -126,4 +126,22 @@ std::string allowedFormats() {
   return "OBJ, 3DS, glTF 2.0 (.gltf, .glb), COLLADA (.dae), FBX, PLY and STL";
 }
 
+std::string textOf(const NodeSelection& nodes) {
+  std::string text = nodes.part;
+  for (const std::string& node : nodes.without) text += "\n" + node;
+  return text;
+}
+
+NodeSelection nodeSelectionOf(std::string_view text) {
+  NodeSelection nodes;
+  std::size_t end = text.find('\n');
+  nodes.part = text.substr(0, end);
+  while (end != std::string_view::npos) {
+    text.remove_prefix(end + 1);
+    end = text.find('\n');
+    nodes.without.emplace_back(text.substr(0, end));
+  }
+  return nodes;
+}
+
 }  // namespace stadion

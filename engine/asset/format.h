@@ -23,6 +23,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace stadion {
 
@@ -48,11 +49,23 @@ enum class ModelForm : std::uint8_t {
   Either,  ///< a figure if the file has skins or clips
 };
 
+/// What is made of the nodes of an object's file. A node is named by its path, "roof" or "roof/lamp": each name is that
+/// of a node somewhere below the one before. Characters that scripts allow in no name count as "_".
+struct NodeSelection {
+  std::string part;                  ///< only this node and what is below it; empty: all nodes
+  std::vector<std::string> without;  ///< not these nodes, nor what is below them
+};
+
+/// As one text: the part, and in each further line a node that is left out. Names hold no line breaks.
+std::string textOf(const NodeSelection& nodes);
+NodeSelection nodeSelectionOf(std::string_view text);
+
 /// The script's settings for a model; unset means: as the format defines.
 struct ImportOptions {
   std::optional<double> unit;  ///< [m] length of one unit of the file, 1e-6 .. 1e6
   std::optional<UpAxis> up;
   ModelForm form = ModelForm::Object;
+  NodeSelection nodes{};
 };
 
 /// By the extension of the file's name, in either case; nullptr if it is not a format for shows.

@@ -21,6 +21,8 @@ std::string faultOf(const std::string& name, const ImportOptions& options) {
   }
   if (options.unit && !(*options.unit >= 1e-6 && *options.unit <= 1e6))
     return "the unit of \"" + name + "\" must lie between 1e-6 and 1e6 metres";
+  if (textOf(options.nodes).size() > kLongestSelection)
+    return "the script names too many parts of \"" + name + "\"";
   return {};
 }
 
@@ -86,8 +88,8 @@ Outcome Importer::load(const std::string& name, const ImportOptions& options, co
   if (const std::string fault = faultOf(name, options); !fault.empty()) return fail(fault);
   const std::lock_guard lock(mutex_);
   const auto& path = found.value().path;
-  const auto answer =
-      process_.ask(requestFor(options, limits_), found.value().root, name, limits_.timeout, limits_.giveUp);
+  const auto answer = process_.ask(requestFor(options, limits_), found.value().root, name, options.nodes,
+                                   limits_.timeout, limits_.giveUp);
   if (answer.end != End::Loaded) return fail(sentence(answer, path, process_.program(), limits_));
   auto mesh = decode(answer.mesh, limits_.mesh);
   if (!mesh) return fail("the importer made of \"" + path + "\" " + mesh.error().message);

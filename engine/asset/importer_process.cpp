@@ -172,7 +172,7 @@ ImporterProcess::Answer ImporterProcess::fault(End end) {
 }
 
 ImporterProcess::Answer ImporterProcess::ask(RequestHead head, int root, const std::string& path,
-                                             std::chrono::milliseconds timeout,
+                                             const NodeSelection& nodes, std::chrono::milliseconds timeout,
                                              const std::atomic<bool>* giveUp) {
   if (pid_ != 0 && ::waitpid(pid_, nullptr, WNOHANG) == pid_) {
     pid_ = 0;
@@ -181,10 +181,13 @@ ImporterProcess::Answer ImporterProcess::ask(RequestHead head, int root, const s
   if (pid_ == 0)
     if (const std::string why = start(); !why.empty()) return {End::NotStarted, why, {}};
   Conversation talk(socket_.get(), Clock::now() + timeout, giveUp);
+  const std::string selection = textOf(nodes);
   head.pathBytes = static_cast<std::uint32_t>(path.size());
+  head.nodesBytes = static_cast<std::uint32_t>(selection.size());
   ImporterAnswer reply;
   Transfer t = talk.writeWith(root, head);
   if (t == Transfer::Done) t = talk.write(path.data(), path.size());
+  if (t == Transfer::Done) t = talk.write(selection.data(), selection.size());
   if (t == Transfer::Done)
     t = readAnswer([&](void* to, std::size_t size) { return talk.read(to, size); }, reply);
   if (t == Transfer::Nonsense) return fault(End::Nonsense);

@@ -33,8 +33,8 @@ public:
 
   /// Has the file `path` below the open folder `root` imported, and waits at most `timeout`, or until
   /// `giveUp` (if it is given) becomes true; both end as OutOfTime.
-  Answer ask(RequestHead head, int root, const std::string& path, std::chrono::milliseconds timeout,
-             const std::atomic<bool>* giveUp = nullptr);
+  Answer ask(RequestHead head, int root, const std::string& path, const NodeSelection& nodes,
+             std::chrono::milliseconds timeout, const std::atomic<bool>* giveUp = nullptr);
 
   const std::filesystem::path& program() const { return program_; }
   /// Process id of the running program, 0 if none runs (for tests that kill it).

@@ -2,7 +2,7 @@
 /// The messages between the show and its importer program over a pair of stream sockets.
 ///
 /// The show sends a request head together with the descriptor of the asset root, then the name below that
-/// root. The program answers with an answer head, a text (the inventory, or the reason of the failure)
+/// root and the selection of nodes. The program answers with an answer head, a text (the inventory, or the reason of the failure)
 /// and the bytes of the mesh (see mesh_file). Both are the same build, so structs are sent as they are. The
 /// show still trusts nothing it receives.
 
@@ -15,8 +15,9 @@ namespace stadion {
 
 constexpr std::uint32_t kImportMagic = 0x51495453;  // "STIQ"
 constexpr std::uint32_t kAnswerMagic = 0x41495453;  // "STIA"
-constexpr std::uint32_t kImportVersion = 4;
+constexpr std::uint32_t kImportVersion = 5;
 constexpr std::uint32_t kLongestPath = 4096;
+constexpr std::uint32_t kLongestSelection = 1u << 20;
 constexpr std::uint32_t kLongestText = 65536;
 constexpr std::uint64_t kLongestAnswer = 1ull << 30;
 constexpr int kOutOfMemoryExit = 77;
@@ -31,7 +32,8 @@ struct RequestHead {
   double unit = 0;       ///< [m], 0 = as the format has it
   std::uint32_t up = 0;  ///< UpAxis + 1, 0 = as the format has it
   ModelForm form = ModelForm::Object;
-  std::uint32_t pathBytes = 0;  ///< size of the file name that follows
+  std::uint32_t pathBytes = 0;   ///< size of the file name that follows
+  std::uint32_t nodesBytes = 0;  ///< size of the text of the selection of nodes that follows the name
 };
 
 enum class ImportStatus : std::uint32_t { Loaded, Failed, OutOfMemory };

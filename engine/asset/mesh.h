@@ -70,6 +70,8 @@ struct Mesh {
   std::vector<Texture> textures;
   /// Bones and clips of a figure, whose positions are those in which it was bound; null: a mesh of fixed form.
   std::shared_ptr<const Skeleton> skeleton;
+  /// Of a part of a model: from its coordinates N to those of the model. Without a scale.
+  Affine place = Affine::Identity();
   Aabb bounds;             ///< [m] of a figure: in every pose
   Sphere sphere;           ///< [m] bounding sphere; of a figure: in every pose
   std::uint64_t hash = 0;  ///< hash of the content, which identifies the mesh

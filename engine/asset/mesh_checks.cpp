@@ -40,11 +40,12 @@ private:
   std::unique_ptr<XXH3_state_t, decltype(&XXH3_freeState)> state_;
 };
 
+void addMatrix(const Affine& X, Hash& hash) {
+  for (int i = 0; i < 12; ++i) hash.add(std::bit_cast<std::uint64_t>(X.data()[i]));
+}
+
 /// Names are of clips and bones, which scripts name.
 void addSkeleton(const Mesh& mesh, Hash& hash) {
-  const auto addMatrix = [&](const Affine& X) {
-    for (int i = 0; i < 12; ++i) hash.add(std::bit_cast<std::uint64_t>(X.data()[i]));
-  };
   for (const VertexJoints& v : mesh.joints) {
     for (const std::uint16_t j : v.joint) hash.add(std::uint64_t{j});
     for (const float w : v.weight) hash.add(w);
@@ -52,9 +53,10 @@ void addSkeleton(const Mesh& mesh, Hash& hash) {
   for (const Bone& bone : mesh.skeleton->bones) {
     hash.add(bone.name);
     hash.add(static_cast<std::uint64_t>(bone.parent));
-    addMatrix(bone.X_PB);
+    addMatrix(bone.X_PB, hash);
   }
-  for (const Joint& joint : mesh.skeleton->joints) hash.add(std::uint64_t{joint.bone}), addMatrix(joint.X_BN);
+  for (const Joint& joint : mesh.skeleton->joints)
+    hash.add(std::uint64_t{joint.bone}), addMatrix(joint.X_BN, hash);
   for (const Clip& clip : mesh.skeleton->clips) {
     hash.add(clip.name);
     for (const ClipChannel& c : clip.channels) {
@@ -98,6 +100,7 @@ std::uint64_t contentHash(const Mesh& mesh) {
   }
   hash.add(std::uint64_t{mesh.standIn});
   if (mesh.skeleton) addSkeleton(mesh, hash);
+  if (mesh.place.matrix() != Affine::Identity().matrix()) addMatrix(mesh.place, hash);
   return hash.value();
 }
 

@@ -4,6 +4,7 @@
 #include "engine/base/value_reader.h"
 #include "engine/base/value_writer.h"
 
+#include <algorithm>
 #include <cmath>
 #include <type_traits>
 
@@ -11,12 +12,13 @@ namespace stadion {
 namespace {
 
 constexpr std::uint32_t kMagic = 0x4d445453;  // "STDM"
-constexpr std::uint32_t kVersion = 4;
+constexpr std::uint32_t kVersion = 5;
 
 struct Head {
   std::uint32_t magic, version;
   std::uint32_t vertices, indices, submeshes, materials, textures;
   std::uint32_t hasUvs, hasColours, hasSkeleton;
+  double place[12];  ///< columns
 };
 
 struct MaterialRecord {
@@ -135,14 +137,36 @@ const char* faultOf(const Mesh& mesh) {
   return nullptr;
 }
 
+/// A rotation and a translation.
+bool readPlace(const Head& head, Mesh& mesh) {
+  std::copy(std::begin(head.place), std::end(head.place), mesh.place.data());
+  const Mat3 turn = mesh.place.linear();
+  return mesh.place.matrix().allFinite() && (turn.transpose() * turn - Mat3::Identity()).norm() < 1e-6 &&
+         turn.determinant() > 0;
+}
+
+Head headOf(const Mesh& mesh) {
+  const auto count = [](const auto& v) { return static_cast<std::uint32_t>(v.size()); };
+  Head head{kMagic,
+            kVersion,
+            count(mesh.positions),
+            count(mesh.indices),
+            count(mesh.submeshes),
+            count(mesh.materials),
+            count(mesh.textures),
+            !mesh.uvs.empty(),
+            !mesh.colours.empty(),
+            mesh.skeleton != nullptr,
+            {}};
+  std::copy_n(mesh.place.data(), 12, head.place);
+  return head;
+}
+
 }  // namespace
 
 std::vector<std::uint8_t> encode(const Mesh& mesh) {
-  const auto count = [](const auto& v) { return static_cast<std::uint32_t>(v.size()); };
   ValueWriter out;
-  out.put(Head{kMagic, kVersion, count(mesh.positions), count(mesh.indices), count(mesh.submeshes),
-               count(mesh.materials), count(mesh.textures), !mesh.uvs.empty(), !mesh.colours.empty(),
-               mesh.skeleton != nullptr});
+  out.put(headOf(mesh));
   out.put(mesh.positions);
   out.put(mesh.normals);
   out.put(mesh.uvs);
@@ -184,8 +208,9 @@ Result<std::unique_ptr<Mesh>> decode(std::span<const std::uint8_t> bytes, const 
     return Decoded::failure("a mesh beyond the limits");
   auto mesh = std::make_unique<Mesh>();
   if (!readGeometry(in, head, *mesh) || !readMaterials(in, head, *mesh) ||
-      !readTextures(in, head, limits, *mesh) || !readFigure(in, head, limits, *mesh) || !in.atEnd())
-    return Decoded::failure("a mesh that is cut short or has a bad material, texture or skeleton");
+      !readTextures(in, head, limits, *mesh) || !readFigure(in, head, limits, *mesh) ||
+      !readPlace(head, *mesh) || !in.atEnd())
+    return Decoded::failure("a mesh that is cut short or has a bad material, texture, skeleton or place");
   if (const char* fault = faultOf(*mesh)) return Decoded::failure(std::string("a mesh with ") + fault);
   return mesh;
 }

@@ -2,6 +2,7 @@
 
 #include "engine/maths/angles.h"
 #include "engine/maths/functions.h"
+#include "engine/script/object_parts.h"
 #include "engine/text/text_mesh.h"
 
 #include <algorithm>
@@ -9,7 +10,7 @@
 namespace stadion {
 namespace {
 
-PlaceAttributes placeOf(const Declaration& d) {
+PlaceAttributes statedPlaceOf(const Declaration& d) {
   PlaceAttributes place;
   if (!d.takes("position")) return place;
   const Vec3 turn = d.vec3("orientation") * kDegree;
@@ -163,6 +164,7 @@ private:
     Appearance a;
     if (!d.is(Trait::Model) && !d.is(Trait::Figure)) return a;
     a.mesh = input_.meshes(d);
+    if (input_.store.find(a.mesh)->indices.empty()) a.mesh = kNoMesh;  // all of it is in parts
     a.drawn = d.flag("draw");
     if (d.is(Trait::Figure)) return a;
     a.shape = std::string(d.text("shape"));
@@ -187,6 +189,22 @@ private:
     terms.gives = d.choices<DegradationStep>("onoverrun");
     terms.priority = d.number("priority");
     built_.load->terms[d.index()] = std::move(terms);
+  }
+
+  /// Where a part is in its model; everything else is where its declaration puts it.
+  Affine placeInModel(const Declaration& d) const {
+    return partOf(d).empty() ? Affine::Identity() : input_.store.find(input_.meshes(d))->place;
+  }
+
+  PlaceAttributes placeOf(const Declaration& d) const {
+    PlaceAttributes place = statedPlaceOf(d);
+    if (partOf(d).empty()) return place;
+    place.X_PN = place.X_PN * placeInModel(d);
+    // A part of a part: "hall/roof/lamp" below "hall/roof".
+    const std::uint32_t up = layout_.parent(d.index());
+    if (up != Layout::kNone && isPartByUse(d) && isPartByUse(input_.document[up]))
+      place.X_PN = placeInModel(input_.document[up]).inverse(Eigen::Isometry) * place.X_PN;
+    return place;
   }
 
   Affine worldPlaceOf(const Declaration& d) const {

@@ -4,6 +4,7 @@
 #include "engine/build/node_request.h"
 #include "engine/core/node_registry.h"
 #include "engine/script/file_path.h"
+#include "engine/script/object_parts.h"
 
 #include <algorithm>
 
@@ -17,11 +18,13 @@ constexpr std::string_view kModelEndings[] = {"obj", "3ds", "gltf", "glb", "dae"
 }  // namespace
 
 void lintModel(const Declaration& node, LintScope& scope) {
+  if (isPartByUse(node)) return;  // that of its object
   const std::string ending = endingOf(node.text("file"));
   if (std::find(std::begin(kModelEndings), std::end(kModelEndings), ending) == std::end(kModelEndings))
     scope.warn(node, "file",
-               fmt::format("\"{}\" is not in a format that is read (.obj, .3ds, .gltf, .glb, .dae, .fbx, .ply, .stl)",
-                           node.text("file")));
+               fmt::format(
+                   "\"{}\" is not in a format that is read (.obj, .3ds, .gltf, .glb, .dae, .fbx, .ply, .stl)",
+                   node.text("file")));
 }
 
 namespace {
@@ -30,8 +33,8 @@ std::unique_ptr<Node> makeObject(const NodeRequest& r) {
   return std::make_unique<ObjectNode>(r.type(), r.self, r.name, r.place, r.appearance);
 }
 
-constexpr AttributeSpec kObjectRows[] = {kObjectFile,  kObjectDraw,      kObjectUnit,  kObjectUp,
-                                         kObjectShape, kObjectTolerance, kObjectLevels};
+constexpr AttributeSpec kObjectRows[] = {kObjectFile,  kObjectDraw,      kObjectUnit,   kObjectUp,
+                                         kObjectShape, kObjectTolerance, kObjectLevels, kObjectPart};
 
 }  // namespace
 

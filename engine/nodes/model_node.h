@@ -14,7 +14,8 @@ inline constexpr std::string_view kUpWords[] = {"x", "y", "z"};
 
 inline constexpr AttributeSpec kObjectFile{.name = "file",
                                            .kind = ValueKind::File,
-                                           .help = "the model: .obj, .3ds, .gltf, .glb, .dae, .fbx, .ply or .stl",
+                                           .help =
+                                               "the model: .obj, .3ds, .gltf, .glb, .dae, .fbx, .ply or .stl",
                                            .required = true};
 inline constexpr AttributeSpec kObjectDraw{.name = "draw",
                                            .kind = ValueKind::Flag,
@@ -43,6 +44,11 @@ inline constexpr AttributeSpec kObjectTolerance{
     .help = "how far auto's shape may be from the model, relative to its size",
     .standard = "0.02",
     .range = kUnitInterval};
+inline constexpr AttributeSpec kObjectPart{.name = "part",
+                                           .kind = ValueKind::Words,
+                                           .help = "shows only this node of the file and what is below it; "
+                                                   "it has the node's place in the file, moved by "
+                                                   "position and turned by orientation"};
 inline constexpr AttributeSpec kObjectLevels{
     .name = "levels",
     .kind = ValueKind::Whole,

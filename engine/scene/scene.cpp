@@ -191,13 +191,8 @@ void Scene::rejoinParent(const Detached& d, const FrameContext& frame) {
 /// A message with its names resolved as seen from `from`, as far as the first part of a path.
 Message Scene::addressed(const std::string& target, NodeRef from, std::vector<std::string> arguments) const {
   Message m;
-  const auto split = [&](const std::string& name, std::string& inside) {
-    const std::size_t slash = name.find('/');
-    if (slash != std::string::npos) inside = name.substr(slash + 1);
-    return tree_.resolve(name.substr(0, slash), from);
-  };
-  m.target = split(target, m.targetInside);
-  if (!arguments.empty()) m.node = split(arguments[0], m.nodeInside);
+  m.target = tree_.resolveFirst(target, from, m.targetInside);
+  if (!arguments.empty()) m.node = tree_.resolveFirst(arguments[0], from, m.nodeInside);
   m.arguments = std::move(arguments);
   return m;
 }

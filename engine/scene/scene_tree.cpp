@@ -38,23 +38,35 @@ Node* SceneTree::find(NodeRef ref) {
 }
 
 NodeRef SceneTree::resolve(const std::string& name, NodeRef from) const {
+  std::string inside;
+  const NodeRef found = resolveFirst(name, from, inside);
+  return resolveInside(found, inside);
+}
+
+NodeRef SceneTree::resolveFirst(const std::string& name, NodeRef from, std::string& inside) const {
+  inside.clear();
   const std::size_t slash = name.find('/');
-  const std::string head = name.substr(0, slash);
-  NodeRef found;
-  for (const LoadedScene* l = load(from.load); l && !found.valid(); l = load(l->owner.load))
-    found = l->find(head);
-  return slash == std::string::npos ? found : resolveInside(found, std::string_view(name).substr(slash + 1));
+  for (const LoadedScene* l = load(from.load); l; l = load(l->owner.load)) {
+    if (const NodeRef whole = l->find(name); whole.valid()) return whole;
+    if (slash == std::string::npos) continue;
+    if (const NodeRef first = l->find(name.substr(0, slash)); first.valid()) {
+      inside = name.substr(slash + 1);
+      return first;
+    }
+  }
+  return {};
 }
 
 NodeRef SceneTree::resolveInside(NodeRef from, std::string_view path) const {
   NodeRef found = from;
   while (found.valid() && !path.empty()) {
-    const std::size_t end = std::min(path.find('/'), path.size());
-    const std::string part(path.substr(0, end));
-    NodeRef inner;
+    const LoadedScene* inner = nullptr;
     for (const auto& [number, l] : loads_)
-      if (l->owner == found) inner = l->find(part);
-    found = inner;
+      if (l->owner == found) inner = l.get();
+    if (!inner) return {};
+    if (const NodeRef whole = inner->find(std::string(path)); whole.valid()) return whole;
+    const std::size_t end = std::min(path.find('/'), path.size());
+    found = inner->find(std::string(path.substr(0, end)));
     path.remove_prefix(std::min(end + 1, path.size()));
   }
   return found;

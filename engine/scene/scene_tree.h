@@ -45,8 +45,10 @@ public:
   /// The node, or null if it is not loaded. Promotes a static object.
   Node* find(NodeRef ref);
   /// Resolves a name or path as seen from `from`: in its file, then in the files that loaded it. The path
-  /// "scene/name" looks into a sub-scene.
+  /// "scene/name" looks into a sub-scene; a part of an object, "hall/roof", is a node of its own.
   NodeRef resolve(const std::string& name, NodeRef from) const;
+  /// Resolves the first part of a path. `inside` gets the rest, for resolveInside().
+  NodeRef resolveFirst(const std::string& name, NodeRef from, std::string& inside) const;
   /// Follows the rest of a path, such as "arena/ball", from a scene node to what is loaded now.
   NodeRef resolveInside(NodeRef from, std::string_view path) const;
   const LoadedScene* load(std::uint32_t number) const;

@@ -200,7 +200,8 @@ std::optional<Declaration> Document::find(std::string_view name) const {
 
 NodeReference Document::referenceAt(std::uint32_t index) const {
   const StoredReference& stored = references_[index];
-  return {source_.slice(stored.where, stored.length), stored.level, stored.declaration, stored.where};
+  return {source_.slice(stored.where, stored.length), stored.level, stored.declaration, stored.where,
+          stored.whole != 0};
 }
 
 EventMessage Document::messageAt(std::uint32_t index) const {

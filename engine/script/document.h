@@ -166,7 +166,8 @@ private:
     std::uint32_t where;
     std::uint32_t length;
     std::uint32_t declaration;
-    std::uint32_t level;
+    std::uint32_t level : 31;
+    std::uint32_t whole : 1;
   };
 
   struct StoredMessage {

@@ -19,6 +19,16 @@ void DocumentWriter::setName(TextSpan name) {
   document_.nodes_.back().nameLength = static_cast<std::uint16_t>(name.length);
 }
 
+std::uint32_t DocumentWriter::addLike(std::uint32_t original, std::uint32_t where,
+                                      std::span<const Attr> attributes) {
+  std::vector<Document::Value> copies;
+  for (const Document::Value& value : document_.valuesOf(original))
+    if (std::ranges::find(attributes, value.attr()) != attributes.end()) copies.push_back(value);
+  const std::uint32_t node = beginNode(document_.nodes_[original].type, where);
+  document_.values_.insert(document_.values_.end(), copies.begin(), copies.end());
+  return node;
+}
+
 void DocumentWriter::addNumbers(Attr attr, ValueKind kind, std::uint32_t where,
                                 std::span<const double> numbers) {
   add(attr, kind, where, document_.numbers_.size());
@@ -34,7 +44,7 @@ void DocumentWriter::addText(Attr attr, ValueKind kind, TextSpan text) {
 }
 
 std::uint32_t DocumentWriter::storeReference(TextSpan name) {
-  document_.references_.push_back({name.offset, name.length, Document::kNone, 0});
+  document_.references_.push_back({name.offset, name.length, Document::kNone, 0, 0});
   return static_cast<std::uint32_t>(document_.references_.size() - 1);
 }
 
@@ -101,7 +111,8 @@ void DocumentWriter::finish(const std::function<void(std::uint32_t, std::uint32_
 
 void DocumentWriter::store(std::uint32_t reference, Resolution resolution) {
   document_.references_[reference].declaration = resolution.declaration;
-  document_.references_[reference].level = resolution.level;
+  document_.references_[reference].level = resolution.level & 0x7fffffffu;
+  document_.references_[reference].whole = resolution.whole;
 }
 
 void DocumentWriter::resolveReferences(std::uint32_t node, const Visit& visit) {

@@ -26,6 +26,9 @@ public:
   void addLostName(std::string name);
   bool mayHaveLost(std::string_view name) const;
 
+  /// Adds a node of the type of `original` with the values that it has of `attributes`.
+  std::uint32_t addLike(std::uint32_t original, std::uint32_t where, std::span<const Attr> attributes);
+
   std::uint32_t offsetOf(std::uint32_t node) const { return document_.nodes_[node].where; }
 
   /// Sorts the names, gives back unused memory. `duplicate(first, again)` is called for each name that
@@ -37,6 +40,7 @@ public:
   struct Resolution {
     std::uint32_t declaration = NodeReference::kNone;
     std::uint32_t level = 0;
+    bool whole = false;  ///< the declaration is that of the whole name
   };
   using Visit =
       std::function<Resolution(Attr attr, const NodeReference& reference, const EventMessage* message)>;

@@ -19,21 +19,23 @@ namespace stadion {
 /// A node named in a script, and which one is meant.
 ///
 /// A name is looked up in its own file, then in the files around it, nearest first. "arena/ball" is the node
-/// `ball` in the file of the scene node `arena`; as that file comes and goes, only `arena` is resolved.
+/// `ball` in the file of the scene node `arena`; as that file comes and goes, only `arena` is resolved. "hall/roof"
+/// is the part `roof` of the object `hall`, a declaration of its own (script_parts.h).
 struct NodeReference {
   static constexpr std::uint32_t kNone = ~std::uint32_t{0};
 
   std::string_view name;    ///< as written
   std::uint32_t level = 0;  ///< 0: declared in this file; n: in the nth file around it
-  /// Declaration of the name's first part, in that file; kNone if unresolved.
+  /// Declaration of the name's first part, or of the whole name, in that file; kNone if unresolved.
   std::uint32_t declaration = kNone;
   std::uint32_t where = 0;  ///< offset in the source text
+  bool whole = false;       ///< the declaration is that of the whole name
 
   bool resolved() const { return declaration != kNone; }
   /// Returns the part of the name after the first "/"; empty if the node is not inside a scene.
   std::string_view inner() const {
     const std::size_t slash = name.find('/');
-    return slash == name.npos ? std::string_view{} : name.substr(slash + 1);
+    return whole || slash == name.npos ? std::string_view{} : name.substr(slash + 1);
   }
 };
 

@@ -3,6 +3,7 @@
 #include "engine/script/attribute_text.h"
 #include "engine/script/document_writer.h"
 #include "engine/script/finding_collector.h"
+#include "engine/script/object_parts.h"
 #include "engine/script/script.h"
 
 #include <unordered_map>
@@ -52,37 +53,40 @@ private:
     return level == 0 ? document_ : *surroundings_.enclosing[level - 1];
   }
 
+  /// The node of the whole name, which may be a part of an object, or else of the part before the first "/".
   Resolution lookUp(std::string_view name) const {
-    for (std::uint32_t level = 0; level <= surroundings_.enclosing.size(); ++level)
-      if (const auto found = documentAt(level).find(name)) return {found->index(), level};
+    for (std::uint32_t level = 0; level <= surroundings_.enclosing.size(); ++level) {
+      const Document& document = documentAt(level);
+      if (const auto found = document.find(name)) return {found->index(), level, true};
+      if (const auto found = document.find(name.substr(0, name.find('/')))) return {found->index(), level};
+    }
     return {};
   }
 
   Resolution resolve(const Declaration& user, Attr attr, const NodeReference& reference,
                      const EventMessage* message) {
     const std::string_view first = reference.name.substr(0, reference.name.find('/'));
-    const Resolution found = lookUp(first);
+    const Resolution found = lookUp(reference.name);
     if (found.declaration == NodeReference::kNone) {
       if (!writer_.mayHaveLost(first)) reportUnresolved(reference, first, nullptr);
       return found;
     }
     const Declaration target = documentAt(found.level)[found.declaration];
-    const auto final = enter(target, reference);
+    const auto final = enter(target, found.whole ? std::string_view{} : reference.inner(), reference);
     if (final && !mayUse(user, attr, reference, final->type(), message)) return {};
     return found;
   }
 
   /// The node that the rest of the name leads to; nothing if that cannot be known or was reported.
-  std::optional<Declaration> enter(Declaration node, const NodeReference& reference) {
-    std::string_view rest = reference.inner();
+  std::optional<Declaration> enter(Declaration node, std::string_view rest, const NodeReference& reference) {
     while (!rest.empty()) {
       if (!node.is(Trait::Encloses)) {
-        report_.error(reference.where, fmt::format("\"{}\": \"{}\" is {}, and only a scene has nodes inside",
-                                                   reference.name, node.name(), withArticle(node.type())));
+        reportNothingInside(node, reference);
         return std::nullopt;
       }
       const Document* inside = surroundings_.subScene ? surroundings_.subScene(node) : nullptr;
       if (inside == nullptr) return std::nullopt;
+      if (const auto part = inside->find(rest)) return part;
       const std::size_t end = std::min(rest.find('/'), rest.size());
       const auto next = inside->find(rest.substr(0, end));
       if (!next) {
@@ -93,6 +97,19 @@ private:
       rest.remove_prefix(std::min(end + 1, rest.size()));
     }
     return node;
+  }
+
+  void reportNothingInside(const Declaration& node, const NodeReference& reference) {
+    if (node.takes("part"))
+      report_.error(
+          reference.where,
+          fmt::format("\"{}\": a part of the object \"{}\" is named in the script of that object, {}",
+                      reference.name, node.name(), node.document().file()));
+    else
+      report_.error(
+          reference.where,
+          fmt::format("\"{}\": \"{}\" is {}; only a scene has nodes inside, and only an object has parts",
+                      reference.name, node.name(), withArticle(node.type())));
   }
 
   bool mayUse(const Declaration& user, Attr attr, const NodeReference& reference, const RegisteredType& type,
@@ -214,6 +231,7 @@ private:
 }  // namespace
 
 void resolveNames(Document& document, const RelatedDocuments& surroundings, Diagnostics& findings) {
+  declareParts(document);
   FindingCollector report(document.source(), findings);
   Resolver(document, surroundings, report).run();
 }

@@ -14,7 +14,8 @@ std::optional<ImportedMeshes::Key> ImportedMeshes::Key::of(int file, const Impor
              options.unit.value_or(0),
              options.up ? static_cast<int>(*options.up) : -1,
              0,
-             options.form};
+             options.form,
+             textOf(options.nodes)};
 }
 
 MeshId ImportedMeshes::find(const Key& key) {

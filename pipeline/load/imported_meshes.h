@@ -13,6 +13,7 @@
 #include <cstdint>
 #include <map>
 #include <optional>
+#include <string>
 #include <tuple>
 
 namespace stadion {
@@ -27,6 +28,7 @@ public:
     int up = -1;               ///< UpAxis; -1 = the file's own
     std::uint32_t levels = 0;  ///< number of simplified levels requested
     ModelForm form = ModelForm::Object;
+    std::string nodes;  ///< textOf(NodeSelection)
 
     auto operator<=>(const Key&) const = default;
     /// Returns the key of an open file; nothing if it is unknown.

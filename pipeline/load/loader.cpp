@@ -4,6 +4,7 @@
 #include "engine/asset/sound_file.h"
 #include "engine/base/run_stopped.h"
 #include "engine/build/lint.h"
+#include "engine/build/model_options.h"
 #include "engine/core/state_hash.h"
 #include "engine/script/script.h"
 
@@ -255,11 +256,11 @@ std::unique_ptr<LoadedScene> Loader::build(const Job& job, std::unique_ptr<Docum
 
 // A hundred thousand objects with the same file cause one import, and one message about it.
 MeshId Loader::Imports::of(const Declaration& d, Loader& loader, Diagnostics& findings) {
-  const auto up = d.optionalChoice<UpAxis>("up");
-  const Key key(d.text("file"), d.optionalNumber("unit").value_or(0), up ? static_cast<int>(*up) : -1,
-                levelsOf(d), d.is(Trait::Figure));
+  const ImportOptions options = importOptionsOf(d);
+  const Key key(d.text("file"), options.unit.value_or(0), options.up ? static_cast<int>(*options.up) : -1,
+                levelsOf(d), d.is(Trait::Figure), textOf(options.nodes));
   const auto [at, isNew] = known.try_emplace(key, kNoMesh);
-  if (isNew) counted.push_back(at->second = loader.importMesh(d, findings));
+  if (isNew) counted.push_back(at->second = loader.importMesh(d, options, findings));
   return at->second;
 }
 
@@ -273,20 +274,17 @@ std::optional<ImportedMeshes::Key> Loader::keyOf(const std::string& file, const 
   return key;
 }
 
-MeshId Loader::importMesh(const Declaration& d, Diagnostics& findings) {
-  ImportOptions options;
-  options.unit = d.optionalNumber("unit");
-  options.up = d.optionalChoice<UpAxis>("up");
+MeshId Loader::importMesh(const Declaration& d, const ImportOptions& options, Diagnostics& findings) {
   const std::string file(d.text("file"));
-  options.form = d.is(Trait::Figure) ? ModelForm::Figure : ModelForm::Object;
   const auto levels = static_cast<std::uint32_t>(levelsOf(d));
   const auto key = keyOf(file, options, levels);
   if (const MeshId known = key ? parts_.kept->find(*key) : kNoMesh; known != kNoMesh) return known;
   Diagnostics notes;
   if (stopped()) throw RunStopped();
-  auto mesh = parts_.importer.load(file, options, d.where("file"), &notes);
+  const Attr blamed = blamedFor(d);
+  auto mesh = parts_.importer.load(file, options, d.where(blamed), &notes);
   if (stopped()) throw RunStopped();
-  findings.append(notes);
+  if (options.nodes.part.empty()) findings.append(notes);  // once for the file
   if (mesh) {
     if (levels > 0) addLevels(*mesh.value(), levels);
     const MeshId id = parts_.meshes.add(std::move(mesh.value()));
@@ -294,7 +292,7 @@ MeshId Loader::importMesh(const Declaration& d, Diagnostics& findings) {
     return id;
   }
   Diagnostic missing = mesh.error();
-  missing.excerpt = d.excerpt("file");
+  missing.excerpt = d.excerpt(blamed);
   missing.severity = Severity::Warning;
   missing.message += "; a stand-in is shown in its place";
   findings.add(missing);

@@ -101,8 +101,8 @@ private:
 
   /// The models of one load, each imported and counted once.
   struct Imports {
-    /// File, unit, up axis, levels, as a figure.
-    using Key = std::tuple<std::string, double, int, double, bool>;
+    /// File, unit, up axis, levels, as a figure, nodes.
+    using Key = std::tuple<std::string, double, int, double, bool, std::string>;
     std::map<Key, MeshId> known;
     std::vector<MeshId> counted;
 
@@ -119,7 +119,7 @@ private:
                                      Diagnostics& findings);
   std::optional<ImportedMeshes::Key> keyOf(const std::string& file, const ImportOptions& options,
                                            std::uint32_t levels) const;
-  MeshId importMesh(const Declaration& d, Diagnostics& findings);
+  MeshId importMesh(const Declaration& d, const ImportOptions& options, Diagnostics& findings);
   Nanoseconds soundLength(const Declaration& d, Diagnostics& findings);
   void destroy(std::unique_ptr<LoadedScene> load);
   std::vector<std::uint32_t> around(std::uint32_t outer) const;

@@ -7,6 +7,7 @@
 #include "engine/asset/sound_file.h"
 #include "engine/base/run_stopped.h"
 #include "engine/build/lint.h"
+#include "engine/build/model_options.h"
 #include "engine/input/input_log.h"
 #include "engine/script/script.h"
 #include "show/player/player.h"
@@ -155,22 +156,20 @@ private:
   }
 
   MeshId importMesh(const Declaration& d, Diagnostics& findings) {
-    ImportOptions options;
-    options.unit = d.optionalNumber("unit");
-    options.up = d.optionalChoice<UpAxis>("up");
-    options.form = d.is(Trait::Figure) ? ModelForm::Figure : ModelForm::Object;
+    const ImportOptions options = importOptionsOf(d);
     const std::string file(d.text("file"));
     // A hundred objects with the same file: one import, and one word about it.
     const auto key =
         std::tuple(file, options.unit.value_or(0), static_cast<int>(options.up.value_or(UpAxis::Z)),
-                   options.up.has_value(), options.form);
+                   options.up.has_value(), options.form, textOf(options.nodes));
     if (const auto known = imported_.find(key); known != imported_.end()) return known->second;
     Diagnostics notes;
-    auto mesh = importer_->load(file, options, d.where("file"), &notes);
-    findings.append(notes);
+    const Attr blamed = blamedFor(d);
+    auto mesh = importer_->load(file, options, d.where(blamed), &notes);
+    if (options.nodes.part.empty()) findings.append(notes);  // once for the file
     if (!mesh) {
       Diagnostic wrong = mesh.error();
-      wrong.excerpt = d.excerpt("file");
+      wrong.excerpt = d.excerpt(blamed);
       findings.add(wrong);
     }
     return imported_[key] = meshes_.add(mesh ? std::move(mesh.value()) : standIn(file));
@@ -204,7 +203,7 @@ private:
   std::unique_ptr<Importer> importer_;
   NodeServices services_;
   MeshStore meshes_;
-  std::map<std::tuple<std::string, double, int, bool, ModelForm>, MeshId> imported_;
+  std::map<std::tuple<std::string, double, int, bool, ModelForm, std::string>, MeshId> imported_;
   std::set<std::string> seen_;
   std::vector<std::string> trackers_;
   std::string log_;

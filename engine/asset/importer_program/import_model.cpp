@@ -67,10 +67,12 @@ ImportedModel importModel(const Request& request) {
   const bool figure = isFigure(scene, request.head.form);
   takeInventory(scene, figure, result.inventory);
   const FlattenLimits limits{request.head.nodeDepth, request.head.mesh};
-  Flat flat = figure ? flattenFigure(scene, limits, result) : flatten(scene, limits);
+  const NodeChoice choice(scene, figure ? NodeSelection{} : request.nodes);
+  Flat flat = figure ? flattenFigure(scene, limits, result) : flatten(scene, choice, limits);
+  result.mesh.place = choice.place();
   const DroppedTriangles dropped = dropBadTriangles(flat);
   addDropped(dropped, result.inventory);
-  if (flat.triangles.empty())
+  if (flat.triangles.empty() && !choice.hasGaps())
     throw Refusal(dropped.notFinite ? "holds no triangles with finite corners" : "holds no triangles");
   readMaterials(scene, picturesOf(request), seenThrough(flat), result.mesh, result.inventory);
   makeNormals(flat);

@@ -69,8 +69,9 @@ private:
 
 class Flattener {
 public:
-  Flattener(const SourceScene& scene, const FigureJoints* joints, const FlattenLimits& limits)
-      : scene_(scene), joints_(joints), limits_(limits) {
+  Flattener(const SourceScene& scene, const FigureJoints* joints, const NodeChoice* choice,
+            const FlattenLimits& limits)
+      : scene_(scene), joints_(joints), choice_(choice), limits_(limits) {
     flat.hasJoints = joints != nullptr;
   }
 
@@ -86,7 +87,8 @@ public:
         append(primitive, joints_ ? scene_.toShow : X, skin < 0 && X.linear().determinant() < 0);
         if (joints_) takeJoints(primitive, index, skin, first);
       }
-    for (const std::uint32_t child : node.children) visit(child, X, depth + 1);
+    for (const std::uint32_t child : node.children)
+      if (!choice_ || !choice_->isLeftOut(child)) visit(child, X, depth + 1);
   }
 
   Flat flat;
@@ -139,6 +141,7 @@ private:
 
   const SourceScene& scene_;
   const FigureJoints* joints_;  ///< null: of an object
+  const NodeChoice* choice_;    ///< null: of a figure, all nodes
   const FlattenLimits& limits_;
 };
 
@@ -171,15 +174,16 @@ bool closedSurface(const Flat& flat, const std::vector<Fault>& faults) {
 
 }  // namespace
 
-Flat flatten(const SourceScene& scene, const FlattenLimits& limits) {
-  Flattener flattener(scene, nullptr, limits);
-  for (const std::uint32_t root : scene.roots) flattener.visit(root, scene.toShow, 0);
+Flat flatten(const SourceScene& scene, const NodeChoice& choice, const FlattenLimits& limits) {
+  Flattener flattener(scene, nullptr, &choice, limits);
+  for (const std::uint32_t root : choice.roots())
+    if (!choice.isLeftOut(root)) flattener.visit(root, choice.above(root), 0);
   turnMirrored(flattener.flat);
   return std::move(flattener.flat);
 }
 
 Flat flattenFigure(const SourceScene& scene, const FigureJoints& joints, const FlattenLimits& limits) {
-  Flattener flattener(scene, &joints, limits);
+  Flattener flattener(scene, &joints, nullptr, limits);
   for (const std::uint32_t root : scene.roots) flattener.visit(root, scene.toShow, 0);
   return std::move(flattener.flat);
 }

@@ -3,6 +3,7 @@
 /// of a figure keep the joints that carry them.
 
 #include "engine/asset/importer_program/mesh/figure_joints.h"
+#include "engine/asset/importer_program/mesh/node_choice.h"
 #include "engine/asset/importer_program/source/source_scene.h"
 #include "engine/asset/mesh_file.h"
 
@@ -35,8 +36,9 @@ struct FlattenLimits {
   MeshLimits mesh;
 };
 
-/// Everything where the scene's nodes put it. Throws Refusal when the scene goes beyond the limits.
-Flat flatten(const SourceScene& scene, const FlattenLimits& limits);
+/// The chosen nodes, where the scene puts them; a part in its own coordinates. Throws Refusal when the scene goes beyond
+/// the limits.
+Flat flatten(const SourceScene& scene, const NodeChoice& choice, const FlattenLimits& limits);
 
 /// Everything where its primitive has it, turned to +Z up and metres, with the joints that carry it.
 Flat flattenFigure(const SourceScene& scene, const FigureJoints& joints, const FlattenLimits& limits);

@@ -67,6 +67,10 @@ std::optional<Request> receive(int socket) {
   if (head.pathBytes == 0 || head.pathBytes > kLongestPath) return std::nullopt;
   request.path.resize(head.pathBytes);
   if (!readAll(socket, request.path.data(), head.pathBytes)) return std::nullopt;
+  if (head.nodesBytes > kLongestSelection) return std::nullopt;
+  std::string nodes(head.nodesBytes, '\0');
+  if (!readAll(socket, nodes.data(), nodes.size())) return std::nullopt;
+  request.nodes = nodeSelectionOf(nodes);
   return request;
 }
 

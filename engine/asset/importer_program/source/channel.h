@@ -13,6 +13,7 @@ struct Request {
   RequestHead head;
   FileDescriptor root;  ///< the asset root
   std::string path;     ///< below it
+  NodeSelection nodes{};
 };
 
 /// Returns the next request, or nothing if the show has ended or sent an invalid request.
