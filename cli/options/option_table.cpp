@@ -208,8 +208,7 @@ constexpr OptionRow kRows[] = {
     {"--assets", folder(), "imports every model below this folder and counts the results", Measurement},
     {"--full", flag(),
      "adds the acceptance counts: 10 000 damaged files of each kind, 1000 reloads, 300 frames of every "
-     "comparison, and "
-     "the tests that measure time",
+     "comparison, the tests that measure time, and those that run Blender",
      Measurement},
     {"--only", text("REGEX"), "runs only tests whose names match", Measurement},
     {"--summarize", file(), "runs nothing; prints the results in this file of ctest --output-junit",
