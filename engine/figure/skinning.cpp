@@ -66,19 +66,39 @@ std::array<float, 3> normalBy(const Columns& m, const std::array<float, 3>& n) {
   return firstThree(turnedNormal * all(mirrors / length));
 }
 
+Columns blended(const VertexJoints& carried, std::span<const JointMatrix> palette) {
+  Columns m = weighted(columnsOf(palette[carried.joint[0]]), carried.weight[0]);
+  for (std::size_t k = 1; k < VertexJoints::kMost; ++k)
+    if (carried.weight[k] > 0) add(m, columnsOf(palette[carried.joint[k]]), carried.weight[k]);
+  return m;
+}
+
+std::array<float, 4> tangentBy(const Columns& m, const std::array<float, 4>& t) {
+  const Lanes turnedTangent = m.x * all(t[0]) + m.y * all(t[1]) + m.z * all(t[2]);
+  const float length = std::sqrt(sumOf(turnedTangent * turnedTangent));
+  if (!(length > 0) || !std::isfinite(length)) return t;
+  const std::array<float, 3> unit = firstThree(turnedTangent * all(1 / length));
+  const bool mirrors = sumOf(m.x * cross(m.y, m.z)) < 0;
+  return {unit[0], unit[1], unit[2], mirrors ? -t[3] : t[3]};
+}
+
 }  // namespace
 
 void skin(const SkinSource& from, std::span<const JointMatrix> palette, std::size_t first,
           std::span<SkinnedVertex> out) {
   for (std::size_t i = 0; i < out.size(); ++i) {
-    const VertexJoints& carried = from.joints[first + i];
-    Columns m = weighted(columnsOf(palette[carried.joint[0]]), carried.weight[0]);
-    for (std::size_t k = 1; k < VertexJoints::kMost; ++k)
-      if (carried.weight[k] > 0) add(m, columnsOf(palette[carried.joint[k]]), carried.weight[k]);
+    const Columns m = blended(from.joints[first + i], palette);
     const std::array<float, 3>& p = from.positions[first + i];
     out[i].position = firstThree(m.x * all(p[0]) + m.y * all(p[1]) + m.z * all(p[2]) + m.origin);
     out[i].normal = normalBy(m, from.normals[first + i]);
   }
+}
+
+void skinTangents(std::span<const std::array<float, 4>> tangents, std::span<const VertexJoints> joints,
+                  std::span<const JointMatrix> palette, std::size_t first,
+                  std::span<std::array<float, 4>> out) {
+  for (std::size_t i = 0; i < out.size(); ++i)
+    out[i] = tangentBy(blended(joints[first + i], palette), tangents[first + i]);
 }
 
 }  // namespace stadion
