@@ -4,6 +4,7 @@
 /// Frames   vertex coordinates are in the mesh's own frame N.
 /// Threads  immutable after import: shared by App, every Cull and every Draw without locks.
 
+#include "engine/asset/material.h"
 #include "engine/figure/skeleton.h"
 #include "engine/maths/maths.h"
 
@@ -14,32 +15,6 @@
 #include <vector>
 
 namespace stadion {
-
-/// A picture: 8-bit RGBA, rows from the top, colour in sRGB, alpha linear and not premultiplied.
-struct Texture {
-  std::uint32_t width = 0, height = 0;  ///< [pixels], at most 8192
-  std::vector<std::uint8_t> rgba;       ///< (height x width x 4)
-  std::string name;                     ///< source of the picture, for messages
-};
-
-constexpr float kMostAlphaCutoff = 2;  ///< beyond 1 nothing is left
-
-struct Material {
-  std::string name;
-  std::array<float, 4> baseColour{0.8f, 0.8f, 0.8f, 1.0f};  ///< linear RGB, alpha
-  std::array<float, 3> emissive{0, 0, 0};                   ///< linear RGB
-  float roughness = 0.7f;                                   ///< 0 mirror .. 1 matt
-  float metallic = 0.0f;
-  std::int32_t texture = -1;          ///< index into Mesh::textures, -1 = none
-  std::int32_t emissiveTexture = -1;  ///< likewise; multiplies `emissive`, its alpha counts for nothing
-  float alphaCutoff =
-      0;  ///< 0 = nothing is cut out; else what has less alpha is not there, the rest is opaque
-  bool doubleSided = false;
-  bool textureHasAlpha = false;
-
-  bool masked() const { return alphaCutoff > 0; }
-  bool transparent() const { return !masked() && (baseColour[3] < 0.999f || textureHasAlpha); }
-};
 
 /// A run of triangles with one material.
 struct Submesh {
@@ -60,6 +35,12 @@ struct Mesh {
   std::vector<std::array<float, 3>> normals;    ///< unit; same length as positions
   std::vector<std::array<float, 2>>
       uvs;  ///< (0,0) top left of the picture, u right, v down; same length, or empty
+  /// For maps that lie otherwise on the surface (MaterialMap::secondUvs); same length, or empty.
+  std::vector<std::array<float, 2>> secondUvs;
+  /// Of normal maps: a unit vector along u, and the side of the bitangent, cross(normal, tangent) times 1 or -1,
+  /// which is up in the picture. (0, 0, 0, 1) where the file has none: it follows from the texture coordinates.
+  /// Same length, or empty.
+  std::vector<std::array<float, 4>> tangents;
   std::vector<std::array<std::uint8_t, 4>>
       colours;  ///< per vertex: colour in sRGB, alpha linear; same length, or empty
   /// What carries each vertex of a figure; same length as positions, or empty.
@@ -87,5 +68,11 @@ struct Mesh {
     return false;
   }
 };
+
+/// Returns true if a material's map can be drawn on the mesh. An emissive map needs no texture coordinates.
+inline bool isDrawn(const Mesh& mesh, const Material& material, std::size_t kind) {
+  const MaterialMap& map = material.maps[kind];
+  return map.given() && (kind == kEmissiveMap || !(map.secondUvs ? mesh.secondUvs : mesh.uvs).empty());
+}
 
 }  // namespace stadion

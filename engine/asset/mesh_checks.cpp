@@ -67,6 +67,30 @@ void addSkeleton(const Mesh& mesh, Hash& hash) {
   }
 }
 
+void addMap(const MaterialMap& map, std::uint64_t kind, Hash& hash) {
+  const Sampler& s = map.sampler;
+  hash.add(kind << 32);
+  hash.add(static_cast<std::uint64_t>(map.texture));
+  hash.add(std::uint64_t(s.wrapU) | std::uint64_t(s.wrapV) << 8 | std::uint64_t(s.mipmaps) << 16 |
+           std::uint64_t{s.magnifiesNearest} << 24 | std::uint64_t{s.minifiesNearest} << 25 |
+           std::uint64_t{map.secondUvs} << 26);
+  for (const float f : map.uvTransform) hash.add(f);
+}
+
+/// Adds what a material has beyond colours and plain maps of base colour and emission. Other materials add
+/// nothing, so that their meshes keep the hashes that they have always had.
+void addFurther(const Material& m, Hash& hash) {
+  for (std::size_t kind = 0; kind < kMapKinds; ++kind) {
+    const MaterialMap& map = m.maps[kind];
+    MaterialMap plain;
+    plain.texture = map.texture;
+    if (map.given() && (!holdsColours(kind) || map != plain)) addMap(map, 3 + kind, hash);
+  }
+  if (m.maps[kNormalMap].given()) hash.add(m.normalScale);
+  if (m.maps[kOcclusionMap].given()) hash.add(m.occlusionStrength);
+  if (m.unlit) hash.add(std::uint64_t{16} << 32);
+}
+
 // Names are left out: the same shape under two names is one mesh.
 std::uint64_t contentHash(const Mesh& mesh) {
   Hash hash;
@@ -74,6 +98,8 @@ std::uint64_t contentHash(const Mesh& mesh) {
   hash.add(mesh.normals);
   hash.add(mesh.uvs);
   hash.add(mesh.colours);
+  if (!mesh.secondUvs.empty()) hash.add(std::uint64_t{17} << 32), hash.add(mesh.secondUvs);
+  if (!mesh.tangents.empty()) hash.add(std::uint64_t{18} << 32), hash.add(mesh.tangents);
   hash.add(mesh.indices);
   for (const Submesh& s : mesh.submeshes) {
     hash.add(std::uint64_t{s.firstIndex});
@@ -85,13 +111,14 @@ std::uint64_t contentHash(const Mesh& mesh) {
     for (float c : m.emissive) hash.add(c);
     hash.add(m.roughness);
     hash.add(m.metallic);
-    hash.add(static_cast<std::uint64_t>(m.texture));
+    hash.add(static_cast<std::uint64_t>(m.maps[kBaseMap].texture));
     hash.add(std::uint64_t{m.doubleSided});
     hash.add(std::uint64_t{m.textureHasAlpha});
     // Only where there is such a thing: other meshes keep the hashes that they have always had.
     if (m.masked()) hash.add(std::uint64_t{1} << 32), hash.add(m.alphaCutoff);
-    if (m.emissiveTexture >= 0)
-      hash.add(std::uint64_t{2} << 32), hash.add(static_cast<std::uint64_t>(m.emissiveTexture));
+    const MaterialMap& glow = m.maps[kEmissiveMap];
+    if (glow.given()) hash.add(std::uint64_t{2} << 32), hash.add(static_cast<std::uint64_t>(glow.texture));
+    addFurther(m, hash);
   }
   for (const Texture& t : mesh.textures) {
     hash.add(std::uint64_t{t.width});

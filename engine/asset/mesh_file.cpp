@@ -17,14 +17,20 @@ constexpr std::uint32_t kVersion = 5;
 struct Head {
   std::uint32_t magic, version;
   std::uint32_t vertices, indices, submeshes, materials, textures;
-  std::uint32_t hasUvs, hasColours, hasSkeleton;
+  std::uint32_t hasUvs, hasSecondUvs, hasTangents, hasColours, hasSkeleton;
   double place[12];  ///< columns
 };
 
+struct MapRecord {
+  float uvTransform[6];
+  std::int32_t texture;
+  std::uint8_t wrapU, wrapV, mipmaps, magnifiesNearest, minifiesNearest, secondUvs, unused[2];
+};
+
 struct MaterialRecord {
-  float baseColour[4], emissive[3], roughness, metallic, alphaCutoff;
-  std::int32_t texture, emissiveTexture;
-  std::uint32_t doubleSided, textureHasAlpha;
+  float baseColour[4], emissive[3], roughness, metallic, alphaCutoff, normalScale, occlusionStrength;
+  MapRecord maps[kMapKinds];
+  std::uint32_t doubleSided, textureHasAlpha, unlit;
 };
 
 template <std::size_t N>
@@ -47,6 +53,34 @@ bool within(float value, float low, float high) {
   return value >= low && value <= high;
 }
 
+MapRecord recordOf(const MaterialMap& map) {
+  MapRecord r{};
+  std::ranges::copy(map.uvTransform, r.uvTransform);
+  r.texture = map.texture;
+  r.wrapU = static_cast<std::uint8_t>(map.sampler.wrapU);
+  r.wrapV = static_cast<std::uint8_t>(map.sampler.wrapV);
+  r.mipmaps = static_cast<std::uint8_t>(map.sampler.mipmaps);
+  r.magnifiesNearest = map.sampler.magnifiesNearest;
+  r.minifiesNearest = map.sampler.minifiesNearest;
+  r.secondUvs = map.secondUvs;
+  return r;
+}
+
+bool toMap(const MapRecord& r, std::size_t textures, MaterialMap& map) {
+  constexpr auto kLastWrap = static_cast<std::uint8_t>(WrapMode::Clamp);
+  if (r.texture < -1 || r.texture >= static_cast<std::int64_t>(textures)) return false;
+  if (r.wrapU > kLastWrap || r.wrapV > kLastWrap || r.mipmaps > static_cast<std::uint8_t>(MipmapUse::None))
+    return false;
+  for (const float f : r.uvTransform)
+    if (!within(f, -1e9f, 1e9f)) return false;
+  std::ranges::copy(r.uvTransform, map.uvTransform.begin());
+  map.texture = r.texture;
+  map.sampler = {static_cast<WrapMode>(r.wrapU), static_cast<WrapMode>(r.wrapV), r.magnifiesNearest != 0,
+                 r.minifiesNearest != 0, static_cast<MipmapUse>(r.mipmaps)};
+  map.secondUvs = r.secondUvs != 0;
+  return true;
+}
+
 bool toMaterial(const MaterialRecord& r, std::size_t textures, Material& m) {
   for (int k = 0; k < 4; ++k) {
     if (!within(r.baseColour[k], 0, 1)) return false;
@@ -58,16 +92,35 @@ bool toMaterial(const MaterialRecord& r, std::size_t textures, Material& m) {
   }
   if (!within(r.roughness, 0, 1) || !within(r.metallic, 0, 1) || !within(r.alphaCutoff, 0, kMostAlphaCutoff))
     return false;
-  for (const std::int32_t texture : {r.texture, r.emissiveTexture})
-    if (texture < -1 || texture >= static_cast<std::int64_t>(textures)) return false;
+  if (!within(r.normalScale, -kMostNormalScale, kMostNormalScale) || !within(r.occlusionStrength, 0, 1))
+    return false;
+  for (std::size_t kind = 0; kind < kMapKinds; ++kind)
+    if (!toMap(r.maps[kind], textures, m.maps[kind])) return false;
   m.roughness = r.roughness;
   m.metallic = r.metallic;
   m.alphaCutoff = r.alphaCutoff;
-  m.texture = r.texture;
-  m.emissiveTexture = r.emissiveTexture;
+  m.normalScale = r.normalScale;
+  m.occlusionStrength = r.occlusionStrength;
   m.doubleSided = r.doubleSided != 0;
   m.textureHasAlpha = r.textureHasAlpha != 0;
+  m.unlit = r.unlit != 0;
   return true;
+}
+
+MaterialRecord recordOf(const Material& m) {
+  MaterialRecord r{};
+  std::ranges::copy(m.baseColour, r.baseColour);
+  std::ranges::copy(m.emissive, r.emissive);
+  r.roughness = m.roughness;
+  r.metallic = m.metallic;
+  r.alphaCutoff = m.alphaCutoff;
+  r.normalScale = m.normalScale;
+  r.occlusionStrength = m.occlusionStrength;
+  std::ranges::transform(m.maps, r.maps, [](const MaterialMap& map) { return recordOf(map); });
+  r.doubleSided = m.doubleSided;
+  r.textureHasAlpha = m.textureHasAlpha;
+  r.unlit = m.unlit;
+  return r;
 }
 
 bool readMaterials(ValueReader& in, const Head& head, Mesh& mesh) {
@@ -98,6 +151,8 @@ bool readTextures(ValueReader& in, const Head& head, const MeshLimits& limits, M
 bool readGeometry(ValueReader& in, const Head& head, Mesh& mesh) {
   return in.get(mesh.positions, head.vertices) && in.get(mesh.normals, head.vertices) &&
          in.get(mesh.uvs, head.hasUvs ? head.vertices : 0) &&
+         in.get(mesh.secondUvs, head.hasSecondUvs ? head.vertices : 0) &&
+         in.get(mesh.tangents, head.hasTangents ? head.vertices : 0) &&
          in.get(mesh.colours, head.hasColours ? head.vertices : 0) &&
          in.get(mesh.joints, head.hasSkeleton ? head.vertices : 0) && in.get(mesh.indices, head.indices) &&
          in.get(mesh.submeshes, head.submeshes);
@@ -123,7 +178,8 @@ bool readFigure(ValueReader& in, const Head& head, const MeshLimits& limits, Mes
 
 // The submeshes cover the indices in order, without gap or overlap.
 const char* faultOf(const Mesh& mesh) {
-  if (!finite(mesh.positions) || !finite(mesh.uvs)) return "a number that is not finite";
+  if (!finite(mesh.positions) || !finite(mesh.uvs) || !finite(mesh.secondUvs) || !finite(mesh.tangents))
+    return "a number that is not finite";
   if (!unitLength(mesh.normals)) return "a normal that is not of unit length";
   for (std::uint32_t index : mesh.indices)
     if (index >= mesh.positions.size()) return "an index out of range";
@@ -155,6 +211,8 @@ Head headOf(const Mesh& mesh) {
             count(mesh.materials),
             count(mesh.textures),
             !mesh.uvs.empty(),
+            !mesh.secondUvs.empty(),
+            !mesh.tangents.empty(),
             !mesh.colours.empty(),
             mesh.skeleton != nullptr,
             {}};
@@ -170,20 +228,14 @@ std::vector<std::uint8_t> encode(const Mesh& mesh) {
   out.put(mesh.positions);
   out.put(mesh.normals);
   out.put(mesh.uvs);
+  out.put(mesh.secondUvs);
+  out.put(mesh.tangents);
   out.put(mesh.colours);
   if (mesh.skeleton) out.put(mesh.joints);
   out.put(mesh.indices);
   out.put(mesh.submeshes);
   for (const Material& m : mesh.materials) {
-    out.put(MaterialRecord{{m.baseColour[0], m.baseColour[1], m.baseColour[2], m.baseColour[3]},
-                           {m.emissive[0], m.emissive[1], m.emissive[2]},
-                           m.roughness,
-                           m.metallic,
-                           m.alphaCutoff,
-                           m.texture,
-                           m.emissiveTexture,
-                           m.doubleSided,
-                           m.textureHasAlpha});
+    out.put(recordOf(m));
     putName(out, m.name);
   }
   for (const Texture& t : mesh.textures) {

@@ -39,7 +39,7 @@ double farthestFrom(const Mesh& mesh, std::span<const std::uint32_t> from, const
 /// What is painted on a surface: colour, and the place in the picture.
 struct Paint {
   Eigen::Vector4d colour = Eigen::Vector4d::Constant(255);
-  Eigen::Vector2d uv = Eigen::Vector2d::Zero();
+  Eigen::Vector4d uv = Eigen::Vector4d::Zero();  ///< both places
 };
 
 Paint paintAt(const Mesh& mesh, const std::array<std::uint32_t, 3>& corners, const Vec3& weights) {
@@ -51,17 +51,20 @@ Paint paintAt(const Mesh& mesh, const std::array<std::uint32_t, 3>& corners, con
       const auto& c = mesh.colours[corners[k]];
       paint.colour += w * Eigen::Vector4d(c[0], c[1], c[2], c[3]);
     }
-    if (!mesh.uvs.empty()) {
-      const auto& uv = mesh.uvs[corners[k]];
-      paint.uv += w * Eigen::Vector2d(double{uv[0]}, double{uv[1]});
-    }
+    const auto addUv = [&](const auto& uvs, int first) {
+      if (uvs.empty()) return;
+      const auto& uv = uvs[corners[k]];
+      paint.uv.segment<2>(first) += w * Eigen::Vector2d(double{uv[0]}, double{uv[1]});
+    };
+    addUv(mesh.uvs, 0);
+    addUv(mesh.secondUvs, 2);
   }
   return paint;
 }
 
 /// Whether the simplified surface shows the same colours and the same part of the picture at the same places.
 bool paintedAlike(const Mesh& mesh, std::span<const std::uint32_t> full, const NearestTriangle& simplified) {
-  if (mesh.colours.empty() && mesh.uvs.empty()) return true;
+  if (mesh.colours.empty() && mesh.uvs.empty() && mesh.secondUvs.empty()) return true;
   for (std::size_t i = 0; i + 2 < full.size(); i += 3) {
     const std::array<std::uint32_t, 3> corners{full[i], full[i + 1], full[i + 2]};
     for (const Vec3& w : kSamples) {
@@ -152,7 +155,7 @@ std::uint32_t vertexFor(const Mesh& mesh, const AtPlace& vertices, std::uint32_t
 class Collapse {
 public:
   Collapse(const Mesh& mesh, const std::vector<std::uint32_t>& places, const Piece& piece)
-      : mesh_(mesh), welded_(mesh.uvs.empty()) {
+      : mesh_(mesh), welded_(mesh.uvs.empty() && mesh.secondUvs.empty()) {
     for (const std::uint32_t v : piece.indices) {
       const std::uint32_t corner = welded_ ? places[v] : v;
       corners_.push_back(corner);

@@ -47,7 +47,7 @@ std::unique_ptr<Mesh> standIn(const std::string& name) {
   material.name = "stand-in";
   material.baseColour = {1, 1, 1, 1};
   material.emissive = {0.25f, 0, 0.25f};  // seen in the dark, too
-  material.texture = 0;
+  material.maps[kBaseMap].texture = 0;
   mesh->materials = {material};
   mesh->textures = {checks()};
   mesh->submeshes = {{0, static_cast<std::uint32_t>(mesh->indices.size()), 0}};

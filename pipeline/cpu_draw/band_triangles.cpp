@@ -26,6 +26,10 @@ void BandTriangles::makeBlocks(const SurfaceBlocks& from, std::span<const unsign
   const std::size_t used = blocksUsed_ + without_.size();
   if (blocks_.size() < used + 1) blocks_.resize(2 * used + 1);
   from.fill(without_, blocks_.data() + blocksUsed_);
+  if (from.hasExtras()) {
+    if (extras_.size() < blocks_.size()) extras_.resize(blocks_.size());
+    from.fillExtras(without_, extras_.data() + blocksUsed_);
+  }
   blocksUsed_ = static_cast<unsigned>(used);
 }
 

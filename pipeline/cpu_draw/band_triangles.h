@@ -31,12 +31,15 @@ public:
   /// Expects a triangle whose block was made.
   unsigned block(unsigned number) const { return blockOf_[number]; }
   const SurfaceBlock* blocks() const { return blocks_.data(); }
+  /// As many; null: no mesh has any.
+  const SurfaceExtra* extras() const { return extras_.empty() ? nullptr : extras_.data(); }
 
 private:
   std::vector<Run> runs_;
   std::vector<const TriangleRecord*> records_, without_;
   std::vector<unsigned> blockOf_;
   std::vector<SurfaceBlock> blocks_;  ///< more than are used: it keeps its memory
+  std::vector<SurfaceExtra> extras_;
   unsigned blocksUsed_ = 0;
 };
 

@@ -29,6 +29,7 @@ const int* Cutouts::present(const DrawKernels& kernels, const PictureSetup& setu
   list.makeBlocks(blocks, {&number, 1});
   FragmentJob job{};
   job.surfaces = list.blocks() + list.block(number);
+  if (list.extras()) job.extras = list.extras() + list.block(number);
   job.material = setup.materials()[setup.stretchOf(record).material];
   job.nearestLevel = nearestLevel;
   const int low = std::max<int>(record.low, band.low), end = std::min<int>(record.high + 1, band.end);

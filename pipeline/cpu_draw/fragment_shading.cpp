@@ -54,6 +54,7 @@ void FragmentShading::shade(const PictureShading& picture, BandTriangles& triang
   sort(picture, triangles, fragments);
   FragmentJob job{};
   job.surfaces = triangles.blocks();
+  job.extras = triangles.extras();
   job.runs = runs;
   job.colours = colours;
   job.scene = picture.scene;

@@ -50,6 +50,7 @@ void PictureSetup::begin(const ViewGeometry& geometry, int samples, float slopeO
   vertices_ = 0;
   partsAdded_ = 0;
   trianglesAdded_ = 0;
+  hasExtras_ = false;
 }
 
 bool PictureSetup::add(const std::shared_ptr<const CpuMesh>& mesh, std::uint32_t level,
@@ -66,6 +67,7 @@ bool PictureSetup::add(const std::shared_ptr<const CpuMesh>& mesh, std::uint32_t
     addPart(number, part, materialNumber(mesh->material(part.material)));
   }
   if (any) addPlacements(number);
+  hasExtras_ |= any && mesh->extras();
   return true;
 }
 

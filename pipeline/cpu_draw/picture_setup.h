@@ -81,6 +81,8 @@ public:
     return {const_cast<float*>(placed_.data()) + 4 * instance.firstVertex};  // the kernels only read
   }
   const PictureInstance& instance(std::uint32_t i) const { return instances_[i]; }
+  /// Returns true if a mesh has extras (SurfaceExtra).
+  bool hasExtras() const { return hasExtras_; }
   std::span<const MaterialParameters* const> materials() const { return materials_; }
   /// Instances, a part of a mesh each, and their triangles.
   std::uint32_t partsAdded() const { return static_cast<std::uint32_t>(partsAdded_); }
@@ -126,6 +128,7 @@ private:
   std::size_t chunksUsed_ = 0;
   std::size_t vertices_ = 0, partsAdded_ = 0;
   std::uint64_t trianglesAdded_ = 0;
+  bool hasExtras_ = false;
   std::vector<float> placed_;
 };
 

@@ -16,6 +16,20 @@ double rowTimes(const float* row, const std::array<float, 3>& p) {
   return double{row[0]} * p[0] + double{row[1]} * p[1] + double{row[2]} * p[2] + row[3];
 }
 
+/// Turns a corner's tangent to World axes, unit.
+void placeExtra(const PictureInstance& instance, const float* from, float* to) {
+  float squared = 0;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const float* row = instance.model.data() + 4 * k;
+    to[k] = row[0] * from[0] + row[1] * from[1] + row[2] * from[2];
+    squared += to[k] * to[k];
+  }
+  const float per = 1 / std::sqrt(std::max(squared, 1e-30f));
+  for (std::size_t k = 0; k < 3; ++k) to[k] *= per;
+  to[3] = instance.mirrored ? -from[3] : from[3];
+  std::copy_n(from + 4, kExtraVertexFloats - 4, to + 4);
+}
+
 }  // namespace
 
 void SurfaceBlocks::fill(std::span<const TriangleRecord* const> triangles, SurfaceBlock* out) const {
@@ -50,6 +64,18 @@ void SurfaceBlocks::fillStretch(std::span<const TriangleRecord* const> triangles
     if (triangles[i]->sourceAndFlags & kClipped) weighClipped(*triangles[i], out[i]);
     if (look_ == Look::Plain)
       for (std::size_t k = 0; k < 3; ++k) lightCorner(material, out[i].at + kFirstCorner + k * kCornerFloats);
+  }
+}
+
+void SurfaceBlocks::fillExtras(std::span<const TriangleRecord* const> triangles, SurfaceExtra* out) const {
+  for (std::size_t i = 0; i < triangles.size(); ++i) {
+    const PictureInstance& instance = picture_.instance(picture_.stretchOf(*triangles[i]).instance);
+    const float* from = instance.mesh->extras();
+    if (!from) continue;
+    const std::array<int, 3> corners = instance.mesh->triangle(triangles[i]->triangle);
+    for (std::size_t k = 0; k < 3; ++k)
+      placeExtra(instance, from + static_cast<std::size_t>(corners[k]) * kExtraVertexFloats,
+                 out[i].at + k * kExtraVertexFloats);
   }
 }
 
@@ -89,11 +115,12 @@ void SurfaceBlocks::fillWeights(const std::array<Corner, 3>& p, SurfaceBlock& ou
 void SurfaceBlocks::lightCorner(const MaterialParameters& material, float* corner) const {
   const std::array<float, 3> n{corner[0], corner[1], corner[2]};
   const std::array<float, 3> p{corner[kPositionOf], corner[kPositionOf + 1], corner[kPositionOf + 2]};
-  const std::array<float, 3> light = plainLight(scene_, p, n);
+  const std::array<float, 3> light =
+      material.unlit ? std::array<float, 3>{1, 1, 1} : plainLight(scene_, p, n);
   float* colour = corner + kColourOf;
   float squared = 0;
   for (std::size_t k = 0; k < 3; ++k) {
-    const float emitted = material.glow.texels ? 0 : material.emissive[k];
+    const float emitted = material.glow.texels || material.unlit ? 0 : material.emissive[k];
     colour[k] = std::min(emitted + material.baseColour[k] * colour[k] * light[k], 1.0f);
     squared += (view_.eye[k] - p[k]) * (view_.eye[k] - p[k]);
   }

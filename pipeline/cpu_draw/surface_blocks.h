@@ -16,6 +16,10 @@ public:
                 const SceneParameters& scene, const ViewParameters& view)
       : kernels_(kernels), picture_(picture), look_(look), scene_(scene), view_(view) {}
 
+  /// Returns true if fillExtras() has something to fill.
+  bool hasExtras() const { return picture_.hasExtras(); }
+  /// One for each. Those of meshes that have none stay as they are.
+  void fillExtras(std::span<const TriangleRecord* const> triangles, SurfaceExtra* out) const;
   /// One block for each.
   void fill(std::span<const TriangleRecord* const> triangles, SurfaceBlock* out) const;
 

@@ -1,5 +1,7 @@
 #include "pipeline/shader/shaders.h"
 
+#include "pipeline/shader/surface_text.h"
+
 namespace stadion {
 namespace {
 
@@ -58,6 +60,44 @@ vec4 encoded(vec3 c) {  // IEC 61966-2-1
 }
 )";
 
+// Where a surface's maps are read. Without OWN_PLACES all have the same coordinates.
+constexpr const char* kTexels = R"(
+#ifdef OWN_PLACES
+IO vec2 texelOfBase;
+IO vec2 texelOfGlow;
+IO vec2 texelOfFinish;
+IO vec2 texelOfNormal;
+IO vec2 texelOfOcclusion;
+#elif defined(PICTURES)
+IO vec2 texel;
+#define texelOfBase texel
+#define texelOfGlow texel
+#define texelOfFinish texel
+#define texelOfNormal texel
+#define texelOfOcclusion texel
+#endif
+)";
+
+constexpr const char* kPlaceTexels = R"(
+#ifdef OWN_PLACES
+layout(location = 7) in vec2 secondUv;
+
+vec2 placedBy(vec4 u, vec4 v, vec2 first) {
+  vec3 from = vec3(u.w > 0.5 ? secondUv : first, 1.0);
+  return vec2(dot(u.xyz, from), dot(v.xyz, from));
+}
+void placeTexels(vec2 first) {
+  texelOfBase = placedBy(PLACES[0], PLACES[1], first);
+  texelOfGlow = placedBy(PLACES[2], PLACES[3], first);
+  texelOfFinish = placedBy(PLACES[4], PLACES[5], first);
+  texelOfNormal = placedBy(PLACES[6], PLACES[7], first);
+  texelOfOcclusion = placedBy(PLACES[8], PLACES[9], first);
+}
+#elif defined(PICTURES)
+void placeTexels(vec2 first) { texel = first; }
+#endif
+)";
+
 // Stores transparent surfaces: a list of fragments for each pixel (glass_layers.h).
 constexpr const char* kKeepFragment = R"(
 #ifdef LAYERED
@@ -92,8 +132,10 @@ constexpr const char* kMaterial = R"(
 layout(std140) uniform Material {
   vec4 baseColour;
   vec4 emissive;  // w: roughness
-  vec4 finish;    // x: metallic, y: alpha cutoff
+  vec4 finish;    // x: metallic, y: alpha cutoff, z: normal scale, w: occlusion strength
+  vec4 places[10];
 };
+#define PLACES places
 )";
 
 // The material of a draw of many, for its vertices: the same for all of them.
@@ -102,6 +144,7 @@ struct MaterialOfDraw {
   vec4 baseColour;
   vec4 emissive;
   vec4 finish;
+  vec4 places[10];
 };
 layout(std430, binding = 3) readonly buffer Materials { MaterialOfDraw materials[]; };
 layout(std430, binding = 4) readonly buffer Draws { uint draws[]; };  // six a draw; the last one is its material
@@ -110,8 +153,11 @@ flat out vec4 baseColour;
 flat out vec4 emissive;
 flat out vec4 finish;
 
+uint which;
+#define PLACES materials[which].places
+
 void takeMaterial() {
-  uint which = draws[6 * (firstDraw + gl_DrawIDARB) + 5];
+  which = draws[6 * (firstDraw + gl_DrawIDARB) + 5];
   baseColour = materials[which].baseColour;
   emissive = materials[which].emissive;
   finish = materials[which].finish;
@@ -122,191 +168,6 @@ constexpr const char* kDrawMaterialFragment = R"(
 flat in vec4 baseColour;
 flat in vec4 emissive;
 flat in vec4 finish;
-)";
-
-constexpr const char* kSurfaceVertex = R"(
-layout(location = 0) in vec3 position;
-layout(location = 1) in vec3 normal;
-layout(location = 2) in vec2 uv;
-layout(location = 3) in vec4 colour;
-layout(location = 4) in vec4 modelX;  // the model matrix, by rows
-layout(location = 5) in vec4 modelY;
-layout(location = 6) in vec4 modelZ;
-
-#ifdef LAYERED
-flat out int instance;
-#endif
-out vec3 placed;
-out vec3 outward;
-out vec4 vertexColour;
-#ifdef PICTURES
-out vec2 texel;
-#endif
-
-void main() {
-#ifdef INDIRECT
-  takeMaterial();
-#endif
-  vec4 p = vec4(position, 1.0);
-  placed = vec3(dot(modelX, p), dot(modelY, p), dot(modelZ, p));
-  // Normals go by the inverse transpose; up to its length that is the cofactor matrix, whose rows are cross
-  // products, with the sign of the determinant.
-  vec3 cofactorX = cross(modelY.xyz, modelZ.xyz);
-  vec3 cofactorY = cross(modelZ.xyz, modelX.xyz);
-  vec3 cofactorZ = cross(modelX.xyz, modelY.xyz);
-  float side = dot(modelX.xyz, cofactorX) < 0.0 ? -1.0 : 1.0;
-  vec3 n = side * vec3(dot(cofactorX, normal), dot(cofactorY, normal), dot(cofactorZ, normal));
-  outward = n * inversesqrt(max(dot(n, n), 1e-30));
-  vertexColour = colour;
-#ifdef PICTURES
-  texel = uv;
-#endif
-#ifdef LAYERED
-  instance = gl_InstanceID;
-#endif
-  gl_Position = viewProjection * vec4(placed, 1.0);
-}
-)";
-
-constexpr const char* kSurfaceFragment = R"(
-in vec3 placed;
-in vec3 outward;
-in vec4 vertexColour;
-#ifdef PICTURES
-in vec2 texel;
-#endif
-#ifdef TEXTURED
-uniform sampler2D baseTexture;
-#endif
-#ifdef GLOWING
-uniform sampler2D glowTexture;
-#endif
-
-vec3 ambientFrom(vec3 n) { return ambient.rgb * mix(0.3 + ground.rgb, vec3(1.0), 0.5 + 0.5 * n.z); }
-
-#ifdef SHADOWED
-layout(std140) uniform Shadow {
-  vec4 shadowRight;
-  vec4 shadowUp;
-  vec4 shadowTowards;
-  vec4 shadowRings[4];
-  vec4 shadowLift;
-};
-uniform sampler2DShadow shadowMap;
-
-// How far p lies from the middle of a ring's quarter of the map; the quarter ends at 0.25.
-float outside(vec2 p, vec4 ring, vec2 middle) {
-  vec2 away = abs(p * ring.w + ring.xy - middle);
-  return max(away.x, away.y);
-}
-
-// The part of the light that arrives.
-float lightArriving(vec3 n) {
-  vec3 s = vec3(dot(shadowRight.xyz, placed), dot(shadowUp.xyz, placed), dot(shadowTowards.xyz, placed));
-  vec4 ring = shadowRings[3];
-  float lift = shadowLift.w;
-  float edge = outside(s.xy, ring, vec2(0.75, 0.75));
-  if (outside(s.xy, shadowRings[2], vec2(0.25, 0.75)) < 0.245) { ring = shadowRings[2]; lift = shadowLift.z; }
-  if (outside(s.xy, shadowRings[1], vec2(0.75, 0.25)) < 0.245) { ring = shadowRings[1]; lift = shadowLift.y; }
-  if (outside(s.xy, shadowRings[0], vec2(0.25, 0.25)) < 0.245) { ring = shadowRings[0]; lift = shadowLift.x; }
-  s += lift * vec3(dot(shadowRight.xyz, n), dot(shadowUp.xyz, n), dot(shadowTowards.xyz, n));
-  vec2 at = s.xy * ring.w + ring.xy;
-  float depth = s.z * shadowTowards.w + ring.z;
-  const vec2 o = vec2(0.75, -0.75) / 2048.0;  // of a texel, so that the edge is some three texels wide
-  float lit = textureLod(shadowMap, vec3(at + o.xx, depth), 0.0) + textureLod(shadowMap, vec3(at + o.xy, depth), 0.0) +
-              textureLod(shadowMap, vec3(at + o.yx, depth), 0.0) + textureLod(shadowMap, vec3(at + o.yy, depth), 0.0);
-  return mix(0.25 * lit, 1.0, clamp((edge - 0.22) * 40.0, 0.0, 1.0));
-}
-#endif
-
-float fifth(float x) {
-  float squared = x * x;
-  return squared * squared * x;
-}
-
-void main() {
-#ifdef LAYERED
-  vec3 plane = depthPlane();
-#endif
-  vec4 base = baseColour * vertexColour;
-#ifdef TEXTURED
-  base *= texture(baseTexture, texel);
-#endif
-  vec3 emitted = emissive.rgb;
-#ifdef GLOWING
-  emitted *= texture(glowTexture, texel).rgb;
-#endif
-#ifdef MASKED
-  if (base.a < finish.y) discard;
-#endif
-  float roughness = emissive.w;
-  float metallic = finish.x;
-  vec3 diffuse = base.rgb * (1.0 - metallic);
-  vec3 mirror = mix(vec3(0.04), base.rgb, metallic);
-
-  vec3 away = eye.xyz - placed;
-  float distanceSquared = max(dot(away, away), 1e-12);
-  float perDistance = inversesqrt(distanceSquared);
-  vec3 v = away * perDistance;
-  vec3 n = outward * inversesqrt(max(dot(outward, outward), 1e-30));
-  if (!gl_FrontFacing) n = -n;
-  float nv = max(dot(n, v), 1e-3);
-
-  // A dielectric seen square on shows its diffuse colour alone; towards grazing it mirrors the surroundings.
-  float grazing = fifth(1.0 - nv) * (1.0 - roughness) * (1.0 - roughness);
-  vec3 light = emitted + diffuse * ambientFrom(n) +
-               (mirror * metallic + (1.0 - mirror) * grazing) * ambientFrom(reflect(-v, n));
-
-  float spread = roughness * roughness;
-  float spreadSquared = spread * spread;
-  float k = 0.5 * spread;
-#ifdef SHADOWED
-  float arriving = lightArriving(n);  // not in the loop: its lines are run whatever the branches say
-#endif
-  for (int i = 0; i < LIGHTS; ++i) {
-    vec3 l = lights[i].direction.xyz;
-    float strength = 1.0;
-#ifdef LOCAL_LIGHTS
-    if (lights[i].direction.w > 0.5) {
-      vec3 to = lights[i].position.xyz - placed;
-      float squared = max(dot(to, to), 1e-12);
-      to *= inversesqrt(squared);
-      float fading = max(1.0 - squared * lights[i].position.w, 0.0);
-      strength = fading * fading;
-      if (lights[i].direction.w > 1.5) {
-        float inside = clamp((dot(to, l) - lights[i].cone.x) * lights[i].cone.y, 0.0, 1.0);
-        strength *= inside * inside * (3.0 - 2.0 * inside);
-      }
-      l = to;
-    }
-#endif
-    float nl = dot(n, l);
-    if (nl > 0.0) {
-#ifdef SHADOWED
-      strength *= i == lightCount.y ? arriving : 1.0;
-#endif
-      vec3 h = l + v;
-      h *= inversesqrt(max(dot(h, h), 1e-12));
-      float nh = clamp(dot(n, h), 0.0, 1.0);
-      float lobe = nh * nh * (spreadSquared - 1.0) + 1.0;
-      float shadowing = (nl * (1.0 - k) + k) * (nv * (1.0 - k) + k);
-      float highlight = 0.25 * spreadSquared / (lobe * lobe * shadowing);
-      vec3 fresnel = mirror + (1.0 - mirror) * fifth(1.0 - clamp(dot(l, h), 0.0, 1.0));
-      light += (diffuse + highlight * fresnel) * lights[i].colour.rgb * (strength * nl);
-    }
-  }
-
-#ifdef HAZY
-  light = mix(air(-v), light, exp2(-1.442695 * distanceSquared * perDistance * ambient.w));
-#endif
-#if defined(LAYERED)
-  keep(vec4(softClip(light), clamp(base.a, 0.0, 1.0)), plane);
-#elif defined(BLENDED)
-  shown = vec4(softClip(light), clamp(base.a, 0.0, 1.0));
-#else
-  shown = encoded(softClip(light));
-#endif
-}
 )";
 
 constexpr const char* kPlainVertex = R"(
@@ -322,9 +183,6 @@ layout(location = 6) in vec4 modelZ;
 flat out int instance;
 #endif
 out vec4 shade;
-#ifdef PICTURES
-out vec2 texel;
-#endif
 #ifdef HAZY
 out float clearness;
 #endif
@@ -361,13 +219,15 @@ void main() {
 #endif
     light += lights[i].colour.rgb * (strength * max(dot(n, l), 0.0));
   }
-#ifdef GLOWING
+#if defined(UNLIT)
+  shade = vec4(min(baseColour.rgb * colour.rgb, 1.0), baseColour.a * colour.a);
+#elif defined(GLOWING)
   shade = vec4(min(baseColour.rgb * colour.rgb * light, 1.0), baseColour.a * colour.a);
 #else
   shade = vec4(min(emissive.rgb + baseColour.rgb * colour.rgb * light, 1.0), baseColour.a * colour.a);
 #endif
 #ifdef PICTURES
-  texel = uv;
+  placeTexels(uv);
 #endif
 #ifdef HAZY
   clearness = exp2(-1.442695 * distance(eye.xyz, placed) * ambient.w);
@@ -381,9 +241,6 @@ void main() {
 
 constexpr const char* kPlainFragment = R"(
 in vec4 shade;
-#ifdef PICTURES
-in vec2 texel;
-#endif
 #ifdef TEXTURED
 uniform sampler2D baseTexture;
 #endif
@@ -400,10 +257,10 @@ void main() {
 #endif
   vec4 c = shade;
 #ifdef TEXTURED
-  c *= texture(baseTexture, texel);
+  c *= texture(baseTexture, texelOfBase);
 #endif
 #ifdef GLOWING
-  c.rgb = min(c.rgb + emissive.rgb * texture(glowTexture, texel).rgb, 1.0);
+  c.rgb = min(c.rgb + emissive.rgb * texture(glowTexture, texelOfGlow).rgb, 1.0);
 #endif
 #ifdef MASKED
   if (c.a < finish.y) discard;
@@ -444,16 +301,13 @@ layout(location = 6) in vec4 modelZ;
 #ifdef MASKED
 out float alpha;
 #endif
-#ifdef PICTURES
-out vec2 texel;
-#endif
 
 void main() {
 #ifdef MASKED
   alpha = baseColour.a * colour.a;
 #endif
 #ifdef PICTURES
-  texel = uv;
+  placeTexels(uv);
 #endif
   vec4 p = vec4(position, 1.0);
   gl_Position = viewProjection * vec4(dot(modelX, p), dot(modelY, p), dot(modelZ, p), 1.0);
@@ -464,9 +318,6 @@ constexpr const char* kShadowFragment = R"(
 #ifdef MASKED
 in float alpha;
 #endif
-#ifdef PICTURES
-in vec2 texel;
-#endif
 #ifdef TEXTURED
 uniform sampler2D baseTexture;
 #endif
@@ -475,7 +326,7 @@ void main() {
 #ifdef MASKED
   float a = alpha;
 #ifdef TEXTURED
-  a *= texture(baseTexture, texel).a;
+  a *= texture(baseTexture, texelOfBase).a;
 #endif
   if (a < finish.y) discard;
 #endif
@@ -519,7 +370,13 @@ std::string definitions(const SurfaceTraits& traits) {
   if (traits.writes == SurfaceWrites::Layers) text += "#define LAYERED\n";
   if (traits.masked) text += "#define MASKED\n";
   if (traits.glowing) text += "#define GLOWING\n";
-  if (traits.textured || traits.glowing) text += "#define PICTURES\n";
+  if (traits.finished) text += "#define FINISHED\n";
+  if (traits.bumpy) text += "#define BUMPY\n";
+  if (traits.occluded) text += "#define OCCLUDED\n";
+  if (traits.bumpy && traits.tangents) text += "#define TANGENTS\n";
+  if (traits.unlit) text += "#define UNLIT\n";
+  if (traits.pictured()) text += "#define PICTURES\n";
+  if (traits.pictured() && traits.ownPlaces) text += "#define OWN_PLACES\n";
   if (traits.indirect) text += "#define INDIRECT\n";
   text += "#define LIGHTS " +
           (traits.lights < 0 ? std::string("lightCount.x") : std::to_string(traits.lights)) + "\n";
@@ -534,24 +391,25 @@ const char* versionOf(const SurfaceTraits& traits) {
 }  // namespace
 
 std::string surfaceVertexShader(const SurfaceTraits& traits) {
-  const bool plain = traits.look == Look::Plain;
-  const char* material = traits.indirect ? kDrawMaterialVertex : plain ? kMaterial : "";
-  return versionOf(traits) + definitions(traits) + kBlocks + material +
-         (plain ? kPlainVertex : kSurfaceVertex);
+  const bool plain = traits.look == Look::Plain, reads = plain || traits.ownPlaces;
+  const char* material = traits.indirect ? kDrawMaterialVertex : reads ? kMaterial : "";
+  return versionOf(traits) + definitions(traits) + "#define IO out\n" + kBlocks + material + kTexels +
+         kPlaceTexels + (plain ? kPlainVertex : kSurfaceVertex);
 }
 
 std::string surfaceFragmentShader(const SurfaceTraits& traits) {
-  return versionOf(traits) + definitions(traits) + kBlocks +
-         (traits.indirect ? kDrawMaterialFragment : kMaterial) + kKeepFragment +
+  return versionOf(traits) + definitions(traits) + "#define IO in\n" + kBlocks +
+         (traits.indirect ? kDrawMaterialFragment : kMaterial) + kKeepFragment + kTexels +
          (traits.look == Look::Plain ? kPlainFragment : kSurfaceFragment);
 }
 
 std::string shadowVertexShader(const SurfaceTraits& traits) {
-  return kVersion + definitions(traits) + kBlocks + kMaterial + kShadowVertex;
+  return kVersion + definitions(traits) + "#define IO out\n" + kBlocks + kMaterial + kTexels + kPlaceTexels +
+         kShadowVertex;
 }
 
 std::string shadowFragmentShader(const SurfaceTraits& traits) {
-  return kVersion + definitions(traits) + kMaterial + kShadowFragment;
+  return kVersion + definitions(traits) + "#define IO in\n" + kMaterial + kTexels + kShadowFragment;
 }
 
 std::string skyVertexShader() {

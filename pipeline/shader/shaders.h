@@ -11,6 +11,11 @@
 /// Haze         a surface at distance d keeps exp(-d / haze distance) of its colour. The rest is the colour
 ///              of the sky behind it, brighter towards the sun, so that distant surfaces fade into the
 ///              horizon.
+/// Maps         roughness and metallic are factor times map. Occlusion dims the light from around alone. The
+///              normal map's axes are the tangent, square to the interpolated normal, and a bitangent square to
+///              both that points up in the picture. Without tangents of the file, the tangent is the triangle's
+///              own, along u. A back shows the same relief, seen from behind.
+/// Unlit        the base colour is shown as it is, with haze alone.
 /// Shadows      of one directional light: four lookups of two by two texels in the finest ring of the shadow
 ///              maps there (shadow_maps.h). Beyond the last ring everything is lit.
 ///
@@ -41,8 +46,14 @@ struct SurfaceTraits {
   bool shadowed = false;     ///< a light casts shadows
   bool hazy = false;         ///< there is haze
   SurfaceWrites writes = SurfaceWrites::Picture;
-  bool masked = false;   ///< discards fragments with less alpha than the material's cutoff
-  bool glowing = false;  ///< a texture says where it emits light
+  bool masked = false;     ///< discards fragments with less alpha than the material's cutoff
+  bool glowing = false;    ///< a texture says where it emits light
+  bool finished = false;   ///< a texture has roughness and metallic
+  bool bumpy = false;      ///< a texture has normals
+  bool occluded = false;   ///< a texture says how much light from around arrives
+  bool tangents = false;   ///< the mesh has tangents; only with `bumpy`
+  bool ownPlaces = false;  ///< maps have texture coordinates of their own
+  bool unlit = false;      ///< shows the base colour as it is
   Look look = Look::Full;
   /// One of many draws of a call, each with a material of its own (indirect_draws.h). Only with Picture.
   bool indirect = false;
@@ -51,18 +62,23 @@ struct SurfaceTraits {
   int lights = -1;
 
   /// Index among programs that differ in the mesh, in local lights, and in what they write; the first kUsual
-  /// need neither a mask nor an emissive texture.
+  /// need neither a mask nor a map beyond the base colour.
   std::size_t index() const {
     return std::size_t{textured} | std::size_t{localLights} << 1 |
            std::size_t{writes != SurfaceWrites::Picture} << 2 | std::size_t{masked} << 3 |
-           std::size_t{glowing} << 4 | std::size_t{writes == SurfaceWrites::Layers} << 5;
+           std::size_t{glowing} << 4 | std::size_t{writes == SurfaceWrites::Layers} << 5 |
+           std::size_t{finished} << 6 | std::size_t{bumpy} << 7 | std::size_t{occluded} << 8 |
+           std::size_t{tangents} << 9 | std::size_t{ownPlaces} << 10 | std::size_t{unlit} << 11;
   }
-  static constexpr std::size_t kUsual = 8, kCount = 64;
+  static constexpr std::size_t kUsual = 8;
+  /// Returns true if a picture is read.
+  bool pictured() const { return textured || glowing || finished || bumpy || occluded; }
 };
 
 std::string surfaceVertexShader(const SurfaceTraits& traits);
 std::string surfaceFragmentShader(const SurfaceTraits& traits);
-/// Depth alone, as seen from the light. Of the traits only `masked` counts, and with it `textured`.
+/// Depth alone, as seen from the light. Of the traits only `masked` counts, and with it `textured` and
+/// `ownPlaces`.
 std::string shadowVertexShader(const SurfaceTraits& traits = {});
 std::string shadowFragmentShader(const SurfaceTraits& traits = {});
 /// Blends the stored layers; if the picture is multisampled, each sample by itself.

@@ -10,9 +10,14 @@ namespace stadion {
 namespace {
 
 constexpr std::array kBlockBindings{GlBinding{"View", kViewBinding}, GlBinding{"Scene", kSceneBinding},
-                             GlBinding{"Material", kMaterialBinding}, GlBinding{"Shadow", kShadowBinding}};
-constexpr std::array kTextureBindings{GlBinding{"baseTexture", 0}, GlBinding{"shadowMap", kShadowUnit},
-                               GlBinding{"glowTexture", kGlowUnit}};
+                                    GlBinding{"Material", kMaterialBinding},
+                                    GlBinding{"Shadow", kShadowBinding}};
+constexpr std::array kTextureBindings{GlBinding{"baseTexture", kMapUnits[kBaseMap]},
+                                      GlBinding{"shadowMap", kShadowUnit},
+                                      GlBinding{"glowTexture", kMapUnits[kEmissiveMap]},
+                                      GlBinding{"finishTexture", kMapUnits[kMetallicRoughnessMap]},
+                                      GlBinding{"normalTexture", kMapUnits[kNormalMap]},
+                                      GlBinding{"occlusionTexture", kMapUnits[kOcclusionMap]}};
 
 constexpr float kLeastConeWidth = 1e-4f;  // so that a spot's edge never divides by zero
 constexpr float kLeastRoughness = 0.08f;  // below it a highlight is smaller than a pixel and flickers
@@ -115,9 +120,20 @@ SceneBlock fillScene(const DrawSky& sky, const std::vector<DrawLight>& lights, L
 
 MaterialBlock fillMaterial(const Material& material, Look look) {
   const auto& c = material.baseColour;
-  return {colour({c[0], c[1], c[2]}, c[3], look),
-          colour(material.emissive, std::clamp(finite(material.roughness), kLeastRoughness, 1.0f), look),
-          {std::clamp(finite(material.metallic), 0.0f, 1.0f), cutoffOf(material), 0, 0}};
+  const float normalScale = std::clamp(finite(material.normalScale), -kMostNormalScale, kMostNormalScale);
+  MaterialBlock out{
+      colour({c[0], c[1], c[2]}, c[3], look),
+      colour(material.emissive, std::clamp(finite(material.roughness), kLeastRoughness, 1.0f), look),
+      {std::clamp(finite(material.metallic), 0.0f, 1.0f), cutoffOf(material), normalScale,
+       std::clamp(finite(material.occlusionStrength), 0.0f, 1.0f)},
+      {}};
+  for (std::size_t kind = 0; kind < kMapKinds; ++kind) {
+    const auto& m = material.maps[kind].uvTransform;
+    const float second = material.maps[kind].secondUvs ? 1.0f : 0.0f;
+    out.places[2 * kind] = {finite(m[0]), finite(m[1]), finite(m[2]), second};
+    out.places[2 * kind + 1] = {finite(m[3]), finite(m[4]), finite(m[5]), 0};
+  }
+  return out;
 }
 
 }  // namespace stadion

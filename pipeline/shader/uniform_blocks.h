@@ -44,7 +44,9 @@ struct SceneBlock {
 struct MaterialBlock {
   Float4 baseColour;  ///< linear, alpha
   Float4 emissive;    ///< linear; w: roughness
-  Float4 finish;      ///< x: metallic, y: alpha cutoff
+  Float4 finish;      ///< x: metallic, y: alpha cutoff, z: normal scale, w: occlusion strength
+  /// For each map: two rows that give its coordinates. w of the first: 1 if it reads the second ones.
+  std::array<Float4, 2 * kMapKinds> places;
 };
 
 /// The places of the shadow maps: from World axes relative to the list's origin to the texture.
@@ -64,8 +66,9 @@ enum UniformBinding : std::uint32_t {
 };
 /// Binding points of the buffers that indirect draws read (indirect_draws.h). The lower ones are those of layers.
 enum StorageBinding : std::uint32_t { kMaterialsBinding = 3, kDrawsBinding = 4 };
-/// The texture units of the shadow maps, and of the emissive texture.
-constexpr int kShadowUnit = 1, kGlowUnit = 2;
+/// The texture units of the shadow maps, and of a material's maps by MapKind.
+constexpr int kShadowUnit = 1;
+constexpr std::array<int, kMapKinds> kMapUnits{0, 2, 3, 4, 5};
 
 /// The blocks and textures of all our shaders; a program takes those that it uses.
 GlBindings shaderBindings();

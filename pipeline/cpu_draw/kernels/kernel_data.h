@@ -147,6 +147,15 @@ struct SurfaceBlock {
   float at[kSurfaceFloats];
 };
 
+constexpr int kExtraVertexFloats = 8;  ///< tangent (3), side of the bitangent, second texture coordinates (2)
+constexpr int kExtraSurfaceFloats = 24;  ///< likewise, of three corners
+
+/// What materials with further maps need beside a SurfaceBlock: kExtraVertexFloats of each corner, in World
+/// axes. Only of meshes that have it.
+struct SurfaceExtra {
+  float at[kExtraSurfaceFloats];
+};
+
 /// Visible triangles of one instance, of which shading needs a SurfaceBlock.
 struct SurfaceJob {
   const TriangleRecord* const* triangles;
@@ -175,10 +184,13 @@ struct TextureParameters {
   float transform[6];    ///< (2 x 3), row major: applied to the coordinates
   int coordinates;       ///< the set of texture coordinates, 0 or 1
   int magnifiesNearest;  ///< 1: the nearest texel, not a mean of four
+  int minifiesNearest;   ///< likewise, where it is reduced
+  int mipmaps;           ///< 0: two levels, blended; 1: the nearest one; 2: the texture itself
+  int unusual;           ///< 1: it does not repeat, or is not read as a blend of four texels of two levels
 };
 
-/// Parameters of a surface's material. The uniform blocks of the OpenGL programs have the same ones. Inputs
-/// that `MaterialInputs` of a mesh do not set have neutral values.
+/// Parameters of a surface's material. The uniform blocks of the OpenGL programs have the same ones. A map that
+/// is not there has no texels.
 struct MaterialParameters {
   float baseColour[4];  ///< linear in the full look, alpha
   float emissive[3];
@@ -187,6 +199,8 @@ struct MaterialParameters {
   float normalScale;  ///< strength of the normal map
   float occlusionStrength;
   int unlit, doubleSided;
+  int mapped;    ///< 1: has a metallic-roughness, normal or occlusion map
+  int tangents;  ///< 1: its mesh has tangents
   TextureParameters base, metallicRoughness, normal, occlusion, glow;
 };
 
@@ -233,9 +247,10 @@ struct ViewParameters {
 /// Fragments of one material to shade. Arrays are padded.
 struct FragmentJob {
   const SurfaceBlock* surfaces;
-  const unsigned* pixel;    ///< by fragment: x + 65536 * y
-  const unsigned* surface;  ///< by fragment: its surface
-  const unsigned* place;    ///< by fragment: where its colour goes
+  const SurfaceExtra* extras;  ///< likewise; null: no mesh of the picture has any
+  const unsigned* pixel;       ///< by fragment: x + 65536 * y
+  const unsigned* surface;     ///< by fragment: its surface
+  const unsigned* place;       ///< by fragment: where its colour goes
   unsigned count;
   int runs;        ///< 1: each of them stands for kRunPixels pixels to the right
   float* colours;  ///< red, green, blue and alpha, linear (in the plain look: as stored)

@@ -98,14 +98,15 @@ private:
     const T n = at.normal(), placed = at.three(3);
     I state = I{} + kUnlit;
     typename Light::ShadowPlace place{};
-    const SurfaceResponse<By> light(job, placed, n, [&](const T& where, const T& normal, I reached) {
-      place = Light::shadowPlace(*job.shadow, where, normal);
-      const auto tile = Light::shadowTile(*job.shadow, place);
-      const auto either = [](I which, int one, I other) { return By::select(which, I{} + one, other); };
-      const I decided = either(tile.light, kLight, either(tile.dark, kDark, I{} + kUneven));
-      state = By::select(reached, decided, state);
-      return Light::beyondRings(L::where(tile.light, L::all(1)), place.edge);
-    });
+    const SurfaceResponse<By> light(
+        job, {m.roughness, m.metallic}, placed, n, nullptr, [&](const T& where, const T& normal, I reached) {
+          place = Light::shadowPlace(*job.shadow, where, normal);
+          const auto tile = Light::shadowTile(*job.shadow, place);
+          const auto either = [](I which, int one, I other) { return By::select(which, I{} + one, other); };
+          const I decided = either(tile.light, kLight, either(tile.dark, kDark, I{} + kUneven));
+          state = By::select(reached, decided, state);
+          return Light::beyondRings(L::where(tile.light, L::all(1)), place.edge);
+        });
     const T by = light.by * (at.three(8) * T::of(m.baseColour));
     const F values[kValues] = {by.x,         by.y,         by.z,       light.with.x,
                                light.with.y, light.with.z, at(11),     m.base.texels ? at.level(m.base) : F{},

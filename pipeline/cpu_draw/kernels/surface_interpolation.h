@@ -37,11 +37,14 @@ struct SurfaceInterpolation : DrawLanes<By> {
   using T = Triple<F>;
   using Filter = TextureFilter<By>;
 
+  const SurfaceExtra* extras;
+  const unsigned* surface;  ///< of the extras: by lane >> shift
+  int shift;
   SurfaceColumns<By, kUniform> of;
   F first, second, third, per;
 
   [[gnu::always_inline]] inline SurfaceInterpolation(const FragmentJob& job, const FragmentBatch<By>& b)
-      : of(job, b) {
+      : extras(job.extras), surface(b.surface), shift(b.shift), of(job, b) {
     const F x = b.x - of[3], y = b.y - of[7];
     // The middle of a pixel may lie beside the triangle that covers one of its samples.
     first = L::most(of[0] * x + of[1] * y + of[2], F{});
@@ -56,20 +59,34 @@ struct SurfaceInterpolation : DrawLanes<By> {
     return first * of[12 + k] + second * of[24 + k] + third * of[36 + k];
   }
   [[gnu::always_inline]] inline T three(int k) const { return {(*this)(k), (*this)(k + 1), (*this)(k + 2)}; }
-  /// The change of a value for a pixel along x (0) or y (1).
-  [[gnu::always_inline]] inline F slope(int k, F here, int axis) const {
-    return (of[axis] * (of[12 + k] - here) + of[4 + axis] * (of[24 + k] - here) +
-            of[8 + axis] * (of[36 + k] - here)) *
-           per;
+  /// A number of the corners of each lane's triangle, from their extras.
+  [[gnu::always_inline]] inline T extra(int k) const {
+    T out;
+    cornersOf(extras, surface, shift, k, out);
+    return out;
+  }
+  [[gnu::always_inline]] inline F within(const T& corners) const {
+    return first * corners.x + second * corners.y + third * corners.z;
+  }
+  /// Texture coordinates of the corners.
+  struct Uvs {
+    T u, v;
+  };
+  [[gnu::always_inline]] inline Uvs uvsOf(const TextureParameters& t) const {
+    if (t.coordinates == 0) return {{of[18], of[30], of[42]}, {of[19], of[31], of[43]}};
+    return {extra(4), extra(5)};
   }
   [[gnu::always_inline]] inline typename Filter::Coordinates coordinates(const TextureParameters& t) const {
-    const F u = (*this)(6), v = (*this)(7);
+    const Uvs uvs = uvsOf(t);
+    const F u = within(uvs.u), v = within(uvs.v);
     const float* m = t.transform;
     return {m[0] * u + m[1] * v + m[2], m[3] * u + m[4] * v + m[5]};
   }
   [[gnu::always_inline]] inline F level(const TextureParameters& t) const {
-    const F u = (*this)(6), v = (*this)(7);
-    const F ux = slope(6, u, 0), uy = slope(6, u, 1), vx = slope(7, v, 0), vy = slope(7, v, 1);
+    const Uvs uvs = uvsOf(t);
+    const F u = within(uvs.u), v = within(uvs.v);
+    const F ux = slope(uvs.u, u, 0), uy = slope(uvs.u, u, 1), vx = slope(uvs.v, v, 0),
+            vy = slope(uvs.v, v, 1);
     const float* m = t.transform;
     return Filter::levelOf(
         t, {m[0] * ux + m[1] * vx, m[3] * ux + m[4] * vx, m[0] * uy + m[1] * vy, m[3] * uy + m[4] * vy});
@@ -82,6 +99,23 @@ struct SurfaceInterpolation : DrawLanes<By> {
   [[gnu::always_inline]] inline T normal() const {
     const T n = three(0);
     return n * (L::perRoot(L::most(T::dot(n, n), L::all(1e-30f))) * of[11]);
+  }
+
+private:
+  /// A function of its own, so that shading without extras stays small.
+  [[gnu::noinline]] static void cornersOf(const SurfaceExtra* extras, const unsigned* surface, int shift,
+                                          int k, T& out) {
+    alignas(64) float corner[3][By::kLanes];
+    for (int lane = 0; lane < By::kLanes; ++lane)
+      for (int c = 0; c < 3; ++c)
+        corner[c][lane] = extras[surface[kUniform ? 0 : lane >> shift]].at[kExtraVertexFloats * c + k];
+    out = {L::load(corner[0]), L::load(corner[1]), L::load(corner[2])};
+  }
+  /// The change of a value for a pixel along x (0) or y (1). `corners`: the value at each of them.
+  [[gnu::always_inline]] inline F slope(const T& corners, F here, int axis) const {
+    return (of[axis] * (corners.x - here) + of[4 + axis] * (corners.y - here) +
+            of[8 + axis] * (corners.z - here)) *
+           per;
   }
 };
 

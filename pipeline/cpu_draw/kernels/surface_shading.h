@@ -3,6 +3,7 @@
 ///
 /// Linkage  internal.
 
+#include "pipeline/cpu_draw/kernels/mapped_surface.h"
 #include "pipeline/cpu_draw/kernels/run_light.h"
 
 namespace stadion {
@@ -31,9 +32,55 @@ struct SurfaceShading : DrawLanes<By> {
   [[gnu::always_inline]] static inline Colour shadeBatch(const FragmentJob& job, const Batch& b) {
     const MaterialParameters& m = *job.material;
     const Interpolation<kUniform> at(job, b);
-    const SurfaceResponse<By> response(job, at.three(3), at.normal(), [&](const T& placed, const T& n, I) {
+    const SurfaceResponse<By> response(job, {m.roughness, m.metallic}, at.three(3), at.normal(), nullptr,
+                                       Arriving{job});
+    return coloured(job, at, response);
+  }
+  /// The part of the light that arrives through shadows.
+  struct Arriving {
+    const FragmentJob& job;
+    [[gnu::always_inline]] inline F operator()(const T& placed, const T& n, I) const {
       return Light::lightArriving(*job.shadow, Light::shadowPlace(*job.shadow, placed, n));
-    });
+    }
+  };
+
+  /// With what the surface's maps say of its finish, its normal and occlusion.
+  template <bool kUniform>
+  [[gnu::always_inline]] static inline Colour shadeMapped(const FragmentJob& job, const Batch& b) {
+    const Interpolation<kUniform> at(job, b);
+    const MappedSurface<By, kUniform> surface(job, at);
+    const SurfaceResponse<By, F> response(job, {surface.roughness, surface.metallic}, at.three(3),
+                                          surface.normal, &surface.around, Arriving{job});
+    return coloured(job, at, response);
+  }
+
+  template <bool kUniform>
+  [[gnu::always_inline]] static inline Colour shadeUnlit(const FragmentJob& job, const Batch& b) {
+    const MaterialParameters& m = *job.material;
+    const SceneParameters& scene = *job.scene;
+    const Interpolation<kUniform> at(job, b);
+    T colour = at.three(8) * T::of(m.baseColour);
+    F alpha = at(11);
+    if (m.base.texels) {
+      const typename Filter::Texel t = Filter::at(m.base, at.place(m.base), job.nearestLevel != 0, true);
+      colour = colour * t.colour;
+      alpha *= t.alpha;
+    }
+    if (scene.perHaze > 0) {
+      const T away = T::of(job.view->eye) - at.three(3);
+      const F squared = L::most(T::dot(away, away), L::all(1e-12f)), perDistance = L::perRoot(squared);
+      const F clearness = L::exp2(squared * perDistance * (Light::kPerE * scene.perHaze));
+      const T behind = Light::softClip(Light::air(away * (perDistance * -1.0f), scene));
+      colour = T::mix(behind, colour, clearness);
+    }
+    return {{colour.x, colour.y, colour.z, L::clamp(alpha)}};
+  }
+
+  /// `response`: the light of a surface, which its pictures colour.
+  template <class At, class Response>
+  [[gnu::always_inline]] static inline Colour coloured(const FragmentJob& job, const At& at,
+                                                       const Response& response) {
+    const MaterialParameters& m = *job.material;
     T colour = at.three(8) * T::of(m.baseColour), light = response.with;
     F alpha = at(11);
     if (m.base.texels) {
@@ -107,7 +154,7 @@ struct SurfaceShading : DrawLanes<By> {
       colour = colour * t.colour;
       alpha *= t.alpha;
     }
-    if (m.glow.texels) {
+    if (m.glow.texels && !m.unlit) {
       const T glow = Filter::at(m.glow, at.place(m.glow), job.nearestLevel != 0, false).colour;
       colour = colour + T::of(m.emissive) * glow;
       const F one = L::all(1);
@@ -127,6 +174,14 @@ struct SurfaceShading : DrawLanes<By> {
   }
 
   static void shade(const FragmentJob& job) {
+    if (job.material->unlit)
+      return Batch::shadeAll(job, [&](const Batch& b) {
+        return b.uniform ? shadeUnlit<true>(job, b) : shadeUnlit<false>(job, b);
+      });
+    if (job.material->mapped)
+      return Batch::shadeAll(job, [&](const Batch& b) {
+        return b.uniform ? shadeMapped<true>(job, b) : shadeMapped<false>(job, b);
+      });
     if (RunLight<By>::serves(job)) return shadeRuns(job);
     Batch::shadeAll(job, [&](const Batch& b) { return shadeEach(job, b); });
   }

@@ -99,17 +99,24 @@ struct TextureFilter : DrawLanes<By> {
           first(By::entry(t.first, number)) {}
   };
 
-  /// Adds the mean of the four texels around a place in linear light, times `weight` of 256.
+  /// Adds the mean of the four texels around a place in linear light, times `weight` of 256. `squares`: where it
+  /// is the nearest texel instead; null: nowhere.
+  template <bool kUnusual>
   [[gnu::always_inline]] static inline void add(const TextureParameters& t, const Linear& linear,
-                                                const Levels& level, F u, F v, F weight, Sum& sum) {
+                                                const Levels& level, F u, F v, F weight, const I* squares,
+                                                Sum& sum) {
     const F width = L::whole(level.width);
     F x = u * width - 0.5f, y = v * L::whole(level.height) - 0.5f;
-    if (t.magnifiesNearest) x = L::floor(x + 0.5f), y = L::floor(y + 0.5f);
-    if (t.wrapU != TextureWrap::Repeat) x = L::most(L::least(x, width - 1.0f), F{});
+    if constexpr (kUnusual) {
+      if (squares)
+        x = L::select(*squares, L::floor(x + 0.5f), x), y = L::select(*squares, L::floor(y + 0.5f), y);
+      if (t.wrapU != TextureWrap::Repeat) x = L::most(L::least(x, width - 1.0f), F{});
+      if (t.wrapV != TextureWrap::Repeat) y = L::most(L::least(y, L::whole(level.height) - 1.0f), F{});
+    }
     const F left = L::floor(x), top = L::floor(y);
     I x0 = L::truncated(left), y0 = L::truncated(top), y1 = y0 + 1;
     x0 += I(x0 < 0) & level.width;  // the texel at the end of a row is the first one
-    neighbours(y0, y1, level.height, t.wrapV);
+    neighbours(y0, y1, level.height, kUnusual ? t.wrapV : TextureWrap::Repeat);
     const I all = L::truncated(weight), right = L::truncated(weight * (x - left)), rest = all - right;
     const I lowRight = L::truncated(L::whole(right) * (y - top)),
             lowLeft = L::truncated(L::whole(rest) * (y - top));
@@ -136,16 +143,36 @@ struct TextureFilter : DrawLanes<By> {
   /// `roots`: colours are stored as square roots.
   [[gnu::always_inline]] static inline Texel at(const TextureParameters& t, const Place& p, bool nearestLevel,
                                                 bool roots) {
+    if (t.unusual) return unusual(t, p, nearestLevel, roots);
+    const F u = wrapped(p.at.u, TextureWrap::Repeat), v = wrapped(p.at.v, TextureWrap::Repeat);
+    const F level = nearestLevel ? L::floor(p.level + 0.5f) : p.level;
+    return blended<false>(t, {{u, v}, level}, roots, nullptr);
+  }
+
+private:
+  [[gnu::noinline]] static Texel unusual(const TextureParameters& t, const Place& p, bool nearestLevel,
+                                         bool roots) {
     F level = p.level;
-    if (nearestLevel) level = L::floor(level + 0.5f);
-    const F u = wrapped(p.at.u, t.wrapU), v = wrapped(p.at.v, t.wrapV);
+    const I none{}, squares = By::select(level > 0.0f, none - t.minifiesNearest, none - t.magnifiesNearest);
+    if (nearestLevel || t.mipmaps == 1) level = L::floor(level + 0.5f);
+    if (t.mipmaps == 2) level = F{};
+    const Place at{{wrapped(p.at.u, t.wrapU), wrapped(p.at.v, t.wrapV)}, level};
+    return blended<true>(t, at, roots, &squares);
+  }
+
+  /// Of two levels. Expects coordinates from 0 to 1.
+  template <bool kUnusual>
+  [[gnu::always_inline]] static inline Texel blended(const TextureParameters& t, const Place& p, bool roots,
+                                                     const I* squares) {
+    const F level = p.level;
     const I whole = L::truncated(level), last = I{} + (t.levels - 1);
     const F coarser = L::floor(256.0f * (level - L::whole(whole)));
     const Linear linear(roots);
     Sum out;
-    add(t, linear, Levels(t, whole), u, v, 256.0f - coarser, out);
+    add<kUnusual>(t, linear, Levels(t, whole), p.at.u, p.at.v, 256.0f - coarser, squares, out);
     if (L::bits(coarser > 0.0f) != 0)
-      add(t, linear, Levels(t, whole < last ? whole + 1 : last), u, v, coarser, out);
+      add<kUnusual>(t, linear, Levels(t, whole < last ? whole + 1 : last), p.at.u, p.at.v, coarser, squares,
+                    out);
     const auto low = [](H two) { return L::whole(I(two) & 0xffff) * Sum::kPerOne; };
     const auto high = [](H two) { return L::whole((I(two) >> 16) & 0xffff) * Sum::kPerOne; };
     return {{low(out.redBlue), low(out.greenAlpha), high(out.redBlue)}, high(out.greenAlpha)};

@@ -1,5 +1,7 @@
 #include "pipeline/cpu_draw/mesh/cpu_material.h"
 
+#include "pipeline/gl/finite.h"
+
 #include <algorithm>
 
 namespace stadion {
@@ -22,7 +24,23 @@ LightParameters lightParameters(const LightBlock& from) {
   return to;
 }
 
+TextureWrap wrapOf(WrapMode mode) {
+  if (mode == WrapMode::Mirror) return TextureWrap::Mirror;
+  return mode == WrapMode::Clamp ? TextureWrap::Clamp : TextureWrap::Repeat;
+}
+
 }  // namespace
+
+void setUse(const MaterialMap& map, TextureParameters& to) {
+  to.wrapU = wrapOf(map.sampler.wrapU);
+  to.wrapV = wrapOf(map.sampler.wrapV);
+  to.magnifiesNearest = map.sampler.magnifiesNearest;
+  to.minifiesNearest = map.sampler.minifiesNearest;
+  to.mipmaps = static_cast<int>(map.sampler.mipmaps);
+  to.unusual = map.sampler != Sampler{};
+  to.coordinates = map.secondUvs;
+  std::ranges::transform(map.uvTransform, to.transform, finite);
+}
 
 MaterialParameters materialParameters(const Material& material, Look look) {
   const MaterialBlock block = fillMaterial(material, look);
@@ -32,7 +50,9 @@ MaterialParameters materialParameters(const Material& material, Look look) {
   to.roughness = block.emissive[3];
   to.metallic = block.finish[0];
   to.alphaCutoff = material.masked() ? block.finish[1] : 0;
-  to.normalScale = to.occlusionStrength = 1;
+  to.normalScale = block.finish[2];
+  to.occlusionStrength = block.finish[3];
+  to.unlit = material.unlit;
   to.doubleSided = material.doubleSided;
   return to;
 }

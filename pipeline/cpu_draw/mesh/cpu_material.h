@@ -9,6 +9,8 @@
 
 namespace stadion {
 
+/// Writes how a map reads its texture, whose texels `to` has.
+void setUse(const MaterialMap& map, TextureParameters& to);
 /// Without textures.
 MaterialParameters materialParameters(const Material& material, Look look);
 SceneParameters sceneParameters(const SceneBlock& block);

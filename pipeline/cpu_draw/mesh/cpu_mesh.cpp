@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <map>
 #include <utility>
 
 namespace stadion {
@@ -17,15 +18,50 @@ namespace {
 /// The alpha below which a texture leaves holes; 0 if it leaves none.
 float cutoffOfTexture(const Mesh& mesh, std::size_t texture) {
   for (const Material& m : mesh.materials)
-    if (m.masked() && m.texture == static_cast<std::int64_t>(texture) && m.baseColour[3] > 0)
+    if (m.masked() && m.maps[kBaseMap].texture == static_cast<std::int64_t>(texture) && m.baseColour[3] > 0)
       return m.alphaCutoff / m.baseColour[3];
   return 0;
 }
 
+/// By MapKind.
+constexpr std::array kMaps{&MaterialParameters::base, &MaterialParameters::glow,
+                           &MaterialParameters::metallicRoughness, &MaterialParameters::normal,
+                           &MaterialParameters::occlusion};
+static_assert(kMaps.size() == kMapKinds);
+
 }  // namespace
+
+class CpuMesh::Textures {
+public:
+  Textures(const Mesh& mesh, Look look, Surface& to) : mesh_(mesh), look_(look), to_(to) {}
+
+  /// How the kernels read a map.
+  TextureParameters read(const MaterialMap& map, bool colours) {
+    TextureParameters p = textureOf(static_cast<std::size_t>(map.texture), colours).parameters();
+    setUse(map, p);
+    if (map.secondUvs && mesh_.secondUvs.empty()) p.coordinates = 0;
+    return p;
+  }
+
+private:
+  const CpuTexture& textureOf(std::size_t picture, bool colours) {
+    const auto [at, isNew] = known_.try_emplace({picture, colours}, to_.textures.size());
+    if (isNew)
+      to_.textures.push_back(std::make_unique<CpuTexture>(mesh_.textures[picture],
+                                                          colours ? cutoffOfTexture(mesh_, picture) : 0,
+                                                          colours ? look_ : Look::Plain));
+    return *to_.textures[at->second];
+  }
+
+  const Mesh& mesh_;
+  Look look_;
+  Surface& to_;
+  std::map<std::pair<std::size_t, bool>, std::size_t> known_;
+};
 
 CpuMesh::CpuMesh(const Mesh& mesh, Look look) {
   copyVertices(mesh, look);
+  copyExtras(mesh);
   Surface surface;
   makeMaterials(mesh, look, surface);
   const bool open = !encloses(mesh);
@@ -46,6 +82,9 @@ void CpuMesh::takePose(const Mesh& mesh, std::span<const JointMatrix> palette) {
     skin(source, palette, first, some);
     for (std::size_t i = 0; i < some.size(); ++i) place(first + i, some[i].position, some[i].normal);
   }
+  std::vector<std::array<float, 4>> tangents(mesh.tangents.size());
+  skinTangents(mesh.tangents, mesh.joints, palette, 0, tangents);
+  for (std::size_t i = 0; i < tangents.size(); ++i) setTangent(i, tangents[i]);
 }
 
 void CpuMesh::place(std::size_t vertex, const std::array<float, 3>& position,
@@ -74,17 +113,30 @@ void CpuMesh::copyVertices(const Mesh& mesh, Look look) {
 }
 
 void CpuMesh::makeMaterials(const Mesh& mesh, Look look, Surface& surface) {
-  for (std::size_t i = 0; i < mesh.textures.size(); ++i)
-    surface.textures.push_back(
-        std::make_unique<CpuTexture>(mesh.textures[i], cutoffOfTexture(mesh, i), look));
+  Textures textures(mesh, look, surface);
   for (const Material& m : mesh.materials) {
     MaterialParameters& to = surface.materials.emplace_back(materialParameters(m, look));
-    const auto of = [&](std::int32_t t) {
-      return surface.textures[static_cast<std::size_t>(t)]->parameters();
-    };
-    if (m.texture >= 0 && !mesh.uvs.empty()) to.base = of(m.texture);
-    if (m.emissiveTexture >= 0) to.glow = of(m.emissiveTexture);
+    for (std::size_t kind = 0; kind < kMapKinds; ++kind)
+      if (isDrawn(mesh, m, kind) && (look == Look::Full || holdsColours(kind)))
+        to.*kMaps[kind] = textures.read(m.maps[kind], holdsColours(kind));
+    to.mapped = to.metallicRoughness.texels || to.normal.texels || to.occlusion.texels;
+    to.tangents = !mesh.tangents.empty();
   }
+}
+
+void CpuMesh::copyExtras(const Mesh& mesh) {
+  if (mesh.secondUvs.empty() && mesh.tangents.empty()) return;
+  extras_.resize(mesh.positions.size() * kExtraVertexFloats);
+  for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
+    float* v = extras_.data() + i * kExtraVertexFloats;
+    if (!mesh.tangents.empty()) setTangent(i, mesh.tangents[i]);
+    if (!mesh.secondUvs.empty()) v[4] = mesh.secondUvs[i][0], v[5] = mesh.secondUvs[i][1];
+  }
+}
+
+void CpuMesh::setTangent(std::size_t vertex, const std::array<float, 4>& tangent) {
+  std::ranges::transform(tangent, extras_.begin() + static_cast<std::ptrdiff_t>(vertex * kExtraVertexFloats),
+                         finite);
 }
 
 void CpuMesh::addLevel(const Mesh& mesh, std::span<const std::uint32_t> indices,

@@ -54,6 +54,8 @@ public:
   const MaterialParameters& material(std::uint32_t i) const { return surface_->materials[i]; }
   /// kVertexFloats for each; colours as the look computes with them.
   const float* vertices() const { return vertices_.data(); }
+  /// kExtraVertexFloats for each; null: the mesh has none.
+  const float* extras() const { return extras_.empty() ? nullptr : extras_.data(); }
   std::array<float, 3> position(int i) const {
     const auto at = static_cast<std::size_t>(i);
     return {x_[at], y_[at], z_[at]};
@@ -70,8 +72,12 @@ private:
     std::vector<MaterialParameters> materials;
     std::vector<std::unique_ptr<const CpuTexture>> textures;
   };
+  /// Of a picture: as colours and as numbers, made at their first use.
+  class Textures;
 
   void copyVertices(const Mesh& mesh, Look look);
+  void copyExtras(const Mesh& mesh);
+  void setTangent(std::size_t vertex, const std::array<float, 4>& tangent);
   void place(std::size_t vertex, const std::array<float, 3>& position, const std::array<float, 3>& normal);
   void addLevel(const Mesh& mesh, std::span<const std::uint32_t> indices, std::span<const Submesh> parts,
                 bool open, Surface& to) const;
@@ -80,7 +86,7 @@ private:
                                       std::uint32_t triangles) const;
 
   std::uint32_t vertexCount_;
-  std::vector<float> x_, y_, z_, vertices_;
+  std::vector<float> x_, y_, z_, vertices_, extras_;
   std::shared_ptr<const Surface> surface_;
   bool posed_ = false;
 };

@@ -44,7 +44,9 @@ void FigureMeshes::pose(const Mesh& mesh, Held& figure) {
   pose_.set(*mesh.skeleton, figure.playing);
   vertices_.resize(mesh.positions.size());
   skin({mesh.positions, mesh.normals, mesh.joints}, pose_.palette(), 0, vertices_);
-  meshes_.setVertices(mesh, vertices_, figure.gl);
+  tangents_.resize(mesh.tangents.size());
+  skinTangents(mesh.tangents, mesh.joints, pose_.palette(), 0, tangents_);
+  meshes_.setVertices(mesh, {vertices_, tangents_}, figure.gl);
   figure.isPosed = true;
 }
 

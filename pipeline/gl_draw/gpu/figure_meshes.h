@@ -48,6 +48,7 @@ private:
   std::unordered_map<std::uint32_t, Held> figures_;
   FigurePose pose_;
   std::vector<SkinnedVertex> vertices_;
+  std::vector<std::array<float, 4>> tangents_;
 };
 
 }  // namespace stadion

@@ -57,12 +57,7 @@ void IndirectDraws::setState(const State& state, const FrameData& instances) con
   pointAtInstances(gl_, instances, 0);
   gl_.BindBufferBase(GL_SHADER_STORAGE_BUFFER, kMaterialsBinding, state.page->materials.name());
   gl_.UseProgram(state.program->name());
-  if (state.texture) gl_.BindTexture(GL_TEXTURE_2D, state.texture);
-  if (state.glowTexture) {
-    gl_.ActiveTexture(GL_TEXTURE0 + kGlowUnit);
-    gl_.BindTexture(GL_TEXTURE_2D, state.glowTexture);
-    gl_.ActiveTexture(GL_TEXTURE0);
-  }
+  bindMaps(gl_, state.maps);
   gl_.FrontFace(state.mirrored ? GL_CW : GL_CCW);
   gl_.CullFace(GL_BACK);
   if (state.bothSides)

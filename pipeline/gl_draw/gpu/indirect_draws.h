@@ -33,9 +33,9 @@ public:
   struct State {
     const GlProgram* program = nullptr;
     const MeshPage* page = nullptr;
-    GLuint texture = 0, glowTexture = 0;  ///< 0 = none
-    bool bothSides = false;               ///< no faces are culled
-    bool mirrored = false;                ///< front faces run clockwise
+    MapTextures maps{};
+    bool bothSides = false;  ///< no faces are culled
+    bool mirrored = false;   ///< front faces run clockwise
     bool operator==(const State&) const = default;
   };
   /// Adds a draw of `count` instances from number `first` on.

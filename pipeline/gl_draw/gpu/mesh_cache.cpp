@@ -21,6 +21,17 @@ struct Vertex {
   std::array<std::uint16_t, 4> colour;
 };
 
+/// Of meshes that have more.
+struct RichVertex {
+  Vertex vertex;
+  std::array<float, 2> secondUv;
+  std::array<float, 4> tangent;
+};
+
+bool isRich(const Mesh& mesh) {
+  return !mesh.secondUvs.empty() || !mesh.tangents.empty();
+}
+
 constexpr float kAnisotropy = 8;  // on the processor it makes textured scenes 2 to 3 times as slow
 
 /// Returns the values of all bytes, in sixteen bits.
@@ -49,48 +60,79 @@ std::vector<Vertex> interleave(const Mesh& mesh, Look look) {
   return vertices;
 }
 
+std::vector<RichVertex> enriched(const Mesh& mesh, const std::vector<Vertex>& vertices) {
+  std::vector<RichVertex> rich(vertices.size());
+  for (std::size_t i = 0; i < rich.size(); ++i) {
+    rich[i] = {vertices[i], {0, 0}, {0, 0, 0, 1}};
+    if (!mesh.secondUvs.empty()) rich[i].secondUv = mesh.secondUvs[i];
+    if (!mesh.tangents.empty()) rich[i].tangent = mesh.tangents[i];
+  }
+  return rich;
+}
+
 /// Makes the parts of a mesh.
 struct PartMaker {
   const Mesh& mesh;
   const GlMesh& out;
-  const std::vector<GlTexture>& textures;
+  const std::vector<MapTexture>& textures;
   std::size_t stride;  ///< between two materials [bytes]
   bool open;           ///< the mesh shows its back faces
 
-  GLuint nameOf(std::int32_t texture) const {
-    return texture >= 0 ? textures[static_cast<std::size_t>(texture)].name() : 0;
+  /// 0: it is not uploaded.
+  GLuint nameOf(const MaterialMap& map, std::size_t kind) const {
+    for (const MapTexture& t : textures)
+      if (map.texture == t.picture && map.sampler == t.sampler && holdsColours(kind) == t.colours)
+        return t.gl.name();
+    return 0;
+  }
+  MapTextures mapsOf(const Material& material) const {
+    MapTextures maps{};
+    for (std::size_t kind = 0; kind < kMapKinds; ++kind)
+      if (isDrawn(mesh, material, kind)) maps[kind] = nameOf(material.maps[kind], kind);
+    return maps;
   }
 
   /// `before`: number of indices of the levels before that of `indices`.
   GlSubmesh partOf(const Submesh& part, std::span<const std::uint32_t> indices, std::size_t before) const {
     const Material& material = mesh.materials[part.material];
-    const bool textured = material.texture >= 0 && !mesh.uvs.empty();
     const auto own = indices.subspan(part.firstIndex, part.indexCount);
     const auto [least, most] = std::ranges::minmax_element(own);
     const std::uint32_t first = own.empty() ? 0 : *least, end = own.empty() ? 0 : *most + 1;
-    return {static_cast<GLsizei>(part.indexCount),
-            (out.place.first.indices + before + part.firstIndex) * sizeof(std::uint32_t),
-            static_cast<GLintptr>(part.material * stride),
-            textured ? nameOf(material.texture) : 0,
-            nameOf(material.emissiveTexture),
-            material.transparent(),
-            material.masked(),
-            material.doubleSided || open,
-            static_cast<std::uint32_t>(part.material),
-            first,
-            end};
+    return {
+        static_cast<GLsizei>(part.indexCount),
+        (out.place.first.indices + before + part.firstIndex) * sizeof(std::uint32_t),
+        static_cast<GLintptr>(part.material * stride),
+        mapsOf(material),
+        !mesh.tangents.empty(),
+        std::ranges::any_of(material.maps, [](const MaterialMap& m) { return m.given() && m.movesUvs(); }),
+        material.unlit,
+        material.transparent(),
+        material.masked(),
+        material.doubleSided || open,
+        static_cast<std::uint32_t>(part.material),
+        first,
+        end};
   }
 };
 
 /// Below which alpha the texture itself leaves holes; 0 if it leaves none.
 float textureCutoff(const Mesh& mesh, std::size_t texture) {
   for (const Material& m : mesh.materials)
-    if (m.masked() && m.texture == static_cast<std::int64_t>(texture) && m.baseColour[3] > 0)
+    if (m.masked() && m.maps[kBaseMap].texture == static_cast<std::int64_t>(texture) && m.baseColour[3] > 0)
       return m.alphaCutoff / m.baseColour[3];
   return 0;
 }
 
 }  // namespace
+
+void bindMaps(const GlTable& gl, const MapTextures& maps) {
+  for (std::size_t kind = kMapKinds; kind-- > 0;) {
+    if (maps[kind] == 0) continue;
+    if (kind != kBaseMap) gl.ActiveTexture(GL_TEXTURE0 + static_cast<GLenum>(kMapUnits[kind]));
+    gl.BindTexture(GL_TEXTURE_2D, maps[kind]);
+    if (kind != kBaseMap) gl.ActiveTexture(GL_TEXTURE0);
+  }
+}
 
 MeshParts partsOf(const GlMesh& mesh, std::uint32_t level) {
   const std::vector<GlSubmesh>& parts = mesh.partsAt(level);
@@ -109,7 +151,7 @@ void pointAtInstances(const GlTable& gl, const FrameData& instances, std::uint32
 
 MeshCache::MeshCache(const GlTable& gl, const MeshStore& meshes, Look look, Layout layout)
     : gl_(gl), store_(meshes), look_(look), culls_(layout.culled),
-      pages_(gl, sizeof(Vertex), layout.sharesPages),
+      pages_(gl, sizeof(Vertex), layout.sharesPages), richPages_(gl, sizeof(RichVertex), layout.sharesPages),
       anisotropy_(!isSoftware(gl) && (hasGlExtension(gl, "GL_EXT_texture_filter_anisotropic") ||
                                       hasGlExtension(gl, "GL_ARB_texture_filter_anisotropic"))) {
   gl_.GetIntegerv(GL_UNIFORM_BUFFER_OFFSET_ALIGNMENT, &uniformAlignment_);
@@ -152,9 +194,7 @@ std::optional<GlMesh> MeshCache::upload(const Mesh& mesh) {
   }
   GlMesh out{{}, GlBuffer(gl_), {}, {}, {}, 0, {}, mesh.bounds, {}};
   uploadVertices(mesh, out);
-  out.textures.reserve(mesh.textures.size());
-  for (std::size_t i = 0; i < mesh.textures.size(); ++i)
-    out.textures.push_back(uploadTexture(mesh.textures[i], textureCutoff(mesh, i)));
+  uploadTextures(mesh, out);
   uploadMaterials(mesh, out);
   listParts(mesh, out.textures, out);
   if (const GLenum error = gl_.GetError(); error != GL_NO_ERROR) {
@@ -179,20 +219,30 @@ std::optional<GlMesh> MeshCache::copyOf(const Mesh& mesh, const GlMesh& original
   return out;
 }
 
-void MeshCache::setVertices(const Mesh& mesh, std::span<const SkinnedVertex> moved, const GlMesh& copy) {
+void MeshCache::setVertices(const Mesh& mesh, const MovedVertices& moved, const GlMesh& copy) {
   const SpanScope span(probe_, Span::Upload);
-  std::vector<Vertex> vertices = interleave(mesh, look_);
-  for (std::size_t i = 0; i < vertices.size(); ++i) {
-    std::ranges::transform(moved[i].position, vertices[i].position.begin(), finite);
-    std::ranges::transform(moved[i].normal, vertices[i].normal.begin(), finite);
-  }
   gl_.BindBuffer(GL_ARRAY_BUFFER, copy.place.page->vertices.name());
-  gl_.BufferSubData(GL_ARRAY_BUFFER, static_cast<GLintptr>(copy.place.first.vertices * sizeof(Vertex)),
-                    static_cast<GLsizeiptr>(vertices.size() * sizeof(Vertex)), vertices.data());
+  writeVertices(mesh, copy.place, moved);
+}
+
+/// Into the bound vertex buffer.
+void MeshCache::writeVertices(const Mesh& mesh, const MeshPlace& place, const MovedVertices& moved) {
+  std::vector<Vertex> vertices = interleave(mesh, look_);
+  for (std::size_t i = 0; i < moved.vertices.size(); ++i) {
+    std::ranges::transform(moved.vertices[i].position, vertices[i].position.begin(), finite);
+    std::ranges::transform(moved.vertices[i].normal, vertices[i].normal.begin(), finite);
+  }
+  const auto write = [&](const auto& all) {
+    gl_.BufferSubData(GL_ARRAY_BUFFER, static_cast<GLintptr>(place.first.vertices * sizeof all[0]),
+                      static_cast<GLsizeiptr>(all.size() * sizeof all[0]), all.data());
+  };
+  if (!isRich(mesh)) return write(vertices);
+  std::vector<RichVertex> rich = enriched(mesh, vertices);
+  for (std::size_t i = 0; i < moved.tangents.size(); ++i) rich[i].tangent = moved.tangents[i];
+  write(rich);
 }
 
 void MeshCache::uploadVertices(const Mesh& mesh, GlMesh& out) {
-  const std::vector<Vertex> vertices = interleave(mesh, look_);
   std::vector<std::uint32_t> ofLevels;
   if (!mesh.levels.empty()) {
     ofLevels = mesh.indices;
@@ -200,23 +250,28 @@ void MeshCache::uploadVertices(const Mesh& mesh, GlMesh& out) {
       ofLevels.insert(ofLevels.end(), level.indices.begin(), level.indices.end());
   }
   const std::span<const std::uint32_t> all = mesh.levels.empty() ? std::span(mesh.indices) : ofLevels;
-  out.place = pages_.placeFor({vertices.size(), all.size(), mesh.materials.size()});
-  gl_.BufferSubData(GL_ARRAY_BUFFER, static_cast<GLintptr>(out.place.first.vertices * sizeof(Vertex)),
-                    static_cast<GLsizeiptr>(vertices.size() * sizeof(Vertex)), vertices.data());
-  if (out.place.opensPage) describeVertices();
+  MeshPages& pages = isRich(mesh) ? richPages_ : pages_;
+  out.place = pages.placeFor({mesh.positions.size(), all.size(), mesh.materials.size()});
+  writeVertices(mesh, out.place, {});
+  if (out.place.opensPage) describeVertices(isRich(mesh));
   uploadIndices(mesh, all, out);
 }
 
 /// Of the bound vertex array and vertex buffer.
-void MeshCache::describeVertices() const {
+void MeshCache::describeVertices(bool rich) const {
+  const auto stride = static_cast<GLsizei>(rich ? sizeof(RichVertex) : sizeof(Vertex));
   const auto attribute = [&](GLuint at, GLint size, GLenum type, GLboolean normalised, std::size_t from) {
     gl_.EnableVertexAttribArray(at);
-    gl_.VertexAttribPointer(at, size, type, normalised, sizeof(Vertex), inBuffer(from));
+    gl_.VertexAttribPointer(at, size, type, normalised, stride, inBuffer(from));
   };
   attribute(kPosition, 3, GL_FLOAT, GL_FALSE, offsetof(Vertex, position));
   attribute(kNormal, 3, GL_FLOAT, GL_FALSE, offsetof(Vertex, normal));
   attribute(kUv, 2, GL_FLOAT, GL_FALSE, offsetof(Vertex, uv));
   attribute(kColour, 4, GL_UNSIGNED_SHORT, GL_TRUE, offsetof(Vertex, colour));
+  if (rich) {
+    attribute(kSecondUv, 2, GL_FLOAT, GL_FALSE, offsetof(RichVertex, secondUv));
+    attribute(kTangent, 4, GL_FLOAT, GL_FALSE, offsetof(RichVertex, tangent));
+  }
   for (const GLuint row : {kModelX, kModelY, kModelZ}) {  // the renderer points them at its instances
     gl_.EnableVertexAttribArray(row);
     gl_.VertexAttribDivisor(row, 1);
@@ -262,7 +317,7 @@ void MeshCache::uploadMaterials(const Mesh& mesh, GlMesh& out) {
 }
 
 /// Lists the parts of all levels. Expects the textures.
-void MeshCache::listParts(const Mesh& mesh, const std::vector<GlTexture>& textures, GlMesh& out) const {
+void MeshCache::listParts(const Mesh& mesh, const std::vector<MapTexture>& textures, GlMesh& out) const {
   const PartMaker make{mesh, out, textures, materialStride(), !encloses(mesh)};
   for (const Submesh& part : mesh.submeshes) {
     out.parts.push_back(make.partOf(part, mesh.indices, 0));
@@ -275,21 +330,41 @@ void MeshCache::listParts(const Mesh& mesh, const std::vector<GlTexture>& textur
     first += level.indices.size();
   }
   const auto isPlain = [](const GlSubmesh& part) {
-    return part.texture == 0 && part.glowTexture == 0 && !part.transparent && !part.masked;
+    const auto isNone = [](GLuint map) { return map == 0; };
+    return std::ranges::all_of(part.maps, isNone) && !part.transparent && !part.masked && !part.unlit;
   };
   if (culls_ && look_ == Look::Plain && std::ranges::all_of(out.parts, isPlain)) out.shading.emplace(mesh);
 }
 
-GlTexture MeshCache::uploadTexture(const Texture& texture, float alphaCutoff) {
+/// Uploads those that the look reads.
+void MeshCache::uploadTextures(const Mesh& mesh, GlMesh& out) {
+  for (const Material& material : mesh.materials)
+    for (std::size_t kind = 0; kind < kMapKinds; ++kind) {
+      const MaterialMap& map = material.maps[kind];
+      const bool colours = holdsColours(kind);
+      if (!map.given() || (look_ == Look::Plain && !colours)) continue;
+      const auto isSame = [&](const MapTexture& t) {
+        return t.picture == map.texture && t.sampler == map.sampler && t.colours == colours;
+      };
+      if (std::ranges::any_of(out.textures, isSame)) continue;
+      const auto picture = static_cast<std::size_t>(map.texture);
+      const float cutoff = colours ? textureCutoff(mesh, picture) : 0;
+      out.textures.push_back({map.texture, map.sampler, colours,
+                              uploadTexture(mesh.textures[picture], cutoff, map.sampler, colours)});
+    }
+}
+
+GlTexture MeshCache::uploadTexture(const Texture& texture, float alphaCutoff, const Sampler& sampler,
+                                   bool colours) {
   GlTexture out(gl_);
   const std::vector<Texture> smaller =
       alphaCutoff > 0 ? maskLevels(texture, alphaCutoff, look_) : std::vector<Texture>();
   gl_.BindTexture(GL_TEXTURE_2D, out.name());
   gl_.PixelStorei(GL_UNPACK_ALIGNMENT, 1);
+  const GLint format = look_ == Look::Full && colours ? GL_SRGB8_ALPHA8 : GL_RGBA8;
   const auto level = [&](GLint number, const Texture& of) {
-    gl_.TexImage2D(GL_TEXTURE_2D, number, look_ == Look::Full ? GL_SRGB8_ALPHA8 : GL_RGBA8,
-                   static_cast<GLsizei>(of.width), static_cast<GLsizei>(of.height), 0, GL_RGBA,
-                   GL_UNSIGNED_BYTE, of.rgba.data());
+    gl_.TexImage2D(GL_TEXTURE_2D, number, format, static_cast<GLsizei>(of.width),
+                   static_cast<GLsizei>(of.height), 0, GL_RGBA, GL_UNSIGNED_BYTE, of.rgba.data());
   };
   level(0, texture);
   for (std::size_t i = 0; i < smaller.size(); ++i) level(static_cast<GLint>(i + 1), smaller[i]);
@@ -297,10 +372,23 @@ GlTexture MeshCache::uploadTexture(const Texture& texture, float alphaCutoff) {
     gl_.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAX_LEVEL, static_cast<GLint>(smaller.size()));
   else
     gl_.GenerateMipmap(GL_TEXTURE_2D);
-  gl_.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_LINEAR);
-  gl_.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
-  if (anisotropy_) gl_.TexParameterf(GL_TEXTURE_2D, GL_TEXTURE_MAX_ANISOTROPY, kAnisotropy);
+  setSampler(sampler);
   return out;
+}
+
+/// Of the bound texture.
+void MeshCache::setSampler(const Sampler& sampler) const {
+  constexpr GLint kWraps[]{GL_REPEAT, GL_MIRRORED_REPEAT, GL_CLAMP_TO_EDGE};
+  constexpr GLint kReduced[3][2]{{GL_LINEAR_MIPMAP_LINEAR, GL_NEAREST_MIPMAP_LINEAR},
+                                 {GL_LINEAR_MIPMAP_NEAREST, GL_NEAREST_MIPMAP_NEAREST},
+                                 {GL_LINEAR, GL_NEAREST}};
+  const auto set = [&](GLenum what, GLint value) { gl_.TexParameteri(GL_TEXTURE_2D, what, value); };
+  set(GL_TEXTURE_WRAP_S, kWraps[static_cast<std::size_t>(sampler.wrapU)]);
+  set(GL_TEXTURE_WRAP_T, kWraps[static_cast<std::size_t>(sampler.wrapV)]);
+  set(GL_TEXTURE_MIN_FILTER, kReduced[static_cast<std::size_t>(sampler.mipmaps)][sampler.minifiesNearest]);
+  set(GL_TEXTURE_MAG_FILTER, sampler.magnifiesNearest ? GL_NEAREST : GL_LINEAR);
+  const bool blends = !sampler.minifiesNearest && sampler.mipmaps != MipmapUse::None;
+  if (anisotropy_ && blends) gl_.TexParameterf(GL_TEXTURE_2D, GL_TEXTURE_MAX_ANISOTROPY, kAnisotropy);
 }
 
 }  // namespace stadion

@@ -5,6 +5,7 @@
 /// Threads    the thread on which the context is current; its destructor too.
 /// Errors     reports a mesh once that is missing, damaged or too large for the memory; it draws nothing.
 
+#include "engine/asset/material.h"
 #include "engine/asset/mesh_store.h"
 #include "engine/base/diagnostic.h"
 #include "engine/core/frame_probe.h"
@@ -16,6 +17,7 @@
 #include "pipeline/shader/look.h"
 
 #include <algorithm>
+#include <array>
 #include <optional>
 #include <span>
 #include <unordered_map>
@@ -23,13 +25,28 @@
 
 namespace stadion {
 
+/// The textures of a material's maps, by MapKind; 0 = none. The plain look has those of colours alone.
+using MapTextures = std::array<GLuint, kMapKinds>;
+/// Binds those that are there.
+void bindMaps(const GlTable& gl, const MapTextures& maps);
+
+/// A picture as maps read it: once for each sampler, as colours or as numbers.
+struct MapTexture {
+  std::int32_t picture;  ///< index in Mesh::textures
+  Sampler sampler;
+  bool colours;
+  GlTexture gl;
+};
+
 /// The parameters of one draw call of a mesh.
 struct GlSubmesh {
   GLsizei indexCount;
   std::uintptr_t indexOffset;  ///< [bytes]
   GLintptr materialOffset;     ///< [bytes] into GlMesh::materials
-  GLuint texture;              ///< 0 = none
-  GLuint glowTexture;  ///< texture of the light that the surface emits; 0 = it emits the same everywhere
+  MapTextures maps;
+  bool tangents;   ///< its mesh has tangents
+  bool ownPlaces;  ///< a map has texture coordinates of its own
+  bool unlit;
   bool transparent;
   bool masked;
   bool bothSides;                        ///< not culled: double-sided, or the mesh is open
@@ -52,7 +69,7 @@ inline TriangleCuller::Facing facingOf(const GlSubmesh& part, bool mirrored) {
 struct GlMesh {
   MeshPlace place;
   GlBuffer materials;
-  std::vector<GlTexture> textures;
+  std::vector<MapTexture> textures;
   std::vector<GlSubmesh> parts;                ///< parts of the full surface
   std::vector<std::vector<GlSubmesh>> levels;  ///< parts of each simplified surface
   std::size_t transparentParts = 0;
@@ -83,7 +100,17 @@ struct MeshParts {
 MeshParts partsOf(const GlMesh& mesh, std::uint32_t level);
 
 /// Where vertex arrays find what; the shaders use the same numbers.
-enum VertexAttribute : GLuint { kPosition, kNormal, kUv, kColour, kModelX, kModelY, kModelZ };
+enum VertexAttribute : GLuint {
+  kPosition,
+  kNormal,
+  kUv,
+  kColour,
+  kModelX,
+  kModelY,
+  kModelZ,
+  kSecondUv,  ///< this and the next: only of meshes that have them
+  kTangent
+};
 
 /// Points the model matrices of the bound vertex array at `instances`, from number `first` on.
 void pointAtInstances(const GlTable& gl, const FrameData& instances, std::uint32_t first);
@@ -101,8 +128,13 @@ public:
   /// Returns another copy of a mesh, with vertices of its own and the textures of `original`, which must
   /// outlive it. Nothing if OpenGL has no memory for it.
   std::optional<GlMesh> copyOf(const Mesh& mesh, const GlMesh& original);
-  /// Gives a copy other positions and normals.
-  void setVertices(const Mesh& mesh, std::span<const SkinnedVertex> vertices, const GlMesh& copy);
+  /// Vertices in a pose; empty: as the mesh has them.
+  struct MovedVertices {
+    std::span<const SkinnedVertex> vertices;
+    std::span<const std::array<float, 4>> tangents;  ///< empty if the mesh has none
+  };
+  /// Gives a copy other positions, normals and tangents.
+  void setVertices(const Mesh& mesh, const MovedVertices& moved, const GlMesh& copy);
   /// Returns true if find() has it already, and uploads nothing.
   bool holds(MeshId id) const;
   /// Reports uploads to this probe from now on; null = none.
@@ -117,19 +149,22 @@ public:
 private:
   std::optional<GlMesh> upload(const Mesh& mesh);
   void uploadVertices(const Mesh& mesh, GlMesh& out);
-  void describeVertices() const;
+  void describeVertices(bool rich) const;
+  void writeVertices(const Mesh& mesh, const MeshPlace& place, const MovedVertices& moved);
+  void uploadTextures(const Mesh& mesh, GlMesh& out);
   void uploadIndices(const Mesh& mesh, std::span<const std::uint32_t> all, GlMesh& out);
   void uploadMaterials(const Mesh& mesh, GlMesh& out);
-  void listParts(const Mesh& mesh, const std::vector<GlTexture>& textures, GlMesh& out) const;
+  void listParts(const Mesh& mesh, const std::vector<MapTexture>& textures, GlMesh& out) const;
   std::size_t materialStride() const;
-  GlTexture uploadTexture(const Texture& texture, float alphaCutoff);
+  GlTexture uploadTexture(const Texture& texture, float alphaCutoff, const Sampler& sampler, bool colours);
+  void setSampler(const Sampler& sampler) const;
   void report(std::string what);
 
   const GlTable& gl_;
   const MeshStore& store_;
   Look look_;  ///< colours are uploaded as it reckons with them
   bool culls_;
-  MeshPages pages_;
+  MeshPages pages_, richPages_;  ///< rich: vertices with second texture coordinates and tangents
   struct Cached {
     std::uint64_t hash = 0;    ///< hash of the mesh's content: the store may use an id again
     std::optional<GlMesh> gl;  ///< empty: known not to be drawable

@@ -53,6 +53,10 @@ std::string drawingFault(const Mesh& mesh) {
   if (mesh.normals.size() != count) return "its normals do not match its vertices";
   if (!mesh.uvs.empty() && mesh.uvs.size() != count)
     return "its texture coordinates do not match its vertices";
+  if (!mesh.secondUvs.empty() && mesh.secondUvs.size() != count)
+    return "its second texture coordinates do not match its vertices";
+  if (!mesh.tangents.empty() && mesh.tangents.size() != count)
+    return "its tangents do not match its vertices";
   if (!mesh.colours.empty() && mesh.colours.size() != count) return "its colours do not match its vertices";
   for (const std::uint32_t index : mesh.indices)
     if (index >= count) return "a triangle names a vertex that is not there";
@@ -61,10 +65,11 @@ std::string drawingFault(const Mesh& mesh) {
       return "a part of it names triangles that are not there";
     if (part.material >= mesh.materials.size()) return "a part of it names a material that is not there";
   }
+  const auto names = [&](const MaterialMap& map) {
+    return map.texture >= static_cast<std::int64_t>(mesh.textures.size());
+  };
   for (const Material& material : mesh.materials)
-    if (std::max(material.texture, material.emissiveTexture) >=
-        static_cast<std::int64_t>(mesh.textures.size()))
-      return "a material names a texture that is not there";
+    if (std::ranges::any_of(material.maps, names)) return "a material names a texture that is not there";
   for (const Texture& texture : mesh.textures)
     if (texture.width == 0 || texture.height == 0 || texture.width > 8192 || texture.height > 8192 ||
         texture.rgba.size() != std::size_t{texture.width} * texture.height * 4)

@@ -23,7 +23,7 @@ std::optional<Diagnostic> SurfacePrograms::buildUsual(const SurfaceTraits& commo
     assert(traits.index() == i);
     auto built = compile(traits);
     if (!built) return built.error();
-    set.programs[i].emplace(std::move(built.value()));
+    set.usual[i].emplace(std::move(built.value()));
   }
   return {};
 }
@@ -50,11 +50,17 @@ Result<GlProgram> SurfacePrograms::compile(SurfaceTraits traits) const {
 
 const GlProgram& SurfacePrograms::programFor(const GlSubmesh& part, SurfaceWrites writes) {
   SurfaceTraits traits;
-  traits.textured = part.texture != 0;
+  traits.textured = part.maps[kBaseMap] != 0;
   traits.localLights = localLights_;
   traits.writes = writes;
   traits.masked = part.masked;
-  traits.glowing = part.glowTexture != 0;
+  traits.unlit = part.unlit;
+  traits.glowing = part.maps[kEmissiveMap] != 0 && !part.unlit;
+  traits.finished = part.maps[kMetallicRoughnessMap] != 0 && !part.unlit;
+  traits.bumpy = part.maps[kNormalMap] != 0 && !part.unlit;
+  traits.occluded = part.maps[kOcclusionMap] != 0 && !part.unlit;
+  traits.tangents = traits.bumpy && part.tangents;
+  traits.ownPlaces = part.ownPlaces && traits.pictured();
   return find(traits);
 }
 
@@ -66,23 +72,23 @@ const GlProgram& SurfacePrograms::use(const GlSubmesh& part, SurfaceWrites write
 
 const GlProgram& SurfacePrograms::find(SurfaceTraits traits) {
   const std::size_t i = traits.index();
-  std::optional<GlProgram>& program = chosen_->programs[i];
-  if (!program && !chosen_->failed[i]) {
+  if (i < SurfaceTraits::kUsual) return *chosen_->usual[i];
+  auto at = chosen_->others.find(i);
+  if (at == chosen_->others.end()) {
     const SurfaceTraits& common = chosen_->common;
     traits.look = common.look;
     traits.shadowed = common.shadowed;
     traits.hazy = common.hazy;
     traits.lights = common.lights;
     auto built = compile(traits);
-    if (built) {
-      program.emplace(std::move(built.value()));
-    } else {
-      chosen_->failed[i] = true;
+    at = chosen_->others.emplace(i, std::nullopt).first;
+    if (built)
+      at->second.emplace(std::move(built.value()));
+    else
       problems_.report(built.error().message);
-    }
     calls_.forgetProgram();
   }
-  return program ? *program : *chosen_->programs[i % SurfaceTraits::kUsual];
+  return at->second ? *at->second : *chosen_->usual[i % SurfaceTraits::kUsual];
 }
 
 }  // namespace stadion

@@ -16,6 +16,7 @@
 #include <array>
 #include <cstddef>
 #include <optional>
+#include <unordered_map>
 
 namespace stadion {
 
@@ -48,9 +49,9 @@ private:
   /// Programs that differ in the mesh, in local lights and in what they write, by SurfaceTraits::index().
   struct Set {
     SurfaceTraits common;
-    std::array<std::optional<GlProgram>, SurfaceTraits::kCount> programs;
-    std::array<bool, SurfaceTraits::kCount> failed{};
-    bool empty() const { return !programs[0]; }
+    std::array<std::optional<GlProgram>, SurfaceTraits::kUsual> usual;
+    std::unordered_map<std::size_t, std::optional<GlProgram>> others;  ///< no program: it cannot be built
+    bool empty() const { return !usual[0]; }
   };
 
   std::optional<Diagnostic> buildUsual(const SurfaceTraits& common, Set& set) const;

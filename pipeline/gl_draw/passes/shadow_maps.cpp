@@ -158,7 +158,7 @@ void ShadowMaps::setView(const DrawShadows& shadows, std::size_t index) {
 void ShadowMaps::collect(const GlMesh& mesh, const InstanceBatch& batch) {
   for (const GlSubmesh& part : mesh.parts)
     if (!part.masked)
-      indirect_->add({&program_, mesh.place.page.get(), 0, 0, part.bothSides, batch.mirrored}, mesh, part,
+      indirect_->add({&program_, mesh.place.page.get(), {}, part.bothSides, batch.mirrored}, mesh, part,
                      batch.first, batch.count);
 }
 
@@ -182,8 +182,9 @@ const GlProgram& ShadowMaps::programFor(const GlSubmesh& part) {
   if (!part.masked) return program_;
   SurfaceTraits traits;
   traits.masked = true;
-  traits.textured = part.texture != 0;
-  const auto which = std::size_t{traits.textured};
+  traits.textured = part.maps[kBaseMap] != 0;
+  traits.ownPlaces = traits.textured && part.ownPlaces;
+  const auto which = std::size_t{traits.textured} | std::size_t{traits.ownPlaces} << 1;
   if (!masked_[which] && !maskedFailed_[which]) {
     auto built =
         GlProgram::build(gl_, shadowVertexShader(traits), shadowFragmentShader(traits), shaderBindings());
@@ -198,7 +199,7 @@ const GlProgram& ShadowMaps::programFor(const GlSubmesh& part) {
 void ShadowMaps::drawPart(const GlMesh& mesh, const GlSubmesh& part, GLsizei instances) {
   gl_.UseProgram(programFor(part).name());
   if (part.masked) {
-    if (part.texture) gl_.BindTexture(GL_TEXTURE_2D, part.texture);
+    if (part.maps[kBaseMap]) gl_.BindTexture(GL_TEXTURE_2D, part.maps[kBaseMap]);
     gl_.BindBufferRange(GL_UNIFORM_BUFFER, kMaterialBinding, mesh.materials.name(), part.materialOffset,
                         sizeof(MaterialBlock));
   }

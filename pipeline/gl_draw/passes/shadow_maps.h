@@ -70,8 +70,8 @@ private:
   GlProgram program_;
   /// Programs for surfaces with holes, without pictures and with them; made at first use. If making fails,
   /// such a surface casts a whole shadow.
-  std::array<std::optional<GlProgram>, 2> masked_;
-  std::array<bool, 2> maskedFailed_{};
+  std::array<std::optional<GlProgram>, 4> masked_;
+  std::array<bool, 4> maskedFailed_{};
   GlTexture still_, shown_;
   GlFramebuffer intoStill_, intoShown_;
   FrameData view_, block_, instances_;

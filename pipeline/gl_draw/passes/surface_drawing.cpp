@@ -20,14 +20,8 @@ void SurfaceDrawing::beginCall(std::uint32_t first) {
 }
 
 const GlProgram& SurfaceDrawing::beginPart(const GlMesh& mesh, const GlSubmesh& part, SurfaceWrites writes) {
-  const GlTable& gl = with_.gl;
   const GlProgram& program = with_.scene.surfaces().use(part, writes);
-  if (part.texture) gl.BindTexture(GL_TEXTURE_2D, part.texture);
-  if (part.glowTexture) {
-    gl.ActiveTexture(GL_TEXTURE0 + kGlowUnit);
-    gl.BindTexture(GL_TEXTURE_2D, part.glowTexture);
-    gl.ActiveTexture(GL_TEXTURE0);
-  }
+  bindMaps(with_.gl, part.maps);
   with_.scene.calls().bindMaterial(mesh.materials.name(), part.materialOffset);
   return program;
 }
@@ -67,8 +61,7 @@ void SurfaceDrawing::collectOpaque(const MeshParts& mesh, const InstanceBatch& s
     for (const GlSubmesh& part : mesh.parts) {
       if (opaqueOnly && part.transparent) continue;
       const GlProgram& program = with_.scene.surfaces().programFor(part, SurfaceWrites::Picture);
-      indirect_->add({&program, mesh.gl->place.page.get(), part.texture, part.glowTexture, part.bothSides,
-                      seen.mirrored},
+      indirect_->add({&program, mesh.gl->place.page.get(), part.maps, part.bothSides, seen.mirrored},
                      *mesh.gl, part, first, count);
     }
   }

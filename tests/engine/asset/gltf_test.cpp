@@ -193,7 +193,7 @@ TEST_F(Gltf, TextureTransformsMoveTextureCoordinates) {
   EXPECT_TRUE(m.used("texture transform of 1 material (\"wood\")")) << m.all();
 }
 
-TEST_F(Gltf, AMaterialTakesTheTextureCoordinatesOfItsBaseColour) {
+TEST_F(Gltf, MapsWithOtherTextureCoordinatesThanTheBaseColourKeepThem) {
   std::filesystem::copy_file(models() / "arms.png", folder_.path() / "arms.png");
   Builder b = pictured({{"index", 0}, {"texCoord", 1}});
   const Imported second = load(b);
@@ -203,11 +203,13 @@ TEST_F(Gltf, AMaterialTakesTheTextureCoordinatesOfItsBaseColour) {
   b.json["materials"][0]["emissiveTexture"] = {{"index", 0}};
   const Imported both = load(b);
   ASSERT_TRUE(both.mesh) << both.error;
-  EXPECT_EQ(both.mesh->materials[0].emissiveTexture, -1);
-  EXPECT_EQ(both.mesh->materials[0].emissive[0], 0);
-  EXPECT_TRUE(both.leftOut(
-      "emissive map with other texture coordinates than the base colour of 1 material (\"wood\")"))
-      << both.all();
+  const auto& maps = both.mesh->materials[0].maps;
+  EXPECT_TRUE(maps[kBaseMap].secondUvs);
+  EXPECT_EQ(maps[kEmissiveMap].texture, 0);
+  EXPECT_FALSE(maps[kEmissiveMap].movesUvs());
+  EXPECT_NEAR(both.mesh->secondUvs.at(0)[0], 0.25, 1e-6);
+  EXPECT_NEAR(both.mesh->uvs.at(0)[0], 0, 1e-6);
+  EXPECT_TRUE(both.used("emissive map of 1 material (\"wood\")")) << both.all();
 }
 
 TEST_F(Gltf, TheStrengthOfEmissionMultipliesItsFactor) {

@@ -77,8 +77,8 @@ TEST(AssetMeshFile, WhateverIsAcceptedIsSound) {
     for (auto index : m.indices) ASSERT_LT(index, m.positions.size());
     for (const auto& s : m.submeshes) ASSERT_LT(s.material, m.materials.size());
     for (const auto& material : m.materials) {
-      ASSERT_LT(material.texture, static_cast<int>(m.textures.size()));
-      ASSERT_LT(material.emissiveTexture, static_cast<int>(m.textures.size()));
+      ASSERT_LT(material.maps[kBaseMap].texture, static_cast<int>(m.textures.size()));
+      ASSERT_LT(material.maps[kEmissiveMap].texture, static_cast<int>(m.textures.size()));
       ASSERT_TRUE(material.alphaCutoff >= 0 && material.alphaCutoff <= kMostAlphaCutoff);
     }
   }

@@ -21,7 +21,7 @@ TEST(AssetSurfaces, AMaskIsACutoffAndItsPictureKeepsItsAlpha) {
   EXPECT_EQ(m.alphaCutoff, 0.5f);
   EXPECT_TRUE(m.masked() && m.doubleSided && m.textureHasAlpha);
   EXPECT_FALSE(m.transparent() || mesh.transparent());
-  const Texture& leaf = mesh.textures.at(static_cast<std::size_t>(m.texture));
+  const Texture& leaf = mesh.textures.at(static_cast<std::size_t>(m.maps[kBaseMap].texture));
   EXPECT_EQ(leaf.rgba.at(3), 255);
   EXPECT_EQ(leaf.rgba.at(4 * 4 + 3), 0);
 }
@@ -32,8 +32,8 @@ TEST(AssetSurfaces, APictureOfLightMultipliesTheFactor) {
   ASSERT_TRUE(loaded) << loaded.error().message;
   const Material& m = firstMaterial(*loaded.value());
   EXPECT_EQ(m.emissive, (std::array<float, 3>{1, 1, 1}));
-  EXPECT_EQ(m.emissiveTexture, 0);
-  EXPECT_EQ(m.texture, -1);
+  EXPECT_EQ(m.maps[kEmissiveMap].texture, 0);
+  EXPECT_EQ(m.maps[kBaseMap].texture, -1);
   EXPECT_EQ(loaded.value()->textures.at(0).width, 16u);
 }
 
@@ -127,7 +127,7 @@ TEST(AssetSurfaces, LightIsThereOnlyWithAFactorAndAPictureThatCanBeRead) {
     ASSERT_TRUE(loaded) << loaded.error().message;
     const Material& m = firstMaterial(*loaded.value());
     EXPECT_EQ(m.emissive, c.emissive) << c.picture << ", " << c.material;
-    EXPECT_EQ(m.emissiveTexture >= 0, c.pictured) << c.picture << ", " << c.material;
+    EXPECT_EQ(m.maps[kEmissiveMap].texture >= 0, c.pictured) << c.picture << ", " << c.material;
     EXPECT_EQ(notes.all().size(), std::string(c.picture) == "lamp.png" ? 0u : 1u) << c.picture;
   }
 }
@@ -150,8 +150,9 @@ TEST(AssetSurfaces, PicturesOfLightOfOtherFormatsGlowWithoutAFactor) {
     ASSERT_TRUE(loaded) << loaded.error().message;
     const Material& m = firstMaterial(*loaded.value());
     EXPECT_EQ(m.emissive, c.emissive) << c.lines;
-    ASSERT_GE(m.emissiveTexture, 0) << c.lines;
-    EXPECT_EQ(loaded.value()->textures.at(static_cast<std::size_t>(m.emissiveTexture)).name, "lamp.png");
+    ASSERT_GE(m.maps[kEmissiveMap].texture, 0) << c.lines;
+    EXPECT_EQ(loaded.value()->textures.at(static_cast<std::size_t>(m.maps[kEmissiveMap].texture)).name,
+              "lamp.png");
     EXPECT_FALSE(m.masked()) << c.lines;
   }
 }
@@ -159,7 +160,7 @@ TEST(AssetSurfaces, PicturesOfLightOfOtherFormatsGlowWithoutAFactor) {
 std::unique_ptr<Mesh> withAll() {
   auto mesh = standIn("box");
   mesh->materials[0].alphaCutoff = 0.25f;
-  mesh->materials[0].emissiveTexture = 1;
+  mesh->materials[0].maps[kEmissiveMap].texture = 1;
   mesh->textures.push_back({1, 1, {255, 255, 255, 255}, "light"});
   finish(*mesh);
   return mesh;
@@ -173,10 +174,10 @@ TEST(AssetSurfaces, AMeshFileCarriesThemAndRefusesWhatTheyCannotBe) {
   finish(*back.value());
   EXPECT_EQ(back.value()->hash, mesh->hash);
   EXPECT_EQ(back.value()->materials[0].alphaCutoff, 0.25f);
-  EXPECT_EQ(back.value()->materials[0].emissiveTexture, 1);
+  EXPECT_EQ(back.value()->materials[0].maps[kEmissiveMap].texture, 1);
   const auto refused = [&](float cutoff, std::int32_t texture) {
     const auto bad = withAll();
-    bad->materials[0].alphaCutoff = cutoff, bad->materials[0].emissiveTexture = texture;
+    bad->materials[0].alphaCutoff = cutoff, bad->materials[0].maps[kEmissiveMap].texture = texture;
     return !decode(encode(*bad));
   };
   for (const float cutoff : {-0.1f, 2.1f, NAN, INFINITY}) EXPECT_TRUE(refused(cutoff, 0)) << cutoff;
@@ -189,7 +190,7 @@ TEST(AssetSurfaces, MeshesThatDifferInThemHaveOtherHashes) {
   for (const float cutoff : {0.0f, 0.25f, 0.5f})
     for (const int texture : {-1, 0, 1}) {
       auto mesh = withAll();
-      mesh->materials[0].alphaCutoff = cutoff, mesh->materials[0].emissiveTexture = texture;
+      mesh->materials[0].alphaCutoff = cutoff, mesh->materials[0].maps[kEmissiveMap].texture = texture;
       finish(*mesh);
       hashes.push_back(mesh->hash);
     }

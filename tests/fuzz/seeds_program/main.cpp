@@ -183,15 +183,16 @@ Seed answered(ImportStatus status, const std::string& text, const Seed& mesh) {
 
 void writeMeshes(const Folder& to) {
   Mesh plain = *standIn("box");
-  plain.textures.clear(), plain.materials[0].texture = -1;
+  plain.textures.clear(), plain.materials[0].maps[kBaseMap].texture = -1;
   Mesh coloured = plain;
   coloured.uvs.clear(), coloured.colours.assign(coloured.positions.size(), {255, 0, 0, 255});
   coloured.materials.push_back({});
   coloured.submeshes = {{0, 18, 0}, {18, 18, 1}};
   Mesh textured = plain;
-  textured.textures.push_back({2, 1, Seed(8, 255), "two pixels"}), textured.materials[0].texture = 0;
+  textured.textures.push_back({2, 1, Seed(8, 255), "two pixels"}),
+      textured.materials[0].maps[kBaseMap].texture = 0;
   Mesh masked = textured;
-  masked.materials[0].alphaCutoff = 0.5f, masked.materials[0].emissiveTexture = 0;
+  masked.materials[0].alphaCutoff = 0.5f, masked.materials[0].maps[kEmissiveMap].texture = 0;
   to.add("plain", answered(ImportStatus::Loaded, "", encode(plain)));
   to.add("coloured",
          answered(ImportStatus::Loaded, "a texture is missing\nanother one, too", encode(coloured)));

@@ -165,7 +165,7 @@ TEST(CpuRenderer, SurvivesGeometryOfAllKinds) {
       mesh->positions[v][random() % 3] = odd[random() % 8];
       mesh->normals[v][random() % 3] = odd[random() % 8], mesh->uvs[v][random() % 2] = odd[random() % 8];
     }
-    mesh->textures.push_back(test::chequered(16, 4)), mesh->materials[0].texture = 0;
+    mesh->textures.push_back(test::chequered(16, 4)), mesh->materials[0].maps[kBaseMap].texture = 0;
     list.opaque = {test::place(meshes.add(std::move(mesh)), standing(0, -4, 1))};
     if (round % 3 == 0) list.opaque[0].model[random() % 12] = odd[3 + random() % 5];
     if (round % 2 == 0) std::swap(list.transparent, list.opaque);

@@ -67,6 +67,7 @@ std::unique_ptr<Mesh> posedCopy(const Mesh& mesh, const FigureRecord& playing) {
   skin({mesh.positions, mesh.normals, mesh.joints}, pose.palette(), 0, vertices);
   for (std::size_t i = 0; i < vertices.size(); ++i)
     copy->positions[i] = vertices[i].position, copy->normals[i] = vertices[i].normal;
+  skinTangents(mesh.tangents, mesh.joints, pose.palette(), 0, copy->tangents);
   copy->skeleton = nullptr;
   copy->joints.clear();
   copy->hash ^= 12345;
@@ -82,9 +83,21 @@ DrawList lit() {
   return list;
 }
 
+/// Adds a normal map that leans to a side, with tangents that differ from those of the texture coordinates.
+void addRelief(Mesh& mesh) {
+  mesh.textures.push_back({1, 1, {200, 150, 220, 255}, "leaning"});
+  mesh.materials[0].maps[kNormalMap].texture = 0;
+  for (const auto& n : mesh.normals) {
+    const Vec3 t = Vec3(0.3, 0.5, 0.8).cross(Vec3(n[0], n[1], n[2])).normalized();
+    mesh.tangents.push_back(
+        {static_cast<float>(t.x()), static_cast<float>(t.y()), static_cast<float>(t.z()), -1});
+  }
+}
+
 struct FigureScene {
-  explicit FigureScene(double time) : playing(at(time)) {
+  explicit FigureScene(double time, bool relief = false) : playing(at(time)) {
     auto mesh = column();
+    if (relief) addRelief(*mesh);
     const MeshId fixed = meshes.add(posedCopy(*mesh, playing));
     const MeshId figure = meshes.add(std::move(mesh));
     asMesh = asFigure = lit();
@@ -141,11 +154,32 @@ TEST(FigureDrawing, OpenGlFollowsAFigureFromFrameToFrame) {
 }
 
 TEST(FigureDrawing, BothRenderersDrawFiguresAlike) {
-  const FigureScene scene(0.7);
-  const PictureDifference d = difference(drawnByCpu(scene.meshes, scene.asFigure, kSide, kSide),
-                                         drawnByOpenGl(scene.meshes, scene.asFigure, kSide, kSide));
-  EXPECT_LE(d.mean, 0.3);
-  EXPECT_GE(d.alike, 0.995);
+  for (const bool relief : {false, true}) {
+    const FigureScene scene(0.7, relief);
+    const PictureDifference d = difference(drawnByCpu(scene.meshes, scene.asFigure, kSide, kSide),
+                                           drawnByOpenGl(scene.meshes, scene.asFigure, kSide, kSide));
+    EXPECT_LE(d.mean, 0.3) << relief;
+    EXPECT_GE(d.alike, 0.995) << relief;
+  }
+}
+
+TEST(FigureDrawing, TangentsTurnWithTheBones) {
+  const FigureScene scene(1, true), flat(1);
+  const Picture cpu = drawnByCpu(scene.meshes, scene.asFigure, kSide, kSide);
+  EXPECT_EQ(cpu, drawnByCpu(scene.meshes, scene.asMesh, kSide, kSide));
+  EXPECT_EQ(drawnByOpenGl(scene.meshes, scene.asFigure, kSide, kSide),
+            drawnByOpenGl(scene.meshes, scene.asMesh, kSide, kSide));
+  EXPECT_GT(difference(cpu, drawnByCpu(flat.meshes, flat.asFigure, kSide, kSide)).mean, 0.5);
+  // As a matrix turns all of a mesh, a bone turns the vertices that it alone carries.
+  const std::array<std::array<float, 4>, 1> along{{{1, 0, 0, -1}}};
+  const std::array<VertexJoints, 1> carried{{{{0, 0, 0, 0}, {1, 0, 0, 0}}}};
+  const auto turned = [&](const JointMatrix& m) {
+    std::array<std::array<float, 4>, 1> out{};
+    skinTangents(along, carried, std::span(&m, 1), 0, out);
+    return out[0];
+  };
+  EXPECT_EQ(turned({0, 2, 0, 0, -2, 0, 0, 0, 0, 0, 2, 0, 5, 5, 5, 1}), (std::array<float, 4>{0, 1, 0, -1}));
+  EXPECT_EQ(turned({-3, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1}), (std::array<float, 4>{-1, 0, 0, 1}));
 }
 
 TEST(FigureDrawing, TwoFiguresOfOneModelHaveTheirOwnPoses) {

@@ -282,7 +282,7 @@ TEST(PictureMask, TheShadowHasTheHolesOfTheCard) {
       if (byVertex) {  // from solid at the left to nothing at the right
         mesh->colours = {{255, 255, 255, 255}, {255, 255, 255, 0}, {255, 255, 255, 0}, {255, 255, 255, 255}};
         mesh->textures.clear(), mesh->uvs.clear();
-        mesh->materials[0].texture = -1;
+        mesh->materials[0].maps[kBaseMap].texture = -1;
       }
       Affine up = Affine::Identity();
       up.translation() = Vec3(0, 0, 30);
@@ -333,10 +333,10 @@ TEST(PictureGlow, OnlyWhatThePictureOfLightShowsGlows) {
         Material material = matt(0.8f, 0.8f, 0.8f);
         material.emissive = {factor, factor, 1};
         auto mesh = card(material, lamp);
-        mesh->materials[0].texture = -1, mesh->materials[0].emissiveTexture = 0;
+        mesh->materials[0].maps[kBaseMap].texture = -1, mesh->materials[0].maps[kEmissiveMap].texture = 0;
         if (pictured) {
           mesh->textures.push_back(test::chequered(16, 4));
-          mesh->materials[0].texture = 1;
+          mesh->materials[0].maps[kBaseMap].texture = 1;
         }
         DrawList list = test::plainList();
         list.sky.ambient = {0, 0, 0};
@@ -364,7 +364,7 @@ TEST(PictureGlow, AMaskedLampHasHolesAndGlowsBetweenThem) {
     material.emissive = {0, 0.6f, 0};
     auto mesh = card(material, leftHalf());
     mesh->textures.push_back(leaf(4, [](auto, auto) { return true; }));
-    mesh->materials[0].emissiveTexture = 1;
+    mesh->materials[0].maps[kEmissiveMap].texture = 1;
     DrawList list = blueList();
     list.sky.ambient = {0, 0, 0};
     list.opaque = {place(meshes.add(std::move(mesh)))};
@@ -380,9 +380,9 @@ TEST(ProgramWallProcesses, DrawHolesAndPicturesOfLightAsThisProcessDoes) {
   for (const Look look : {Look::Full, Look::Plain}) {
     MeshStore meshes;
     Material lamp = matt(0.2f, 0.1f, 0.1f);
-    lamp.emissive = {1, 0.5f, 0.2f}, lamp.emissiveTexture = 0;
+    lamp.emissive = {1, 0.5f, 0.2f}, lamp.maps[kEmissiveMap].texture = 0;
     auto shining = card(lamp, test::chequered(16, 4), 0.5);
-    shining->materials[0].texture = -1;
+    shining->materials[0].maps[kBaseMap].texture = -1;
     DrawList list = blueList();
     list.opaque = {place(meshes.add(card(masked(1, 0, 0), leftHalf()))),
                    place(meshes.add(std::move(shining)))};

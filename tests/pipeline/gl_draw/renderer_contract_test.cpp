@@ -372,7 +372,7 @@ TEST(RendererSurface, EveryKindOfDamageIsNamed) {
   EXPECT_NE(damaged([](Mesh& m) { m.colours.resize(1); }), "");
   EXPECT_NE(damaged([](Mesh& m) { m.submeshes[0].firstIndex = 3; }), "");
   EXPECT_NE(damaged([](Mesh& m) { m.submeshes[0].material = 1; }), "");
-  EXPECT_NE(damaged([](Mesh& m) { m.materials[0].texture = 0; }), "");
+  EXPECT_NE(damaged([](Mesh& m) { m.materials[0].maps[kBaseMap].texture = 0; }), "");
   EXPECT_NE(damaged([](Mesh& m) { m.textures.push_back({9000, 1, {}, "long"}); }), "");
 }
 

@@ -68,7 +68,7 @@ MeshMaker::MeshMaker(Material material) : mesh_(std::make_unique<Mesh>()) {
 
 MeshMaker& MeshMaker::texture(Texture texture) {
   mesh_->textures.push_back(std::move(texture));
-  mesh_->materials[0].texture = 0;
+  mesh_->materials[0].maps[kBaseMap].texture = 0;
   return *this;
 }
 

@@ -26,8 +26,6 @@ constexpr std::pair<aiTextureType, const char*> kOtherMaps[]{
     {aiTextureType_SPECULAR, "specular map"},
     {aiTextureType_AMBIENT, "ambient map"},
     {aiTextureType_HEIGHT, "height map"},
-    {aiTextureType_NORMALS, "normal map"},
-    {aiTextureType_NORMAL_CAMERA, "normal map"},
     {aiTextureType_SHININESS, "shininess map"},
     {aiTextureType_DISPLACEMENT, "displacement map"},
     {aiTextureType_LIGHTMAP, "light map"},
@@ -140,8 +138,8 @@ private:
     from_.Get(AI_MATKEY_MAPPINGMODE_U(type, 0), u);
     from_.Get(AI_MATKEY_MAPPINGMODE_V(type, 0), v);
     to.uvSet = set > 0 ? static_cast<std::uint32_t>(set) : 0;
-    to.wrapU = wrapMode(u);
-    to.wrapV = wrapMode(v);
+    to.sampler.wrapU = wrapMode(u);
+    to.sampler.wrapV = wrapMode(v);
     return to;
   }
 
@@ -152,6 +150,8 @@ private:
     if (!to_.emissiveMap.given()) to_.emissiveMap = texture(aiTextureType_EMISSION_COLOR);
     // The factor is white if the file omits it.
     if (to_.emissiveMap.given() && to_.emissive == Float3{0, 0, 0}) to_.emissive = {1, 1, 1};
+    to_.normalMap = texture(aiTextureType_NORMALS);
+    if (!to_.normalMap.given()) to_.normalMap = texture(aiTextureType_NORMAL_CAMERA);
     const SourceTexture opacity = texture(aiTextureType_OPACITY);
     if (format_.format == ModelFormat::Obj)
       to_.opacityMap = opacity;

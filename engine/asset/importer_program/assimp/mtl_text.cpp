@@ -130,7 +130,7 @@ void applyTo(SourceTexture& texture, const std::map<std::string, MapOptions>& op
   const auto found = options.find(keyword);
   if (found == options.end()) return;
   texture.transform = found->second.transform;
-  if (found->second.clamp) texture.wrapU = texture.wrapV = WrapMode::Clamp;
+  if (found->second.clamp) texture.sampler.wrapU = texture.sampler.wrapV = WrapMode::Clamp;
 }
 
 }  // namespace
@@ -147,6 +147,7 @@ void apply(const ObjNotes& notes, SourceScene& scene) {
     applyTo(material.baseMap, options->second, "map_Kd");
     applyTo(material.emissiveMap, options->second, "map_Ke");
     applyTo(material.opacityMap, options->second, "map_d");
+    applyTo(material.normalMap, options->second, "norm");
   }
   for (const ObjNotes::Missing& missing : notes.missing)
     scene.notes.push_back(

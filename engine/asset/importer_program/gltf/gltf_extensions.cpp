@@ -12,7 +12,7 @@ constexpr GltfExtension kExtensions[]{
     {"KHR_materials_emissive_strength", ContentUse::Used, true},
     {"KHR_mesh_quantization", ContentUse::Used, true},
     {"KHR_texture_transform", ContentUse::Used, false},
-    {"KHR_materials_unlit", ContentUse::LeftOut, false},
+    {"KHR_materials_unlit", ContentUse::Used, false},
     {"KHR_lights_punctual", ContentUse::LeftOut, false},
     {"KHR_materials_pbrSpecularGlossiness", ContentUse::Approximated, false},
     {"KHR_materials_anisotropy", ContentUse::LeftOut, true},

@@ -35,9 +35,19 @@ WrapMode gltfWrap(const GltfValue& sampler, const char* key) {
   return mode == 33648 ? WrapMode::Mirror : WrapMode::Repeat;
 }
 
-bool isNearest(const GltfValue& sampler) {
-  const std::uint64_t least = sampler.count("minFilter", 9987);
-  return sampler.count("magFilter", 9729) == 9728 || least == 9728 || least == 9984 || least == 9986;
+/// A file that states no filter gets the best one.
+Sampler gltfSampler(const GltfValue& from) {
+  constexpr std::uint64_t kNearest = 9728, kLinear = 9729, kNearestNearest = 9984, kLinearNearest = 9985,
+                          kNearestBetween = 9986, kLinearBetween = 9987;
+  const std::uint64_t least = from.count("minFilter", kLinearBetween);
+  Sampler to;
+  to.wrapU = gltfWrap(from, "wrapS");
+  to.wrapV = gltfWrap(from, "wrapT");
+  to.magnifiesNearest = from.count("magFilter", kLinear) == kNearest;
+  to.minifiesNearest = least == kNearest || least == kNearestNearest || least == kNearestBetween;
+  if (least == kNearest || least == kLinear) to.mipmaps = MipmapUse::None;
+  if (least == kNearestNearest || least == kLinearNearest) to.mipmaps = MipmapUse::Nearest;
+  return to;
 }
 
 float factor(float value, float otherwise = 1) {
@@ -83,20 +93,33 @@ private:
     to.transform = {moved.reals<2>("offset", {0, 0}), moved.reals<2>("scale", {1, 1}),
                     moved.real("rotation", 0)};
     if (!(std::abs(to.transform.rotation) < 1e6f)) to.transform.rotation = 0;
-    to.strength = info.real("strength", info.real("scale", 1));
-    if (const auto sampler = from.index("sampler", samplers_.size())) applySampler(samplers_[*sampler], to);
+    to.strength = strengthOf(info, key);
+    if (const auto sampler = from.index("sampler", samplers_.size()))
+      to.sampler = gltfSampler(samplers_[*sampler]);
     return to;
+  }
+
+  /// The scale of a normal map or the strength of an occlusion map.
+  float strengthOf(const GltfValue& info, const std::string& key) {
+    if (key == "normalTexture")
+      return bounded(info, "scale", {-kMostNormalScale, kMostNormalScale}, "the scale of the normal map");
+    if (key != "occlusionTexture") return 1;
+    return bounded(info, "strength", {0, 1}, "the strength of the occlusion map");
+  }
+  struct Limits {
+    float least, most;
+  };
+  float bounded(const GltfValue& info, const char* key, const Limits& limits, const char* what) {
+    const double value = info.number(key, 1), inside = std::clamp<double>(value, limits.least, limits.most);
+    if (value == inside) return static_cast<float>(value);
+    to_.notes.push_back({ContentUse::Approximated,
+                         std::string(what) + " of " + info.place() + ": the nearest that can be is used"});
+    return std::isfinite(value) ? static_cast<float>(inside) : 1;
   }
 
   void noteWithoutPicture(const GltfValue& texture) {
     to_.notes.push_back(
         {ContentUse::LeftOut, texture.place() + ": its picture is in no format that shows read"});
-  }
-
-  static void applySampler(const GltfValue& sampler, SourceTexture& to) {
-    to.wrapU = gltfWrap(sampler, "wrapS");
-    to.wrapV = gltfWrap(sampler, "wrapT");
-    to.nearest = isNearest(sampler);
   }
 
   SourceMaterial materialOf(const GltfValue& from) {

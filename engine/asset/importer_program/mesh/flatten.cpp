@@ -35,6 +35,17 @@ std::array<float, 3> turnedNormal(const Float3& n, const Mat3& cofactors) {
   return {static_cast<float>(unit.x()), static_cast<float>(unit.y()), static_cast<float>(unit.z())};
 }
 
+/// A tangent that is no direction is left to the texture coordinates.
+std::array<float, 4> turnedTangent(const Float4& t, const Mat3& by) {
+  const Vec3 turned = by * Vec3(t[0], t[1], t[2]);
+  const double length = turned.norm();
+  if (!std::isfinite(length) || !(length > 1e-30)) return {0, 0, 0, 1};
+  const bool mirrors = by.determinant() < 0;
+  const float side = (t[3] < 0) != mirrors ? -1.0f : 1.0f;
+  return {static_cast<float>(turned.x() / length), static_cast<float>(turned.y() / length),
+          static_cast<float>(turned.z() / length), side};
+}
+
 // Turns normals, without dividing by the determinant.
 Mat3 cofactorsOf(const Mat3& m) {
   Mat3 cofactors;
@@ -66,6 +77,26 @@ private:
   bool identity_;
   double cos_ = 1, sin_ = 0;
 };
+
+/// Where one primitive's maps take their coordinates from.
+struct PrimitiveUvs {
+  const std::vector<Float2>*first, *second;  ///< second: null if no map reads it
+  UvMap firstMap, secondMap;
+};
+
+const SourceMaterial* materialOf(const SourceScene& scene, const SourcePrimitive& part) {
+  return part.material < scene.materials.size() ? &scene.materials[part.material] : nullptr;
+}
+
+/// Maps that agree have their transform in the coordinates. A set that the primitive lacks is the first one.
+PrimitiveUvs uvsOf(const SourcePrimitive& part, const SourceMaterial* material) {
+  const auto set = [&](std::uint32_t number) { return &part.uvs[part.uvs[number].empty() ? 0 : number]; };
+  const std::optional<UvSource> common = material ? commonUvSource(*material) : UvSource{};
+  if (common) return {set(common->set), nullptr, UvMap(common->transform), UvMap(UvTransform{})};
+  const auto maps = drawnMaps(*material);
+  const bool second = std::ranges::any_of(maps, [](auto map) { return map && uvSourceOf(*map).set == 1; });
+  return {set(0), second ? set(1) : nullptr, UvMap(UvTransform{}), UvMap(UvTransform{})};
+}
 
 class Flattener {
 public:
@@ -115,12 +146,15 @@ private:
 
   void appendVertices(const SourcePrimitive& part, const Affine& X) {
     const Mat3 cofactors = cofactorsOf(X.linear());
-    const UvSource from =
-        part.material < scene_.materials.size() ? uvSourceOf(scene_.materials[part.material]) : UvSource{};
-    const auto& uvs = part.uvs[from.set < 2 && !part.uvs[from.set].empty() ? from.set : 0];
-    const UvMap map(from.transform);
+    const SourceMaterial* material = materialOf(scene_, part);
+    const PrimitiveUvs uvs = uvsOf(part, material);
     const bool normals = scene_.keepNormals && !part.normals.empty();
-    flat.hasUvs |= !uvs.empty();
+    const bool second = uvs.second && !uvs.second->empty();
+    const bool tangents =
+        normals && !part.tangents.empty() && material && drawnMaps(*material)[kNormalMap] != nullptr;
+    flat.hasUvs |= !uvs.first->empty();
+    flat.hasSecondUvs |= second;
+    flat.hasTangents |= tangents;
     flat.hasColours |= !part.colours.empty();
     for (std::size_t i = 0; i < part.positions.size(); ++i) {
       FlatVertex v;
@@ -128,7 +162,9 @@ private:
       const Vec3 p = X * Vec3(at[0], at[1], at[2]);
       for (int k = 0; k < 3; ++k) v.position[k] = static_cast<float>(p[k]) + 0.0f;  // + 0 makes -0 equal to 0
       if (normals) v.normal = turnedNormal(part.normals[i], cofactors);
-      if (!uvs.empty()) v.uv = map(uvs[i]);
+      if (!uvs.first->empty()) v.uv = uvs.firstMap((*uvs.first)[i]);
+      if (second) v.secondUv = uvs.secondMap((*uvs.second)[i]);
+      if (tangents) v.tangent = turnedTangent(part.tangents[i], X.linear());
       if (!part.colours.empty()) v.colour = colour(part.colours[i]);
       flat.vertices.push_back(v);
     }

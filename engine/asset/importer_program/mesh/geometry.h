@@ -14,7 +14,8 @@ namespace stadion::importer {
 struct FlatVertex {
   std::array<float, 3> position{};
   std::array<float, 3> normal{};  ///< zero if it is still to be made
-  std::array<float, 2> uv{};
+  std::array<float, 2> uv{}, secondUv{};
+  std::array<float, 4> tangent{0, 0, 0, 1};  ///< w: side of the bitangent; zero if the file has none
   std::array<std::uint8_t, 4> colour{255, 255, 255, 255};
   VertexJoints joints{};
 };
@@ -28,7 +29,7 @@ struct FlatTriangle {
 struct Flat {
   std::vector<FlatVertex> vertices;
   std::vector<FlatTriangle> triangles;
-  bool hasUvs = false, hasColours = false, hasJoints = false;
+  bool hasUvs = false, hasSecondUvs = false, hasTangents = false, hasColours = false, hasJoints = false;
 };
 
 struct FlattenLimits {

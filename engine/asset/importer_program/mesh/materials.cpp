@@ -1,8 +1,10 @@
 #include "engine/asset/importer_program/mesh/materials.h"
 
 #include "engine/asset/importer_program/mesh/pictures.h"
+#include "engine/maths/functions.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace stadion::importer {
 namespace {
@@ -27,14 +29,39 @@ void readMask(float cutoff, std::uint8_t leastOfTexture, bool alphaOfVertices, M
   }
 }
 
-/// A surface with a missing emissive texture does not emit, and neither does one whose emissive map takes
-/// other texture coordinates than its base colour.
-void readGlow(const SourceMaterial& from, Pictures& pictures, Material& to) {
-  to.emissive = from.emissive;
-  if (!from.emissiveMap.given() || to.emissive == kDark) return;
-  const UvSource own{from.emissiveMap.uvSet, from.emissiveMap.transform};
-  to.emissiveTexture = own == uvSourceOf(from) ? pictures.get(from.emissiveMap.image, AlphaUse::Ignored) : -1;
-  if (to.emissiveTexture < 0) to.emissive = kDark;
+/// As rows of a matrix.
+std::array<float, 6> matrixOf(const UvTransform& t) {
+  const double cosine = det::cos(double{t.rotation}), sine = det::sin(double{t.rotation});
+  const auto row = [&](double u, double v, float offset) {
+    return std::array<float, 3>{static_cast<float>(u * double{t.scale[0]}),
+                                static_cast<float>(v * double{t.scale[1]}), offset};
+  };
+  const auto x = row(cosine, sine, t.offset[0]), y = row(-sine, cosine, t.offset[1]);
+  const std::array<float, 6> matrix{x[0], x[1], x[2], y[0], y[1], y[2]};
+  const auto isUsable = [](float f) { return std::abs(f) < 1e6f; };
+  return std::ranges::all_of(matrix, isUsable) ? matrix : MaterialMap::kIdentity;
+}
+
+/// `own`: the coordinates are the file's, so the map has its transform.
+void readUse(const SourceTexture& from, bool own, MaterialMap& to) {
+  to.sampler = from.sampler;
+  if (!own) return;
+  const UvSource source = uvSourceOf(from);
+  to.secondUvs = source.set == 1;
+  if (source.transform != UvTransform{}) to.uvTransform = matrixOf(source.transform);
+}
+
+/// All but the base colour. A surface with a missing emissive texture does not emit.
+void readFurtherMaps(const SourceMaterial& from, Pictures& pictures, Material& to) {
+  const auto maps = drawnMaps(from);
+  for (std::size_t kind = kBaseMap + 1; kind < kMapKinds; ++kind)
+    if (maps[kind]) to.maps[kind].texture = pictures.get(maps[kind]->image, AlphaUse::Ignored);
+  const bool own = !commonUvSource(from);
+  for (std::size_t kind = 0; kind < kMapKinds; ++kind)
+    if (maps[kind] && to.maps[kind].given()) readUse(*maps[kind], own, to.maps[kind]);
+  to.emissive = maps[kEmissiveMap] && !to.maps[kEmissiveMap].given() ? kDark : from.emissive;
+  to.normalScale = from.normalMap.strength;
+  to.occlusionStrength = from.occlusionMap.strength;
 }
 
 std::int32_t readBase(const SourceMaterial& from, Pictures& pictures) {
@@ -52,12 +79,12 @@ Material readMaterial(const SourceMaterial& from, bool alphaOfVertices, Pictures
   to.roughness = from.roughness;
   to.metallic = from.metallic;
   if (from.alphaMode == AlphaMode::Opaque) to.baseColour[3] = 1;
-  to.texture = readBase(from, pictures);
-  const std::uint8_t least =
-      to.texture >= 0 ? leastAlpha(mesh.textures[static_cast<std::size_t>(to.texture)]) : 255;
+  to.unlit = from.unlit;
+  const std::int32_t base = to.maps[kBaseMap].texture = readBase(from, pictures);
+  const std::uint8_t least = base >= 0 ? leastAlpha(mesh.textures[static_cast<std::size_t>(base)]) : 255;
   to.textureHasAlpha = least < 255;
   if (from.alphaMode == AlphaMode::Mask) readMask(from.alphaCutoff, least, alphaOfVertices, to);
-  readGlow(from, pictures, to);
+  readFurtherMaps(from, pictures, to);
   // If the file does not state the number of sides, transparent surfaces have two: the walls of a glass room
   // are visible from within, and the far ones from outside.
   to.doubleSided = from.doubleSided.value_or(to.transparent());

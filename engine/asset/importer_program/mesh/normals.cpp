@@ -81,8 +81,8 @@ Vec3 cornerNormal(const std::vector<Face>& faces, const CornerTable& meeting, st
 }
 
 bool same(const FlatVertex& a, const FlatVertex& b) {
-  return a.position == b.position && a.normal == b.normal && a.uv == b.uv && a.colour == b.colour &&
-         a.joints == b.joints;
+  return a.position == b.position && a.normal == b.normal && a.uv == b.uv && a.secondUv == b.secondUv &&
+         a.tangent == b.tangent && a.colour == b.colour && a.joints == b.joints;
 }
 
 // Finds equal vertices: open addressing over the numbers of those already in the mesh.
@@ -104,7 +104,7 @@ public:
   std::vector<FlatVertex> vertices;
 
 private:
-  static_assert(sizeof(FlatVertex) == 60, "hashed as bytes: no padding");
+  static_assert(sizeof(FlatVertex) == 84, "hashed as bytes: no padding");
   static constexpr std::uint32_t kEmpty = 0xffffffff;
   std::vector<std::uint32_t> slots_;
 };
@@ -153,6 +153,8 @@ void joinInto(const Flat& flat, Mesh& mesh) {
     mesh.positions.push_back(v.position);
     mesh.normals.push_back(v.normal);
     if (flat.hasUvs) mesh.uvs.push_back(v.uv);
+    if (flat.hasSecondUvs) mesh.secondUvs.push_back(v.secondUv);
+    if (flat.hasTangents) mesh.tangents.push_back(v.tangent);
     if (flat.hasColours) mesh.colours.push_back(v.colour);
     if (flat.hasJoints) mesh.joints.push_back(v.joints);
   }

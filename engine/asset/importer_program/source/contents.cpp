@@ -66,24 +66,40 @@ private:
     if (!names.empty()) add(use, what + " of " + listed(names, "mesh", "meshes"));
   }
 
-  std::uint32_t uvSetOf(const SourcePrimitive& part) const {
-    const std::uint32_t set =
-        part.material < scene_.materials.size() ? uvSourceOf(scene_.materials[part.material]).set : 0;
-    return set < 2 && !part.uvs[set].empty() ? set : 0;
+  const SourceMaterial* materialOf(const SourcePrimitive& part) const {
+    return part.material < scene_.materials.size() ? &scene_.materials[part.material] : nullptr;
+  }
+  /// Returns true if a map reads the set.
+  bool reads(const SourcePrimitive& part, std::uint32_t set) const {
+    const SourceMaterial* material = materialOf(part);
+    return material && drawn(*material, [&](const SourceTexture& t) { return uvSourceOf(t).set == set; });
+  }
+  /// Returns true if a set is there that no map reads. Without maps, the first one does not count.
+  bool hasUnread(const SourcePrimitive& part) const {
+    return (!part.uvs[1].empty() && !reads(part, 1)) ||
+           (!part.uvs[0].empty() && reads(part, 1) && !reads(part, 0));
+  }
+  /// Returns true if a map reads a set that is not there.
+  bool lacksUvs(const SourcePrimitive& part) const {
+    return (part.uvs[0].empty() && reads(part, 0)) || (part.uvs[1].empty() && reads(part, 1));
+  }
+  bool hasNormalMap(const SourcePrimitive& part) const {
+    const SourceMaterial* material = materialOf(part);
+    return material && drawnMaps(*material)[kNormalMap];
   }
 
   void takeVertexData() {
     addMeshes(ContentUse::Used, "texture coordinates",
-              [&](const SourcePrimitive& p) { return !p.uvs[uvSetOf(p)].empty(); });
+              [&](const SourcePrimitive& p) { return !p.uvs[0].empty() || !p.uvs[1].empty(); });
     addMeshes(ContentUse::Used, "vertex colours",
               [](const SourcePrimitive& p) { return !p.colours.empty(); });
     addMeshes(ContentUse::LeftOut, "further texture coordinates",
-              [&](const SourcePrimitive& p) { return !p.uvs[1 - uvSetOf(p)].empty(); });
+              [&](const SourcePrimitive& p) { return hasUnread(p); });
+    addMeshes(ContentUse::LeftOut, "maps that lack texture coordinates",
+              [&](const SourcePrimitive& p) { return lacksUvs(p); });
     // They matter to a normal map alone.
-    addMeshes(ContentUse::LeftOut, "tangents", [&](const SourcePrimitive& p) {
-      return !p.tangents.empty() && p.material < scene_.materials.size() &&
-             scene_.materials[p.material].normalMap.given();
-    });
+    addMeshes(ContentUse::Used, "tangents",
+              [&](const SourcePrimitive& p) { return !p.tangents.empty() && hasNormalMap(p); });
     std::set<std::string> further;
     for (const SourceMesh& mesh : scene_.meshes)
       for (const SourcePrimitive& part : mesh.primitives)
@@ -109,17 +125,16 @@ private:
   void takeMaterials() {
     using M = const SourceMaterial&;
     addMaterials(ContentUse::Used, "base colour map", [](M m) { return m.baseMap.given(); });
-    addMaterials(ContentUse::Used, "emissive map", [](M m) { return m.emissiveMap.given() && sharesUvs(m); });
+    const auto draws = [](MapKind kind) { return [=](M m) { return drawnMaps(m)[kind] != nullptr; }; };
+    addMaterials(ContentUse::Used, "emissive map", draws(kEmissiveMap));
     addMaterials(ContentUse::Used, "opacity map", [](M m) { return m.opacityMap.given(); });
     addMaterials(
         ContentUse::Approximated, "specular-glossiness model", [](M m) { return m.specularGlossiness; },
         ": its diffuse part is drawn");
-    addMaterials(ContentUse::LeftOut, "metallic-roughness map",
-                 [](M m) { return m.metallicRoughnessMap.given(); });
-    addMaterials(ContentUse::LeftOut, "normal map", [](M m) { return m.normalMap.given(); });
-    addMaterials(ContentUse::LeftOut, "occlusion map", [](M m) { return m.occlusionMap.given(); });
-    addMaterials(
-        ContentUse::LeftOut, "unlit", [](M m) { return m.unlit; }, ": it is lit");
+    addMaterials(ContentUse::Used, "metallic-roughness map", draws(kMetallicRoughnessMap));
+    addMaterials(ContentUse::Used, "normal map", draws(kNormalMap));
+    addMaterials(ContentUse::Used, "occlusion map", draws(kOcclusionMap));
+    addMaterials(ContentUse::Used, "unlit surface", [](M m) { return m.unlit; });
     std::map<std::string, std::vector<std::string>> others;
     for (const SourceMaterial& m : scene_.materials)
       for (const NamedTexture& map : m.otherMaps) others[map.name].push_back(m.name);
@@ -127,13 +142,9 @@ private:
       add(ContentUse::LeftOut, map + " of " + listed(materials, "material"));
   }
 
-  static bool sharesUvs(const SourceMaterial& m) {
-    return UvSource{m.emissiveMap.uvSet, m.emissiveMap.transform} == uvSourceOf(m);
-  }
-
   /// Returns true if a map that is drawn has the property.
   static bool drawn(const SourceMaterial& m, const std::function<bool(const SourceTexture&)>& has) {
-    return (m.baseMap.given() && has(m.baseMap)) || (m.emissiveMap.given() && has(m.emissiveMap));
+    return std::ranges::any_of(drawnMaps(m), [&](const SourceTexture* map) { return map && has(*map); });
   }
 
   void takeTextureUses() {
@@ -141,19 +152,19 @@ private:
     using T = const SourceTexture&;
     const auto transformed = [](T t) { return t.transform != UvTransform{}; };
     addMaterials(ContentUse::Used, "texture transform", [&](M m) { return drawn(m, transformed); });
-    addMaterials(ContentUse::LeftOut, "emissive map with other texture coordinates than the base colour",
-                 [](M m) { return m.emissiveMap.given() && !sharesUvs(m); });
     addMaterials(
         ContentUse::LeftOut, "third or later texture coordinates",
         [&](M m) { return drawn(m, [](T t) { return t.uvSet > 1; }); }, ": the first are used");
     const auto wraps = [](WrapMode mode) {
-      return [=](M m) { return drawn(m, [=](T t) { return t.wrapU == mode || t.wrapV == mode; }); };
+      return [=](M m) {
+        return drawn(m, [=](T t) { return t.sampler.wrapU == mode || t.sampler.wrapV == mode; });
+      };
     };
-    addMaterials(ContentUse::Approximated, "wrap mode \"clamp\"", wraps(WrapMode::Clamp), ": it repeats");
-    addMaterials(ContentUse::Approximated, "wrap mode \"mirror\"", wraps(WrapMode::Mirror), ": it repeats");
-    addMaterials(
-        ContentUse::Approximated, "filter \"nearest\"",
-        [&](M m) { return drawn(m, [](T t) { return t.nearest; }); }, ": it is linear");
+    addMaterials(ContentUse::Used, "wrap mode \"clamp\"", wraps(WrapMode::Clamp));
+    addMaterials(ContentUse::Used, "wrap mode \"mirror\"", wraps(WrapMode::Mirror));
+    addMaterials(ContentUse::Used, "filter \"nearest\"", [&](M m) {
+      return drawn(m, [](T t) { return t.sampler.magnifiesNearest || t.sampler.minifiesNearest; });
+    });
   }
 
   void takeNodes() {

@@ -9,6 +9,7 @@
 /// Errors   Readers check every index before they store it; the other steps rely on that.
 
 #include "engine/asset/inventory.h"
+#include "engine/asset/material.h"
 #include "engine/figure/skeleton.h"
 #include "engine/maths/maths.h"
 
@@ -39,8 +40,6 @@ struct SourceImage {
   std::vector<std::string> otherPlaces{};  ///< further files to try in this order
 };
 
-enum class WrapMode : std::uint8_t { Repeat, Mirror, Clamp };
-
 /// Maps texture coordinates with v from the top: uv' = offset + rotation · (scale · uv).
 struct UvTransform {
   Float2 offset{0, 0}, scale{1, 1};
@@ -53,9 +52,8 @@ struct SourceTexture {
   std::int32_t image = -1;  ///< into SourceScene::images, -1 = none
   std::uint32_t uvSet = 0;
   UvTransform transform;
-  WrapMode wrapU = WrapMode::Repeat, wrapV = WrapMode::Repeat;
-  bool nearest = false;  ///< pixels are shown as squares
-  float strength = 1;    ///< scale of a normal map, strength of an occlusion map
+  Sampler sampler;
+  float strength = 1;  ///< scale of a normal map, strength of an occlusion map
 
   bool given() const { return image >= 0; }
 };
@@ -167,17 +165,23 @@ struct SourceScene {
   std::vector<ContentItem> notes;        ///< what the reader itself used, approximated or left out
 };
 
-/// Where a material's pictures take their texture coordinates from.
+/// Where a map takes its texture coordinates from.
 struct UvSource {
   std::uint32_t set = 0;
   UvTransform transform;
   bool operator==(const UvSource&) const = default;
 };
 
-/// A mesh has one pair of texture coordinates a vertex: that of the base colour, else of the emissive map.
-inline UvSource uvSourceOf(const SourceMaterial& m) {
-  const SourceTexture& used = m.baseMap.given() ? m.baseMap : m.emissiveMap;
-  return used.given() ? UvSource{used.uvSet, used.transform} : UvSource{};
+/// There are two sets: other numbers count as the first.
+inline UvSource uvSourceOf(const SourceTexture& map) {
+  return {map.uvSet == 1 ? 1u : 0u, map.transform};
 }
+
+/// The maps that are drawn, by MapKind; null: there is none. An unlit surface has its base colour alone.
+std::array<const SourceTexture*, kMapKinds> drawnMaps(const SourceMaterial& m);
+
+/// Where a material's maps take their texture coordinates from; nothing if they differ in that. Coordinates of
+/// a mesh are those of its maps if all agree. Else they are the file's, and each map has its own transform.
+std::optional<UvSource> commonUvSource(const SourceMaterial& m);
 
 }  // namespace stadion::importer
