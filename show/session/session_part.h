@@ -2,8 +2,8 @@
 /// What a session is made of. A part records a show, shows it, or has a say in how it is played; the session
 /// plays it.
 ///
-/// A part overrides the functions that concern it. To add one, write a file in parts/ and add its name to the
-/// list in session_parts.cpp.
+/// A part overrides the functions that concern it. To add one, write a file in parts/ with a function that
+/// makes it, and add that function to the declaration and the list in session_parts.cpp.
 
 #include "profiling/record/live_budget.h"
 #include "show/base/reporter.h"
