@@ -1,8 +1,8 @@
 #pragma once
 /// Which clips a figure plays, since when, and how they fade into each other.
 ///
-/// A clip's time follows from show time alone: start + speed · (time - since). So a figure has the same pose at
-/// the same show time at every frame rate, to the bit.
+/// A clip's time follows from show time alone: start + speed · (time - since). So for equal commands at equal
+/// times the pose is the same to the bit at every frame rate.
 ///
 /// Units    show time in nanoseconds, clip time in seconds.
 /// Threads  one at a time.

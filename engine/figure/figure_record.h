@@ -29,7 +29,9 @@ struct FigureRecord {
 };
 static_assert(std::is_trivially_copyable_v<FigureRecord> && sizeof(FigureRecord) == 72);
 
-/// The most figures of a show at a time. InstanceRecord::flags has room for their numbers.
+/// The most figures of a show at a time. Also the mask of a figure's number in InstanceRecord::flags, so it
+/// must be 2^n - 1.
 constexpr std::size_t kMostFigures = 4095;
+static_assert((kMostFigures & (kMostFigures + 1)) == 0);
 
 }  // namespace stadion

@@ -35,11 +35,12 @@ std::optional<double> numberIn(std::string_view word, double least, double most)
   return value;
 }
 
-/// A name may have blanks: the longest run of words that is a clip counts. Returns how many words it has.
+/// A clip, and the number of words of its name.
 struct Found {
   std::uint32_t clip = 0;
   std::size_t words = 0;
 };
+/// A name may have blanks: the longest run of words that is a clip counts. Returns how many words it has.
 std::optional<Found> clipIn(const Words& words, const Skeleton& skeleton) {
   for (std::size_t count = words.size(); count > 0; --count) {
     const std::string_view last = words[count - 1];

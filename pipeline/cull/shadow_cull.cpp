@@ -11,7 +11,7 @@ namespace {
 /// reach that far. Of the ring itself a fiftieth at the edge is left to the next one (shaders.cpp).
 constexpr double kLookup = 4, kUsed = 0.98;
 
-/// Of what a figure plays.
+/// Returns a hash of the layers that a figure plays.
 std::uint64_t keyOf(const FigureRecord& figure) {
   std::uint64_t key = figure.layerCount;
   for (const ClipLayer& layer : figure.layers) {

@@ -389,7 +389,8 @@ TimeSignature FrameLoop::signatureAfter(std::uint64_t ticks, double speed) {
   return clock_.nextAfter(fromSeconds(speed * static_cast<double>(counted) / options_.rate));
 }
 
-// Asked once a frame, on the App thread, after App: the last frame is then known before it is drawn.
+// Returns true if no frame follows. Asked once a frame on the App thread: after App, so that the last frame
+// is known before it is drawn, or on the leader of a cluster when it sends the order, before App.
 bool FrameLoop::noneFollows() {
   if (stopRequested_) stopped_ = true;
   return stopped_ || ending_ || isPastEnd();

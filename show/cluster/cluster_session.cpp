@@ -19,9 +19,9 @@
 namespace stadion {
 namespace {
 
-/// With others that have not come the show waits so long before it begins.
+/// How long the show waits for missing hosts before it begins.
 constexpr std::chrono::seconds kPatience{30};
-/// After a stop signal the others' answers are waited for so long.
+/// How long answers are awaited after a stop signal.
 constexpr std::chrono::seconds kGrace{2};
 
 bool isGivenUp() {
@@ -36,7 +36,7 @@ std::uint64_t hashOfFile(const std::string& file) {
   return hash.value();
 }
 
-/// (Files that scripts name are found out by the scenes' digests.)
+/// Files that scripts name are not in the key: the digests of the scenes cover them.
 cluster::CompatibilityKey compatibilityKeyOf(const ShowOptions& show, StereoLayout layout,
                                              const ClusterFile& file) {
   const std::string log = inputLogOf(show.script, show.input);
@@ -93,7 +93,7 @@ void ClusterSession::report(const std::string& what) {
   log_.write(fmt::format("cluster, {}: {}", file_.nodes[node_].name, what));
 }
 
-// What the terms are is looked up each time: a script may have been saved since the show before.
+// Computes the compatibility key each time: a script may have been saved since the show before.
 bool ClusterSession::openLead(Diagnostics& findings) {
   cluster::LeaderOptions options{file_, compatibilityKeyOf(show_, layout_, file_), kPatience,
                                  [this](const std::string& what) { report(what); }, isGivenUp};

@@ -69,7 +69,7 @@ private:
     found_.push_back({topic, health, std::move(found), std::move(lacks), std::move(mend)});
   }
 
-  /// root needs none, and a machine with only root has none.
+  /// As root, sudo is not needed and may not be installed.
   static std::string withoutSudo(std::string command) {
     constexpr std::string_view kSudo = "sudo ";
     for (std::size_t at = 0; (at = command.find(kSudo, at)) != std::string::npos;)

@@ -73,8 +73,8 @@ struct Run {
   }
 };
 
-/// Every model in turn, round by round, so that what else the machine does befalls all alike. Of those that
-/// could be the finest the first that can be built is kept.
+/// Plays every model in turn, round by round, so that other load on the machine affects all models equally.
+/// Of those that could be the finest, keeps the first that can be built.
 class ModelTrial {
 public:
   ModelTrial(const FidelityOptions& options, NodeRef body, NodeRef dynamics, std::vector<TriedModel>& tried)
@@ -154,7 +154,7 @@ void tryModels(const FidelityOptions& options, NodeRef ref, const PlayedShow& sh
     const Run& run = trial.runs()[i];
     const double perFrame = 1e3 / static_cast<double>(show.frames);
     t.cost = perFrame * (run.milliseconds - without.milliseconds);
-    // Less than nothing it cannot have cost: so far off is the measurement at least.
+    // A cost cannot be negative, so the measurement is off by at least that much.
     t.noise = std::max(perFrame * std::max(run.spread, without.spread), -t.cost);
     compare(run, trial.runs().front(), show.rate, options.tolerance, t);
   }

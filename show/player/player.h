@@ -96,10 +96,11 @@ public:
   void playLive() { loader_->playLive(); }
   /// The loads that were due when the run ended and had not taken effect.
   std::vector<std::uint32_t> overdueLoads() const { return loader_->overdue(); }
-  /// `told` learns which files came late, on the App thread. Before the first frame.
-  void tellLateLoads(Loader::LateLoad told) { loader_->tellLateLoads(std::move(told)); }
-  /// `told` learns that the App thread waits for files, and that it has them. Before the first frame.
-  void tellWaiting(std::function<void(bool)> told) { loader_->tellWaiting(std::move(told)); }
+  /// Calls `report` on the App thread with each file that came late. To be called before the first frame.
+  void tellLateLoads(Loader::LateLoad report) { loader_->tellLateLoads(std::move(report)); }
+  /// Calls `report` with true when the App thread begins to wait for files, and with false when it has them.
+  /// To be called before the first frame.
+  void tellWaiting(std::function<void(bool)> report) { loader_->tellWaiting(std::move(report)); }
   const RunDecisions& decisions() const { return decisions_; }
   const WallFile& walls() const { return walls_; }
   Scene& scene() { return *scene_; }

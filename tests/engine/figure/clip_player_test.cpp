@@ -97,7 +97,7 @@ TEST(ClipPlayer, APauseMovesAllThatComesAfterIt) {
   EXPECT_EQ(player.takeEnd(20.0_s)->when, 11.0_s);
 }
 
-/// The pose depends on show time alone, so a frame rate cannot matter: the same call at the same time.
+/// For equal commands at equal times the pose depends on show time alone, so the frame rate cannot matter.
 TEST(ClipPlayer, TheTimeOfAClipDoesNotDependOnTheFramesBefore) {
   const auto timeAt = [](double rate) {
     ClipPlayer player;

@@ -5,7 +5,8 @@
 /// `takeInventory` work on it, whatever the format was.
 ///
 /// Frames   Coordinates are those of the file; `toShow` maps them to metres, +Z up.
-/// Units    Colours are linear. Texture coordinates count v from the bottom, as OBJ does.
+/// Units    Colours of materials are linear; those of vertices are linear if `linearColours`, else sRGB.
+///          Texture coordinates count v from the bottom, as OBJ does.
 /// Errors   Readers check every index before they store it; the other steps rely on that.
 
 #include "engine/asset/inventory.h"
