@@ -21,9 +21,10 @@ if(STADION_PEERS)
     list(APPEND osg_libraries ${OSG_LIBRARY_${name}})
   endforeach()
   if(OSG_INCLUDE AND OSG_LIBRARY_osgViewer AND EGL_LIBRARY AND GL_LIBRARY)
-    # The file as it came: none of our options for warnings.
+    # Without our options for warnings: it is written against the headers of OpenSceneGraph.
     add_executable(stadion-walls-osg ${CMAKE_CURRENT_LIST_DIR}/osg/osg_walls.cpp)
     target_compile_definitions(stadion-walls-osg PRIVATE WITH_EGL WITH_GLX)
+    target_include_directories(stadion-walls-osg PRIVATE ${PROJECT_SOURCE_DIR})
     target_include_directories(stadion-walls-osg SYSTEM PRIVATE ${OSG_INCLUDE})
     target_link_libraries(stadion-walls-osg PRIVATE ${osg_libraries} ${EGL_LIBRARY} ${GL_LIBRARY} Threads::Threads)
     add_dependencies(walls_programs stadion-walls-osg)
