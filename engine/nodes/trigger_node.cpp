@@ -91,6 +91,37 @@ std::uint32_t TriggerNode::heldBefore(const TrackerSample& t, Nanoseconds time,
   return held;
 }
 
+/// Returns the times up to `until` at which the visitor's way or the controls have a knot.
+const std::vector<Nanoseconds>& TriggerNode::stopsOf(const PoseTrack& way, const TrackerSample* t,
+                                                     Nanoseconds start, Nanoseconds until) {
+  stops_.assign({std::max(seen_, start), until});
+  for (const PoseKnot& k : way) stops_.push_back(k.time);
+  if (t)
+    for (const ControlKnot& c : t->controls) stops_.push_back(c.time);
+  std::sort(stops_.begin(), stops_.end());
+  stops_.erase(std::unique(stops_.begin(), stops_.end()), stops_.end());
+  return stops_;
+}
+
+/// Maps a point of the rig to the node. The room moves evenly within the frame, as seen from the trigger.
+Vec3 TriggerNode::inNode(const Vec3& p_R, Nanoseconds time, const Affine& X_NR,
+                         const FrameContext& frame) const {
+  const double s = looked_ && frame.now.step > 0
+                       ? static_cast<double>(time - frame.start()) / static_cast<double>(frame.now.step)
+                       : 1.0;
+  if (s == 1 || X_NR_.matrix() == X_NR.matrix()) return X_NR * p_R;
+  return (1 - s) * (X_NR_ * p_R) + s * (X_NR * p_R);
+}
+
+void TriggerNode::beginLooking(const Vec3& p_N, Nanoseconds time, const TrackerSample* t,
+                               const FrameContext& frame) {
+  last_ = p_N;
+  inside_ = region_.contains(last_);
+  if (inside_) raise("enter", time);
+  // What was held down before was not pressed here; at the very start it was.
+  if (t && frame.now.step > 0) buttons_ = heldBefore(*t, time, frame);
+}
+
 void TriggerNode::followVisitor(FrameContext& frame, Nanoseconds until) {
   const PoseTrack& way = wayInRig(frame);
   const TrackerSample* t = kind() == "wandtrigger" ? frame.input.find(tracker_) : nullptr;
@@ -98,37 +129,18 @@ void TriggerNode::followVisitor(FrameContext& frame, Nanoseconds until) {
     if (looked_ && t) watchLost(*t, frame, until);
     return;
   }
-  std::vector<Nanoseconds>& stops = stops_;
-  stops.assign({std::max(seen_, frame.start()), until});
-  for (const PoseKnot& k : way) stops.push_back(k.time);
-  if (t)
-    for (const ControlKnot& c : t->controls) stops.push_back(c.time);
-  std::sort(stops.begin(), stops.end());
-  stops.erase(std::unique(stops.begin(), stops.end()), stops.end());
-
-  // The room moves evenly within the frame, as seen from the trigger.
   const Affine X_NR =
       frame.scene.placements().world(placement()).inverse() * toAffine(frame.scene.feed().rigPose());
-  const auto inNode = [&](Nanoseconds time, const Vec3& p_R) -> Vec3 {
-    const double s = looked_ && frame.now.step > 0
-                         ? static_cast<double>(time - frame.start()) / static_cast<double>(frame.now.step)
-                         : 1.0;
-    if (s == 1 || X_NR_.matrix() == X_NR.matrix()) return X_NR * p_R;
-    return (1 - s) * (X_NR_ * p_R) + s * (X_NR * p_R);
-  };
-  for (const Nanoseconds time : stops) {
+  for (const Nanoseconds time : stopsOf(way, t, frame.start(), until)) {
     if (time > until || (looked_ ? time <= seen_ : time < std::max(seen_, way.front().time))) continue;
     const Vec3 p_RV = poseOn(way, time, Limit::After).p;
+    const Vec3 p_NV = inNode(p_RV, time, X_NR, frame);
     if (looked_) {
       const bool jumps = jumpsAt(way, time);
-      if (jumps) goTo(inNode(time, poseOn(way, time, Limit::Before).p), false, time);
-      goTo(inNode(time, p_RV), jumps || seen_ < frame.start(), time);  // a gap in its way is a jump, too
+      if (jumps) goTo(inNode(poseOn(way, time, Limit::Before).p, time, X_NR, frame), false, time);
+      goTo(p_NV, jumps || seen_ < frame.start(), time);  // a gap in its way is a jump, too
     } else {
-      last_ = inNode(time, p_RV);
-      inside_ = region_.contains(last_);
-      if (inside_) raise("enter", time);
-      // What was held down before was not pressed here; at the very start it was.
-      if (t && frame.now.step > 0) buttons_ = heldBefore(*t, time, frame);
+      beginLooking(p_NV, time, t, frame);
     }
     looked_ = true;
     seen_ = time;

@@ -65,6 +65,11 @@ private:
   const PoseTrack& wayInRig(const FrameContext& frame);
   /// Follows the visitor up to `until`, which lies in this frame.
   void followVisitor(FrameContext& frame, Nanoseconds until);
+  const std::vector<Nanoseconds>& stopsOf(const PoseTrack& way, const TrackerSample* t, Nanoseconds start,
+                                          Nanoseconds until);
+  Vec3 inNode(const Vec3& p_R, Nanoseconds time, const Affine& X_NR, const FrameContext& frame) const;
+  /// The first look: a visitor who is inside has entered.
+  void beginLooking(const Vec3& p_N, Nanoseconds time, const TrackerSample* t, const FrameContext& frame);
   void goTo(const Vec3& p, bool jumped, Nanoseconds time);
   /// The buttons that were down when it began to look.
   std::uint32_t heldBefore(const TrackerSample& t, Nanoseconds time, const FrameContext& frame) const;
@@ -85,7 +90,7 @@ private:
   std::uint32_t buttons_ = 0;
   std::uint32_t pressed_ = 0;       ///< buttons of `buttons_` whose press was reported
   PoseTrack way_;                   ///< wayInRig()'s answer
-  std::vector<Nanoseconds> stops_;  ///< followVisitor()'s own
+  std::vector<Nanoseconds> stops_;  ///< stopsOf()'s answer
 };
 
 }  // namespace stadion
