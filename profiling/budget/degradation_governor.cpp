@@ -30,6 +30,18 @@ double sumOf(const std::map<std::uint32_t, double>& byWall) {
   return sum;
 }
 
+/// Returns accounts for the nodes, to which the nodes below them belong, too; null: there are none.
+std::shared_ptr<const NodeAccounts> accountsOf(const std::vector<GovernedNode>& nodes,
+                                               const std::map<NodeRef, std::vector<std::size_t>>& above) {
+  std::vector<NodeRef> holders;
+  for (const GovernedNode& n : nodes) holders.push_back(n.node);
+  if (holders.empty()) return nullptr;
+  const auto accounts = std::make_shared<NodeAccounts>(std::move(holders));
+  for (const auto& [node, governed] : above)
+    accounts->add(node, static_cast<NodeAccounts::Account>(governed.front()));
+  return accounts;
+}
+
 }  // namespace
 
 std::string nameOfLevel(const std::vector<DegradationStep>& ladder, std::uint32_t level) {
@@ -222,54 +234,62 @@ void DegradationGovernor::spreadFrameLevels() {
 
 // App.
 
-bool DegradationGovernor::see(const Scene& scene) {
+bool DegradationGovernor::followLoads(const Scene& scene) {
   if (loadsSeen_ == scene.tree().version()) return false;
   loadsSeen_ = scene.tree().version();
   auto [nodes, above] = governedNodes(scene);
   const bool scalable = hasLevels(scene);
   const std::lock_guard lock(mutex_);
   scalable_ = scalable;
+  takeOver(nodes);
+  orderByPriority();
+  for (JointLadder& joint : jointLadders_) layFrameLadder(joint);
+  spreadFrameLevels();
+  tellUncounted();
+  accounts_ = accountsOf(nodes, above);
+  costs_.govern(std::move(nodes), std::move(above), scene.lights().sky());
+  return true;
+}
+
+/// Governs these nodes: known ones keep their state. Files the reports of those that are gone.
+void DegradationGovernor::takeOver(const std::vector<GovernedNode>& nodes) {
   std::vector<Governed> known;
   known.swap(governed_);
   for (const GovernedNode& n : nodes) {
     const auto before =
         std::ranges::find_if(known, [&](const Governed& g) { return g.subject.node == n.node; });
-    if (before != known.end()) {
-      governed_.push_back(std::move(*before));
-      known.erase(before);
+    if (before == known.end()) {
+      governed_.push_back(newlyGoverned(n));
       continue;
     }
-    Governed g{n, policyOf(n.terms, options_.rate), 0, 0, {}};
-    g.report.budget = n.terms.budget;
-    g.report.levels = levelsOf(n.terms.gives);
-    g.report.drawCounted = !(n.drawn && options_.drawnElsewhere);
-    if (const auto name = names_.find(n.node)) {
-      g.report.name = name->path;
-      g.report.file = name->file;
-      g.report.line = name->line;
-    }
-    governed_.push_back(std::move(g));
+    governed_.push_back(std::move(*before));
+    known.erase(before);
   }
-  for (Governed& g : known) {
-    g.report.now = 0;
-    addTo(gone_, g.report);
+  for (Governed& gone : known) {
+    gone.report.now = 0;
+    addTo(gone_, gone.report);
   }
+}
+
+DegradationGovernor::Governed DegradationGovernor::newlyGoverned(const GovernedNode& node) const {
+  Governed g{node, policyOf(node.terms, options_.rate), 0, 0, {}};
+  g.report.budget = node.terms.budget;
+  g.report.levels = levelsOf(node.terms.gives);
+  g.report.drawCounted = !(node.drawn && options_.drawnElsewhere);
+  if (const auto name = names_.find(node.node)) {
+    g.report.name = name->path;
+    g.report.file = name->file;
+    g.report.line = name->line;
+  }
+  return g;
+}
+
+void DegradationGovernor::orderByPriority() {
   byPriority_.clear();
   for (std::size_t i = 0; i < governed_.size(); ++i)
     if (governed_[i].report.levels > 0) byPriority_.push_back(i);
   std::ranges::stable_sort(byPriority_, {},
                            [&](std::size_t i) { return governed_[i].subject.terms.priority; });
-  for (JointLadder& joint : jointLadders_) layFrameLadder(joint);
-  spreadFrameLevels();
-  tellUncounted();
-  std::vector<NodeRef> holders;
-  for (const GovernedNode& n : nodes) holders.push_back(n.node);
-  const auto accounts = holders.empty() ? nullptr : std::make_shared<NodeAccounts>(std::move(holders));
-  for (const auto& [node, governed] : above)
-    accounts->add(node, static_cast<NodeAccounts::Account>(governed.front()));
-  accounts_ = accounts;
-  costs_.govern(std::move(nodes), std::move(above), scene.lights().sky());
-  return true;
 }
 
 /// Reports once that budgets seem to be kept although some costs are unknown.

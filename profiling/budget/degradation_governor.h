@@ -8,7 +8,7 @@
 ///
 /// Decisions are made on the log's thread; App takes them at the start of its next frame.
 ///
-/// Threads  SpanReader's on the log's thread; decide() and see() on App's; reports from any.
+/// Threads  SpanReader's on the log's thread; decide() and followLoads() on App's; reports from any.
 ///
 /// Size     more than 20 fields: one mutex guards them, because a decision reads costs, levels and reports
 ///          together.
@@ -76,7 +76,7 @@ public:
 
   // For App's thread.
   /// Returns true if it watches other nodes than before.
-  bool see(const Scene& scene);
+  bool followLoads(const Scene& scene);
   /// Returns the watched nodes and the accounts of their costs; null: none.
   std::shared_ptr<const NodeAccounts> accounts() const { return accounts_; }
   FrameDecisions decide(std::uint64_t frame) override;
@@ -121,6 +121,9 @@ private:
     /// Returns how many levels of a ladder shorten that, with the levels before them.
     std::uint32_t usefulOf(const std::vector<DegradationStep>& gives) const;
   };
+  void takeOver(const std::vector<GovernedNode>& nodes);
+  Governed newlyGoverned(const GovernedNode& node) const;
+  void orderByPriority();
   void spreadFrameLevels();
   void layFrameLadder(JointLadder& joint);
   void tellUncounted();
@@ -147,7 +150,7 @@ private:
   std::map<std::uint64_t, StageTimes> times_;
   std::vector<std::uint64_t> appEnded_, appEndedBefore_, shown_, shownBefore_;
   std::vector<std::string> lines_;               ///< reports to be sent by the log's thread
-  std::uint64_t loadsSeen_ = ~std::uint64_t{0};  ///< version of the scene tree that see() saw last
+  std::uint64_t loadsSeen_ = ~std::uint64_t{0};  ///< version of the scene tree that followLoads() saw last
   std::shared_ptr<const NodeAccounts> accounts_;
   bool toldUncounted_ = false;
   Reports gone_;

@@ -86,7 +86,7 @@ public:
   void see(const Scene& scene) {
     names_.see(scene);
     if (!governor_) return;
-    if (!governor_->see(scene)) return;
+    if (!governor_->followLoads(scene)) return;
     log_->watch(governor_->accounts());
     // A budget on something that is drawn may come with any file.
     log_->setSamples(sampled_ || hasDrawnBudgets(scene));

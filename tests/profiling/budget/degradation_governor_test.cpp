@@ -51,7 +51,7 @@ struct Governed : ShowFixture {
     options.tell = [this](const std::string& line) { told.push_back(line); };
     governor = std::make_unique<DegradationGovernor>(options, names);
     names.see(scene);
-    governor->see(scene);
+    governor->followLoads(scene);
   }
 
   static SpanRecord span(Span what, std::uint64_t frame, double ms, std::uint32_t wall = kNoWall,
@@ -89,7 +89,7 @@ struct Governed : ShowFixture {
     for (int i = 0; i < 200 && scene.tree().version() == before; ++i) ShowFixture::frame();
     ASSERT_NE(scene.tree().version(), before);
     names.see(scene);
-    governor->see(scene);
+    governor->followLoads(scene);
   }
   void frames(std::uint64_t count, std::vector<double> nodes, std::vector<double> draws = {1, 1}) {
     for (; count > 0; --count) frame(nodes, draws);
