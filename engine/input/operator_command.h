@@ -49,7 +49,7 @@ constexpr bool isOfPresentation(OperatorAction action) {
 
 struct OperatorCommand {
   OperatorAction action{};
-  /// 1 on, 0 off, nothing: the other of what it is; of eye separation, volume and latency the figure itself.
+  /// 1 on, 0 off, nothing: the other of what it is; of eye separation, volume and latency the value itself.
   std::optional<double> value{};
   bool relative = false;  ///< the value is added to what is
 

@@ -29,7 +29,7 @@ bool Node::awaits(const Node&, const Scene&) const {
 
 void Node::dispatch(FrameContext& frame) {
   for (const Raised& r : raised_) {
-    frame.scene.note(self_, r.event, r.when, r.figure);
+    frame.scene.note(self_, r.event, r.when, r.value);
     for (const Notification& n : notifications_)
       if (n.event == r.event) frame.scene.post(*this, n, r.when);
   }

@@ -1,10 +1,10 @@
 #pragma once
 /// A node of the show. All node types have the same cycle and the same interface.
 ///
-/// In each frame in which it has something to do, a node runs one cycle of the application phase: it receives
-/// its messages, simulates, and dispatches notifications. Nodes that do not look at each other's results
-/// simulate side by side; these are mostly dynamics nodes. A node with nothing to do is not visited. The node
-/// itself is not drawn: it publishes an instance record through the scene.
+/// In each frame in which it has something to do, App lets a node run one cycle: it receives its messages,
+/// simulates, and dispatches notifications. Nodes that do not look at each other's results simulate side by
+/// side; these are mostly dynamics nodes. A node with nothing to do is not visited. The node itself is not
+/// drawn: it publishes an instance record through the scene.
 ///
 /// Ownership  the scene owns every installed node.
 /// Threads    App only, except compute(): a thread of the worker pool may run it. The loader thread
@@ -131,17 +131,17 @@ public:
   virtual bool resume(Scene&) { return true; }
 
 protected:
-  /// Notes an event; its messages are sent when the node dispatches. A figure, such as a distance [m], is for
+  /// Notes an event; its messages are sent when the node dispatches. A value, such as a distance [m], is for
   /// reports.
-  void raise(Event event, Nanoseconds when, std::optional<double> figure = {}) {
-    raised_.push_back({event, when, figure});
+  void raise(Event event, Nanoseconds when, std::optional<double> value = {}) {
+    raised_.push_back({event, when, value});
   }
 
 private:
   struct Raised {
     Event event;
     Nanoseconds when;
-    std::optional<double> figure;
+    std::optional<double> value;
   };
 
   virtual void onEnter(Scene&) {}

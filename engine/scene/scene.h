@@ -56,7 +56,7 @@ struct EventRecord {
   NodeRef node;
   Event event;
   Nanoseconds when;
-  std::optional<double> figure{};  ///< for a measurement: the distance [m]
+  std::optional<double> value{};  ///< for a measurement: the distance [m]
 };
 
 class Scene : private SceneTree::Host {
@@ -128,7 +128,7 @@ public:
   /// Sends the message of a notification; it arrives at `when` plus the notification's delay.
   void post(const Node& sender, const Notification& n, Nanoseconds when);
   /// Reports an event to the run's output. No node receives it.
-  void note(NodeRef node, Event event, Nanoseconds when, std::optional<double> figure = {});
+  void note(NodeRef node, Event event, Nanoseconds when, std::optional<double> value = {});
   /// Tells the author what the show did about a node, with its name and where it is declared.
   void warn(const Node& about, const std::string& what);
   /// Says that a node's state changed outside its own cycle.

@@ -13,7 +13,7 @@ namespace {
 constexpr std::string_view kHead = "/stadion/", kBy = "/by";
 constexpr std::size_t kMostToldOf = 20;
 
-bool isFigure(OperatorAction a) {
+bool isNumeric(OperatorAction a) {
   return a == OperatorAction::EyeSeparation || a == OperatorAction::Volume || a == OperatorAction::Latency;
 }
 bool isSwitch(OperatorAction a) {
@@ -33,34 +33,34 @@ Address addressOf(std::string_view path) {
   const bool relative = path.ends_with(kBy);
   if (relative) path.remove_suffix(kBy.size());
   const auto action = operatorActionNamed(path);
-  if (!action || (relative && !isFigure(*action))) return {};
+  if (!action || (relative && !isNumeric(*action))) return {};
   return {action, relative};
 }
 
 /// The maximum that OperatorState accepts.
-double mostOf(OperatorAction figure) {
-  if (figure == OperatorAction::Latency) return OperatorState::kMostInFlight;
-  return figure == OperatorAction::Volume ? 1 : OperatorState::kWidestEyes;
+double mostOf(OperatorAction action) {
+  if (action == OperatorAction::Latency) return OperatorState::kMostInFlight;
+  return action == OperatorAction::Volume ? 1 : OperatorState::kWidestEyes;
 }
 
-double leastOf(OperatorAction figure) {
-  return figure == OperatorAction::Latency ? 1 : 0;
+double leastOf(OperatorAction action) {
+  return action == OperatorAction::Latency ? 1 : 0;
 }
 
-bool countsWhole(OperatorAction figure) {
-  return figure == OperatorAction::Latency;
+bool countsWhole(OperatorAction action) {
+  return action == OperatorAction::Latency;
 }
 
 bool fits(double value, const Address& to) {
   if (!std::isfinite(value)) return false;
-  if (!isFigure(*to.action)) return value == 0 || value == 1;
+  if (!isNumeric(*to.action)) return value == 0 || value == 1;
   if (countsWhole(*to.action) && value != std::floor(value)) return false;
   return to.relative || (value >= leastOf(*to.action) && value <= mostOf(*to.action));
 }
 
 std::string rangeOf(const Address& to) {
   if (isSwitch(*to.action)) return "0 (off), 1 (on), or nothing";
-  if (!isFigure(*to.action)) return "nothing, or 1 and 0 as a button sends them";
+  if (!isNumeric(*to.action)) return "nothing, or 1 and 0 as a button sends them";
   const std::string unit = *to.action == OperatorAction::EyeSeparation ? " m" : "";
   const std::string number = countsWhole(*to.action) ? "a whole number" : "a number";
   if (to.relative) return number + unit + " that is added";
@@ -73,10 +73,10 @@ std::optional<OperatorCommand> operatorCommandOf(const OscMessage& m) {
   const Address to = addressOf(m.path);
   if (!to.action || !m.numeric) return {};
   OperatorCommand command{*to.action, {}, to.relative};
-  if (m.numbers.size() > 1 || (m.numbers.empty() && isFigure(*to.action))) return {};
+  if (m.numbers.size() > 1 || (m.numbers.empty() && isNumeric(*to.action))) return {};
   if (m.numbers.empty()) return command;
   if (!fits(m.numbers[0], to)) return {};
-  if (isFigure(*to.action) || isSwitch(*to.action))
+  if (isNumeric(*to.action) || isSwitch(*to.action))
     command.value = m.numbers[0];
   else if (m.numbers[0] == 0)
     return {};  // a tablet's button sends 1 when it is pressed and 0 when it is released

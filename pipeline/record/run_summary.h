@@ -3,7 +3,7 @@
 ///
 /// Units    seconds for the show, milliseconds for costs.
 /// Threads  plain values, filled when the run has ended.
-/// Errors   none; a figure that is not finite is null in the JSON.
+/// Errors   none; a number that is not finite is null in the JSON.
 
 #include "engine/base/diagnostic.h"
 
@@ -105,7 +105,7 @@ struct BudgetSummary {
   std::string worstStage;                          ///< the stage with most of that
   std::uint64_t overruns = 0, changes = 0;         ///< frames; changes of the degradation level
   std::uint32_t highest = 0, now = 0, levels = 0;  ///< levels of its degradation ladder
-  bool drawCounted = true;                         ///< false: these figures exclude drawing
+  bool drawCounted = true;                         ///< false: these numbers exclude drawing
   bool drawMeasured = true;                        ///< false: drawing was never measured
 };
 
@@ -132,7 +132,7 @@ struct DrawingSummary {
   std::string why, text;  ///< `text`: the same in words
 };
 
-/// A run's results. It has more than 20 fields: one for each figure of the report.
+/// A run's results. It has more than 20 fields: one for each number of the report.
 struct RunSummary {
   static constexpr std::size_t kMostEvents = 5'000;  ///< kept; a show may run for days
   static constexpr std::size_t kEventsInText = 200;  ///< lines in the text
@@ -146,7 +146,7 @@ struct RunSummary {
   std::uint64_t framesDrawn = 0;  ///< frames that were drawn; times cover only these
   double seconds = 0;             ///< duration in show time
   double elapsedSeconds = 0;      ///< duration in real time
-  std::uint64_t groups = 1;       ///< groups of visitors; the other figures describe the last one
+  std::uint64_t groups = 1;       ///< groups of visitors; the other numbers describe the last one
   double uptimeSeconds = 0;       ///< real time of all groups and the pauses between them
   DrawingSummary drawing{};
   double warmUpMs = 0;  ///< before the first frame is drawn: contexts, shaders, uploads; counted here only
@@ -163,7 +163,7 @@ struct RunSummary {
   std::optional<std::uint64_t> historyHash;  ///< over the state hashes of all frames
   std::vector<ImageHash> imageHashes;
   std::vector<DrawnCounts> drawn;
-  std::map<std::string, double> counters;  ///< further figures
+  std::map<std::string, double> counters;  ///< further numbers
   std::vector<std::string> files;          ///< written
   std::vector<std::string> remarks;        ///< deviations from the request
   std::string stopped;                     ///< the signal that stopped the run; empty = it played to its end

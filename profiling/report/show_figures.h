@@ -22,7 +22,7 @@ struct NodeOnWall {
   std::array<bool, 2> drawMeasured{true, true};
 };
 
-/// The costs of a node. It has more than 20 fields: one for each figure of the row.
+/// The costs of a node. It has more than 20 fields: one for each number of the row.
 struct NodeRow {
   NodeRef node;
   NodeName name;
@@ -37,7 +37,7 @@ struct NodeRow {
   double allocations = 0, bytes = 0;       ///< memory that App allocated for it, a frame
   std::vector<NodeOnWall> walls;
   double cull = 0, draw = 0;  ///< costs on all walls, for all eyes
-  /// False: some wall with the node has not been sampled yet; the figures cover the other walls.
+  /// False: some wall with the node has not been sampled yet; the numbers cover the other walls.
   bool cullMeasured = true, drawMeasured = true;
   /// The node was drawn alone, but too fast for the clock: its 0 means less than can be measured.
   bool drawTooLittle = false;
@@ -90,9 +90,9 @@ struct ShowFigures {
   StageBreakdown app, cull, draw;
   /// The eyes drawn alone, and their nodes and parts drawn alone, before scaling.
   StageBreakdown alone;
-  double warmUpMs = 0;     ///< before the first frame is drawn; in no other figure. 0: nothing was drawn
+  double warmUpMs = 0;     ///< before the first frame is drawn; in no other number. 0: nothing was drawn
   std::string drawMethod;  ///< empty: nothing was drawn
-  std::map<std::string, double> counters;  ///< figures of the whole run by name, such as the cost of --guard
+  std::map<std::string, double> counters;  ///< numbers of the whole run by name, such as the cost of --guard
   std::uint64_t wholeFrames = 0;           ///< number of `frames` with recorded nodes in App
   std::uint64_t framesNeeded = 0;  ///< frames that would measure every node, estimated; 0: these did, or no
                                    ///< number would

@@ -36,7 +36,7 @@ void blend(const Picture& panel, Picture& onto) {
 
 }  // namespace
 
-std::vector<PanelLine> budgetLines(const HudFigures& f) {
+std::vector<PanelLine> budgetLines(const BudgetNumbers& f) {
   const double frameMs = 1000 / f.rate;
   std::string state = fmt::format("{}  {:.2f} s", f.show, f.seconds);
   if (f.speed != 1) state += fmt::format("  speed 1/{:.0f}", 1 / f.speed);

@@ -12,8 +12,8 @@
 
 namespace stadion {
 
-/// The figures of the frame budget.
-struct HudFigures {
+/// The numbers of the frame budget.
+struct BudgetNumbers {
   std::string show;
   double seconds = 0;  ///< show time
   double rate = 60;    ///< frames a second that are wanted
@@ -24,7 +24,7 @@ struct HudFigures {
   std::uint64_t dropped = 0;       ///< frames that were due, but have not been shown
 };
 
-std::vector<PanelLine> budgetLines(const HudFigures& figures);
+std::vector<PanelLine> budgetLines(const BudgetNumbers& numbers);
 
 /// Lays the lines over the upper left corner of each picture of a wall.
 void layPanel(const std::vector<PanelLine>& lines, EyePictures& wall);

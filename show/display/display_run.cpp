@@ -56,7 +56,7 @@ FrameLoopOutcome DisplayRun::play(FrameLoop& loop, OperatorConsole& console) {
       continue;
     }
     countUnshown(now.frame);
-    if (hud_ && !pictures.empty()) layPanel(budgetLines(figures(now, console)), pictures.front());
+    if (hud_ && !pictures.empty()) layPanel(budgetLines(budgetNumbers(now, console)), pictures.front());
     displays_->show(pictures);
     console.pictureSeen();
     if (!std::exchange(shown_, true)) reporter_.hint("the walls are shown; Escape ends the show");
@@ -65,8 +65,8 @@ FrameLoopOutcome DisplayRun::play(FrameLoop& loop, OperatorConsole& console) {
   return outcome;
 }
 
-HudFigures DisplayRun::figures(const TimeSignature& now, OperatorConsole& console) const {
-  HudFigures f;
+BudgetNumbers DisplayRun::budgetNumbers(const TimeSignature& now, OperatorConsole& console) const {
+  BudgetNumbers f;
   f.show = std::filesystem::path(show_.script).filename().string();
   f.seconds = toSeconds(now.time);
   f.rate = show_.rate;

@@ -38,7 +38,7 @@ private:
   DisplayRun(const ShowOptions& show, const WallFile& walls, const LiveBudget& budget, bool hud,
              Reporter& reporter)
       : show_(show), walls_(walls), budget_(budget), reporter_(reporter), hud_(hud) {}
-  HudFigures figures(const TimeSignature& now, OperatorConsole& console) const;
+  BudgetNumbers budgetNumbers(const TimeSignature& now, OperatorConsole& console) const;
   void countUnshown(std::uint64_t frame);
 
   const ShowOptions& show_;

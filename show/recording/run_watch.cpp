@@ -114,9 +114,9 @@ void RunWatch::note(const EventRecord& event, const Scene& scene) {
   ++eventCount_;
   if (events_.size() < RunSummary::kMostEvents)
     events_.push_back(
-        {toSeconds(event.when), std::string(event.event.name()), nameIn(scene, event.node), event.figure});
-  if (event.figure && measured_.size() < RunSummary::kMostEvents)
-    measured_.push_back({toSeconds(event.when), nameIn(scene, event.node), *event.figure});
+        {toSeconds(event.when), std::string(event.event.name()), nameIn(scene, event.node), event.value});
+  if (event.value && measured_.size() < RunSummary::kMostEvents)
+    measured_.push_back({toSeconds(event.when), nameIn(scene, event.node), *event.value});
 }
 
 void RunWatch::note(const DegradationDecision& d, const Scene& scene) {

@@ -238,7 +238,7 @@ void ViewSession::afterTheEnd() {
     quit_ = true;
 }
 
-/// What the old one left is not the new one's. The windows keep the pictures that they show.
+/// Discards pictures of the old show that wait in the mailbox. The windows keep the pictures that they show.
 void ViewSession::putInPlace(std::unique_ptr<PlayingShow> show) {
   show_ = std::move(show);
   show_->overview().move(overview_);
@@ -271,8 +271,7 @@ void ViewSession::watchFiles() {
   if (const auto why = files_.changed()) beginReload(*why);
 }
 
-// What plays is recorded until it ends. A show that begins in the middle of a visit is not, the show of a
-// group that waits for it is.
+// The old show is recorded until it ends. The new one is recorded only if a group waits for it to start.
 void ViewSession::beginReload(const std::string& why) {
   if (reload_) return;
   say(fmt::format("reading {} again: {}", settings_.file(), why));
@@ -302,7 +301,7 @@ void ViewSession::finishReload() {
                   pointText(place ? place->X_WR.p : Vec3(Vec3::Zero()))));
 }
 
-/// Of a show that has stopped.
+/// Completes the input log of a show that has stopped.
 void ViewSession::finishRecord() {
   const auto wrong = show_->watch().finish();
   if (!wrong) return;
@@ -338,8 +337,8 @@ void ViewSession::tellOfStep() {
   if (!playback.paused()) steppedFrom_.reset();
 }
 
-HudFigures ViewSession::figures() const {
-  HudFigures f;
+BudgetNumbers ViewSession::budgetNumbers() const {
+  BudgetNumbers f;
   f.show = std::filesystem::path(settings_.file()).filename().string();
   f.seconds = toSeconds(shown_.time);
   f.rate = settings_.session.show.rate;
@@ -361,7 +360,7 @@ void ViewSession::updateHud() {
   hudDrawn_ = now;
   stale_ = true;
   const std::vector<PanelLine> none;
-  windows_->setPanel(0, hud_.budgetShown ? budgetLines(figures()) : none, false);
+  windows_->setPanel(0, hud_.budgetShown ? budgetLines(budgetNumbers()) : none, false);
   windows_->setPanel(1, hud_.helpShown ? hud_.helpLines() : none, false);
   windows_->setPanel(2, hud_.messageLines(), true);
 }

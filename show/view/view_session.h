@@ -100,7 +100,7 @@ private:
 
   void tellOfStep();
   void updateHud();
-  HudFigures figures() const;
+  BudgetNumbers budgetNumbers() const;
   void takeScreenshot();
   void say(const std::string& line) { hudReporter_.say(line); }
 

@@ -67,7 +67,7 @@ TEST(Measure, TakesTheDistanceSquareFromTheLineAtTheTimeOfTheFirstTouchAtAnyFram
     show.play(2);
     ASSERT_EQ(show.told.size(), 1u) << rate;
     EXPECT_EQ(show.told[0].event, Event("measured"));
-    EXPECT_NEAR(show.told[0].figure.value_or(0), 43.017, 1e-9) << rate;
+    EXPECT_NEAR(show.told[0].value.value_or(0), 43.017, 1e-9) << rate;
     EXPECT_NEAR(toSeconds(show.told[0].when), std::sqrt(2 * (2 - kShotRadius) / kStandardGravity), 1e-8)
         << rate;
     EXPECT_EQ(show.board->words(), "Visitor 43.01 m") << "whole centimetres, rounded down";
@@ -107,7 +107,7 @@ TEST(Measure, BehindTheLineAndOutsideTheSectorIsAFoul) {
     show.open();
     show.start("tape");
     show.play(2);
-    EXPECT_TRUE(show.told.empty() || show.told[0].event != Event("foul") || !show.told[0].figure);
+    EXPECT_TRUE(show.told.empty() || show.told[0].event != Event("foul") || !show.told[0].value);
     return show.events(show.visitor);
   };
   EXPECT_EQ(eventsOf({0, -1, 2}, -1), std::vector<Event>{Event("foul")});

@@ -12,10 +12,10 @@ OscMessage message(std::string_view path, std::span<const double> numbers, bool 
   return {path, numbers, numeric, {}};
 }
 
-TEST(OscOperator, AFigureOutOfItsRangeIsNotTakenAndItsRangeIsSaid) {
+TEST(OscOperator, ANumberOutOfItsRangeIsNotTakenAndItsRangeIsSaid) {
   struct Case {
     std::string_view path;
-    double figure;
+    double number;
     const char* said;
   };
   constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
@@ -30,7 +30,7 @@ TEST(OscOperator, AFigureOutOfItsRangeIsNotTakenAndItsRangeIsSaid) {
         Case{"/stadion/pause", 7, "with 7 is not taken: it takes 0 (off), 1 (on), or nothing"},
         Case{"/stadion/black", 0.5, "with 0.5 is not taken: it takes 0 (off), 1 (on), or nothing"},
         Case{"/stadion/step", 2, "it takes nothing, or 1 and 0 as a button sends them"}}) {
-    const double numbers[] = {c.figure};
+    const double numbers[] = {c.number};
     EXPECT_FALSE(operatorCommandOf(message(c.path, numbers))) << c.path;
     EXPECT_NE(complaintAbout(message(c.path, numbers)).find(c.said), std::string::npos)
         << complaintAbout(message(c.path, numbers));
@@ -40,7 +40,7 @@ TEST(OscOperator, AFigureOutOfItsRangeIsNotTakenAndItsRangeIsSaid) {
   EXPECT_TRUE(operatorCommandOf(message("/stadion/volume/by", far))->relative) << "it stops at the end";
 }
 
-TEST(OscOperator, WordsAndMissingFiguresAreToldOfTheirCommand) {
+TEST(OscOperator, WordsAndMissingNumbersAreToldOfTheirCommand) {
   EXPECT_EQ(
       complaintAbout(message("/stadion/pause", {}, false)),
       "OSC message \"/stadion/pause\" with what is no number is not taken: it takes 0 (off), 1 (on), or "
