@@ -207,47 +207,76 @@ private:
     const bool needed = !with_.program.empty() || update_ || (known() && !known()->times.empty());
     if (!needed) return nothingFor("times");
     progress_(fmt::format("{}: times, {} rounds", result_.name, case_.rounds));
-    const double tolerance = case_.tolerances.times / 100;
-    if (!with_.program.empty()) {
-      const MeasuredRounds m = measureRounds(case_, mode, {with_.program}, {o_.program}, measuring());
-      if (failed(m.fault)) return;
-      keepMilliseconds(m);
-      std::vector<Check> checks = compareTimesOfBuilds(m.rounds);
-      if (std::ranges::any_of(checks, isAlarm)) {
-        progress_(fmt::format("{}: times, {} more rounds to confirm", result_.name, case_.rounds));
-        const MeasuredRounds again = measureRounds(case_, mode, {with_.program}, {o_.program}, measuring());
-        if (failed(again.fault)) return;
-        confirm(checks, compareTimesOfBuilds(again.rounds, kAlarm), case_.rounds);
-      }
-      add(std::move(checks));
-      const Round& first = m.rounds.front();
-      add(unmatchedStages(typicalStages(first.before), typicalStages(first.now), "times", "the other build"));
-      return;
-    }
+    if (!with_.program.empty()) return compareTimesWithBuild(mode);
     const MeasuredRounds m = measureRounds(case_, mode, {o_.program}, measuring());
     if (failed(m.fault)) return;
     keepMilliseconds(m);
+    if (update_)
+      keepTimes(m);
+    else
+      compareTimesWithBaseline(m, mode);
+  }
+
+  void compareTimesWithBuild(const std::string& mode) {
+    const auto measure = [&] {
+      return measureRounds(case_, mode, {with_.program}, {o_.program}, measuring());
+    };
+    const MeasuredRounds m = measure();
+    if (failed(m.fault)) return;
+    keepMilliseconds(m);
+    std::vector<Check> checks = compareTimesOfBuilds(m.rounds);
+    const bool done = confirmed(checks, measure, [&](const MeasuredRounds& again) {
+      return compareTimesOfBuilds(again.rounds, kAlarm);
+    });
+    if (!done) return;
+    add(std::move(checks));
+    const Round& first = m.rounds.front();
+    add(unmatchedStages(typicalStages(first.before), typicalStages(first.now), "times", "the other build"));
+  }
+
+  /// If a check gives an alarm, measures again and confirms the checks by the second measurement. Returns
+  /// false if that failed.
+  template <class Measure, class Compare>
+  bool confirmed(std::vector<Check>& checks, const Measure& measureAgain, const Compare& compare) {
+    if (std::ranges::none_of(checks, isAlarm)) return true;
+    progress_(fmt::format("{}: times, {} more rounds to confirm", result_.name, case_.rounds));
+    const MeasuredRounds again = measureAgain();
+    if (failed(again.fault)) return false;
+    confirm(checks, compare(again), case_.rounds);
+    return true;
+  }
+
+  /// Returns the times that keepMilliseconds() has noted, in multiples of the calibration kernel's.
+  StageTimesByName calibratedTimes(const MeasuredRounds& m) const {
     StageTimesByName times;
     for (const auto& [stage, ms] : result_.milliseconds)
       for (std::size_t i = 0; i < ms.size(); ++i) times[stage].push_back(ms[i] / m.calibrationMs[i]);
+    return times;
+  }
+
+  /// Puts the times into the baseline.
+  void keepTimes(const MeasuredRounds& m) {
+    const StageTimesByName times = calibratedTimes(m);
+    BaselineCase& kept = (*update_)[result_.name];
+    kept.times = times;
+    kept.frames = keep(seriesOfNow(m.rounds, frameBudgetUs()), m.calibrationMs);
+    kept.nodeTimes = noticeableNodes(nodeTimes(m.rounds, m.calibrationMs), typicalOf(times));
+  }
+
+  void compareTimesWithBaseline(const MeasuredRounds& m, const std::string& mode) {
+    const double tolerance = case_.tolerances.times / 100;
+    const StageTimesByName times = calibratedTimes(m);
     const CostsByNode nodes = nodeTimes(m.rounds, m.calibrationMs);
-    if (update_) {
-      BaselineCase& kept = (*update_)[result_.name];
-      kept.times = times;
-      kept.frames = keep(seriesOfNow(m.rounds, frameBudgetUs()), m.calibrationMs);
-      kept.nodeTimes = dearOf(nodes, typicalOf(times));
-    } else {
-      const std::vector<SpanRow>& rows = m.rounds.front().now;
-      auto shifts = compareTimes(known()->times, times, typicalStages(rows), tolerance);
-      for (StageShift& s : shifts) {
-        if (!s.slower) continue;
-        const double before = median(known()->times.at(s.name));
-        s.culprit = culpritSince(s.name, before, s.shift * before, known()->nodeTimes, nodes, rows);
-      }
-      add(checksOf(shifts, "the baseline", tolerance, case_.rounds));
-      compareFramesWithBaseline(m, mode);
-      add(unmatchedStages(typicalOf(known()->times), typicalOf(times), "times", "the baseline"));
+    const std::vector<SpanRow>& rows = m.rounds.front().now;
+    auto shifts = compareTimes(known()->times, times, typicalStages(rows), tolerance);
+    for (StageShift& s : shifts) {
+      if (!s.slower) continue;
+      const double before = median(known()->times.at(s.name));
+      s.culprit = culpritSince(s.name, before, s.shift * before, known()->nodeTimes, nodes, rows);
     }
+    add(checksOf(shifts, "the baseline", tolerance, case_.rounds));
+    compareFramesWithBaseline(m, mode);
+    add(unmatchedStages(typicalOf(known()->times), typicalOf(times), "times", "the baseline"));
   }
 
   /// Typical frames, then all others.
@@ -272,13 +301,10 @@ private:
       return;
     }
     std::vector<Check> checks = framesSince(kept, m);
-    if (std::ranges::any_of(checks, isAlarm)) {
-      progress_(fmt::format("{}: times, {} more rounds to confirm", result_.name, case_.rounds));
-      const MeasuredRounds again = measureRounds(case_, mode, {o_.program}, measuring());
-      if (failed(again.fault)) return;
-      confirm(checks, framesSince(kept, again, kAlarm), case_.rounds);
-    }
-    add(std::move(checks));
+    const bool done = confirmed(
+        checks, [&] { return measureRounds(case_, mode, {o_.program}, measuring()); },
+        [&](const MeasuredRounds& again) { return framesSince(kept, again, kAlarm); });
+    if (done) add(std::move(checks));
   }
 
   std::vector<Check> framesSince(const KeptStages& kept, const MeasuredRounds& m,
@@ -355,7 +381,7 @@ private:
       BaselineCase& kept = (*update_)[result_.name];
       kept.instructions = result_.instructions;
       kept.countedBy = nameOf(*by);
-      kept.nodeInstructions = dearOf(nodeInstructions(now.rows), result_.instructions);
+      kept.nodeInstructions = noticeableNodes(nodeInstructions(now.rows), result_.instructions);
     } else if (with_.program.empty()) {
       compareCounts({known()->instructions, known()->nodeInstructions}, now, "the baseline", how);
     } else {

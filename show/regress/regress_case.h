@@ -5,6 +5,7 @@
 #include "profiling/regression/spans/result.h"
 #include "show/regress/regress_settings.h"
 
+#include <atomic>
 #include <functional>
 
 namespace stadion {

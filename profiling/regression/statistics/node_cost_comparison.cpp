@@ -11,7 +11,7 @@ CostsByNode nodeInstructions(const std::vector<SpanRow>& rows) {
   return all;
 }
 
-CostsByNode dearOf(const CostsByNode& costs, const std::map<std::string, double>& stages) {
+CostsByNode noticeableNodes(const CostsByNode& costs, const std::map<std::string, double>& stages) {
   CostsByNode dear;
   for (const auto& [stage, nodes] : costs) {
     const auto whole = stages.find(stage);

@@ -22,7 +22,7 @@ constexpr double kLeastKept = 0.001;
 CostsByNode nodeInstructions(const std::vector<SpanRow>& rows);
 
 /// Returns the nodes with a noticeable part of their stage.
-CostsByNode dearOf(const CostsByNode& costs, const std::map<std::string, double>& stages);
+CostsByNode noticeableNodes(const CostsByNode& costs, const std::map<std::string, double>& stages);
 
 /// For a stage that grew by `growth` from `before`: returns the node that grew most, as the rows name it, if
 /// it explains half of the growth; else says so. Returns the stage's name if its nodes are unknown.

@@ -332,7 +332,7 @@ TEST(RegressionInstructions, ABaselineKeepsEnoughToNameTheNodeThatMoved) {
     if (!r.isStage()) r.file = "/somewhere/else/" + r.file;
   BaselineCase kept;
   kept.instructions = stageInstructions(before);
-  kept.nodeInstructions = dearOf(nodeInstructions(before), kept.instructions);
+  kept.nodeInstructions = noticeableNodes(nodeInstructions(before), kept.instructions);
   const std::string file = testing::TempDir() + "made.baseline.json";
   std::ofstream(file) << toJson({{"made/sequential", kept}});
   const auto read = readBaseline(file);
