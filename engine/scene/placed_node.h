@@ -68,7 +68,7 @@ public:
 
 protected:
   /// Most passes of a loop that a restored node makes up for, one by one.
-  static constexpr Nanoseconds kMostPasses = 100'000;
+  static constexpr std::int64_t kMostPasses = 100'000;
   void onEnter(Scene& scene) override;
   void onLeave(Scene& scene) override;
   void receive(const Message& m, FrameContext& frame) override;

@@ -29,7 +29,7 @@ struct Head {
   std::uint64_t lights, figures, opaque, transparent, meshes, gone;
 };
 static_assert(std::is_trivially_copyable_v<Head> && std::is_trivially_copyable_v<DrawItem> &&
-              std::is_trivially_copyable_v<DrawLight> && std::is_trivially_copyable_v<MeshPlace>);
+              std::is_trivially_copyable_v<DrawLight> && std::is_trivially_copyable_v<SharedMeshPlace>);
 
 template <class T>
 std::size_t bytesOf(const std::vector<T>& values) {

@@ -19,14 +19,14 @@ namespace stadion::wall_process {
 
 /// The place of a mesh in the segment of meshes (shared_meshes.h). Sent with the first list that shows the
 /// mesh.
-struct MeshPlace {
+struct SharedMeshPlace {
   MeshId id = kNoMesh;
   std::uint64_t offset = 0, bytes = 0;
 };
 
 /// Changes of the meshes that a process must know before it draws the list.
 struct ListNews {
-  std::vector<MeshPlace> meshes;
+  std::vector<SharedMeshPlace> meshes;
   std::vector<MeshId> gone;  ///< freed by the show, which may use their ids again
 };
 

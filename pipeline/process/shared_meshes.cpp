@@ -83,7 +83,7 @@ bool readLevels(SharedMeshReader& in, Mesh& mesh) {
 SharedMeshes::SharedMeshes(const MeshStore& meshes)
     : meshes_(meshes), segment_("stadion-meshes", kMeshReserve) {}
 
-std::optional<MeshPlace> SharedMeshes::take(MeshId id, std::uint64_t hash) {
+std::optional<SharedMeshPlace> SharedMeshes::take(MeshId id, std::uint64_t hash) {
   const std::lock_guard lock(mutex_);
   const auto known = std::find_if(entries_.begin(), entries_.end(), [&](const auto& p) {
     return p.second.place.id == id && p.second.hash == hash;
@@ -98,12 +98,12 @@ std::optional<MeshPlace> SharedMeshes::take(MeshId id, std::uint64_t hash) {
   const std::size_t offset = extents_.take((bytes.size() + kPage - 1) / kPage * kPage);
   segment_.growTo(extents_.end());
   std::memcpy(segment_.data() + offset, bytes.data(), bytes.size());
-  const MeshPlace place{id, offset, bytes.size()};
+  const SharedMeshPlace place{id, offset, bytes.size()};
   entries_[offset] = {place, hash, 1};
   return place;
 }
 
-void SharedMeshes::giveBack(const MeshPlace& place) {
+void SharedMeshes::giveBack(const SharedMeshPlace& place) {
   const std::lock_guard lock(mutex_);
   const auto at = entries_.find(place.offset);
   if (at == entries_.end() || --at->second.users > 0) return;

@@ -24,15 +24,15 @@ public:
 
   /// Returns where the mesh lies, and writes it there if it is new. Each call needs a giveBack(). Returns
   /// nothing if the store has no such mesh.
-  std::optional<MeshPlace> take(MeshId id, std::uint64_t hash);
+  std::optional<SharedMeshPlace> take(MeshId id, std::uint64_t hash);
   /// Ends one use of the mesh. The last one discards its bytes: a later take() writes them again.
-  void giveBack(const MeshPlace& place);
+  void giveBack(const SharedMeshPlace& place);
 
   int descriptor() const { return segment_.descriptor(); }
 
 private:
   struct Entry {
-    MeshPlace place;
+    SharedMeshPlace place;
     std::uint64_t hash = 0;
     std::size_t users = 0;
   };

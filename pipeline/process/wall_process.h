@@ -92,7 +92,7 @@ public:
 
 private:
   struct Sent {
-    MeshPlace place;
+    SharedMeshPlace place;
     std::uint64_t hash = 0;
   };
 

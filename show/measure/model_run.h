@@ -1,10 +1,8 @@
 #pragma once
 /// Plays a show without drawing it, with one body's model changed, and notes what its bodies did and cost.
 
-#include "show/player/player.h"
-
-// After the schema, one of whose enumerators is called as a type of it is.
 #include "dynamics/world/world.h"
+#include "show/player/player.h"
 
 #include <array>
 #include <functional>
@@ -59,9 +57,9 @@ struct PlayedShow {
   std::map<NodeRef, double> milliseconds{};  ///< total time of each dynamics node
 };
 
-/// Plays the show, of the model's body alone noting places, or, without one, of all bodies all but places.
-/// Null, with the findings, if it cannot be built like that. Findings of files that are loaded go to
-/// `report`, if there is one.
+/// Plays the show. With a body in `model`, notes that body alone, with its places. Without one, notes all
+/// bodies, without places. Null, with the findings, if it cannot be built like that. Findings of files that
+/// are loaded go to `report`, if there is one.
 std::optional<PlayedShow> playWith(const ShowOptions& show, const BodyModel& model, Diagnostics& findings,
                                    std::function<void(const Diagnostics&)> report = {});
 

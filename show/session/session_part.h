@@ -15,7 +15,7 @@
 #include "show/session/session_report.h"
 #include "show/session/session_settings.h"
 #include "show/supervision/run_journal.h"
-#include "show/supervision/supervised_part.h"
+#include "show/supervision/supervised_player.h"
 
 #include <functional>
 #include <memory>
@@ -30,7 +30,7 @@ struct SessionState {
   const std::atomic<bool>& stop;
 
   RunJournal* journal = nullptr;
-  SupervisedPart* supervised = nullptr;
+  SupervisedPlayer* supervised = nullptr;
   ClusterSession* cluster = nullptr;
   OutputFolder* folder = nullptr;
   OperatorConsole* console = nullptr;

@@ -6,7 +6,8 @@
 namespace stadion {
 namespace {
 
-constexpr GLuint64 kAtOnce = 1'000'000'000;  // [ns]
+/// Longest single wait for a fence [ns]; repeated until it is signalled.
+constexpr GLuint64 kWaitSlice = 1'000'000'000;
 
 std::size_t alignmentOf(const GlTable& gl) {
   GLint uniforms = 1, storage = 1;
@@ -42,7 +43,7 @@ void UploadRing::beginFrame() {
 /// Ends also if the context is lost.
 void UploadRing::await(GLsync& fence) const {
   if (!fence) return;
-  while (gl_.ClientWaitSync(fence, GL_SYNC_FLUSH_COMMANDS_BIT, kAtOnce) == GL_TIMEOUT_EXPIRED) {
+  while (gl_.ClientWaitSync(fence, GL_SYNC_FLUSH_COMMANDS_BIT, kWaitSlice) == GL_TIMEOUT_EXPIRED) {
   }
   gl_.DeleteSync(std::exchange(fence, nullptr));
 }

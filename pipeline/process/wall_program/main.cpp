@@ -161,7 +161,7 @@ void DrawnWall::takeNews() {
       ids_.erase(at);
     }
   meshes_.collect(frames_);
-  for (const MeshPlace& place : news_.meshes)
+  for (const SharedMeshPlace& place : news_.meshes)
     if (auto mesh = meshOf({sharedMeshes_->data() + place.offset, place.bytes}))
       ids_[place.id] = meshes_.add(std::move(mesh));
 }

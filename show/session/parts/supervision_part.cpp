@@ -7,7 +7,7 @@ namespace {
 
 class SupervisionPart final : public SessionPart {
 public:
-  SupervisionPart(SessionState& session, std::unique_ptr<SupervisedPart> supervised)
+  SupervisionPart(SessionState& session, std::unique_ptr<SupervisedPlayer> supervised)
       : session_(session), supervised_(std::move(supervised)) {
     session.supervised = supervised_.get();
   }
@@ -36,15 +36,15 @@ public:
 
 private:
   SessionState& session_;
-  std::unique_ptr<SupervisedPart> supervised_;
+  std::unique_ptr<SupervisedPlayer> supervised_;
 };
 
 }  // namespace
 
 std::unique_ptr<SessionPart> makeSupervisionPart(SessionState& session, Diagnostics& findings) {
   const SessionSettings& s = session.settings;
-  auto supervised =
-      SupervisedPart::create(s.supervision, s.cluster.file.empty(), session.reporter.sayFunction(), findings);
+  auto supervised = SupervisedPlayer::create(s.supervision, s.cluster.file.empty(),
+                                             session.reporter.sayFunction(), findings);
   return supervised ? std::make_unique<SupervisionPart>(session, std::move(supervised)) : nullptr;
 }
 

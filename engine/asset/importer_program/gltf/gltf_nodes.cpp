@@ -35,7 +35,7 @@ public:
     const std::size_t skins = root_.objects("skins", "skin").size();
     for (const GltfValue& node : nodes) to_.nodes.push_back(nodeOf(node, nodes.size(), skins));
     for (std::size_t i = 0; i < nodes.size(); ++i) adopt(i, nodes[i]);
-    refuseCircles(nodes);
+    refuseCycles(nodes);
     readScenes();
   }
 
@@ -79,8 +79,9 @@ private:
     }
   }
 
-  /// Each node has one parent at most, so a way up that is longer than the list goes round.
-  void refuseCircles(const std::vector<GltfValue>& nodes) const {
+  /// Each node has one parent at most, so a path to the root that is longer than the list of nodes is
+  /// a cycle.
+  void refuseCycles(const std::vector<GltfValue>& nodes) const {
     std::vector<bool> sound(to_.nodes.size());
     for (std::size_t i = 0; i < to_.nodes.size(); ++i) {
       std::size_t steps = 0;

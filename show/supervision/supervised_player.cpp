@@ -1,4 +1,4 @@
-#include "show/supervision/supervised_part.h"
+#include "show/supervision/supervised_player.h"
 #include "engine/scene/scene_snapshot.h"
 
 #include <fmt/format.h>
@@ -21,8 +21,8 @@ std::string timesOf(std::uint64_t count) {
 
 }  // namespace
 
-SupervisedPart::SupervisedPart(std::unique_ptr<SharedProgress> progress,
-                               std::function<void(const std::string&)> say)
+SupervisedPlayer::SupervisedPlayer(std::unique_ptr<SharedProgress> progress,
+                                   std::function<void(const std::string&)> say)
     : progress_(std::move(progress)), say_(std::move(say)), operator_(progress_->operatorState()),
       nextKept_(machineClock() + kKeepEvery) {
   progress_->enter(SharedProgress::Phase::Opening);
@@ -31,21 +31,22 @@ SupervisedPart::SupervisedPart(std::unique_ptr<SharedProgress> progress,
   state_ = std::make_shared<const std::vector<std::uint8_t>>(progress_->scene());
 }
 
-std::unique_ptr<SupervisedPart> SupervisedPart::create(const SupervisionSettings& settings, bool keepsScene,
-                                                       std::function<void(const std::string&)> say,
-                                                       Diagnostics& findings) {
+std::unique_ptr<SupervisedPlayer> SupervisedPlayer::create(const SupervisionSettings& settings,
+                                                           bool keepsScene,
+                                                           std::function<void(const std::string&)> say,
+                                                           Diagnostics& findings) {
   if (settings.progress < 0) return nullptr;
   auto progress = SharedProgress::attach(settings.progress);
   if (!progress) {
     findings.error({}, "--supervised is for players that `stadion run --supervise` starts");
     return nullptr;
   }
-  std::unique_ptr<SupervisedPart> part(new SupervisedPart(std::move(progress), std::move(say)));
+  std::unique_ptr<SupervisedPlayer> part(new SupervisedPlayer(std::move(progress), std::move(say)));
   part->keeps_ = keepsScene;
   return part;
 }
 
-void SupervisedPart::restartShow(const Diagnostics& found) {
+void SupervisedPlayer::restartShow(const Diagnostics& found) {
   state_.reset();
   from_.reset();
   const auto why = std::ranges::find(found.all(), Severity::Error, &Diagnostic::severity);
@@ -53,7 +54,7 @@ void SupervisedPart::restartShow(const Diagnostics& found) {
        " (have its files changed?): the show restarts");
 }
 
-void SupervisedPart::goOn(FrameLoopOptions& loop, OperatorConsole& console, RunWatch& watch) {
+void SupervisedPlayer::goOn(FrameLoopOptions& loop, OperatorConsole& console, RunWatch& watch) {
   if (!keeps_) return;
   step_ = fromSeconds(1 / loop.rate);
   console.changed = [this](const OperatorState& state) { setOperatorState(state); };
@@ -80,7 +81,7 @@ void SupervisedPart::goOn(FrameLoopOptions& loop, OperatorConsole& console, RunW
                    paced ? fmt::format(", and catches up to {:.3f} s", toSeconds(due_)) : ""));
 }
 
-void SupervisedPart::simulated(const TimeSignature& now, Scene& scene, const RunWatch& watch, bool late) {
+void SupervisedPlayer::simulated(const TimeSignature& now, Scene& scene, const RunWatch& watch, bool late) {
   if (!keeps_) return;
   const bool still = progress_->operatorState().still();
   const bool arrived = catchesUp_ && (!late || (still && now.time >= due_));
@@ -93,7 +94,7 @@ void SupervisedPart::simulated(const TimeSignature& now, Scene& scene, const Run
   if (arrived || machineClock() >= nextKept_) keep(now, scene, watch);
 }
 
-void SupervisedPart::keep(const TimeSignature& now, Scene& scene, const RunWatch& watch) {
+void SupervisedPlayer::keep(const TimeSignature& now, Scene& scene, const RunWatch& watch) {
   const Nanoseconds begin = machineClock();
   const std::vector<std::uint8_t> state = SceneSnapshot(scene).save();
   bytes_ = state.size();
@@ -114,7 +115,7 @@ void SupervisedPart::keep(const TimeSignature& now, Scene& scene, const RunWatch
                          std::strerror(wrong)));
 }
 
-std::string SupervisedPart::remark() const {
+std::string SupervisedPlayer::remark() const {
   std::string words;
   if (progress_->starts() > 1)
     words = fmt::format("the player was replaced {}; frames, times and what happened are of the last one",

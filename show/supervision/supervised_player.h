@@ -17,13 +17,13 @@
 
 namespace stadion {
 
-class SupervisedPart {
+class SupervisedPlayer {
 public:
   /// Null if this process has no supervisor, or with the reason in the findings. `keepsScene`: the scene is
   /// saved for the next player; in a cluster the other machines have it.
-  static std::unique_ptr<SupervisedPart> create(const SupervisionSettings& settings, bool keepsScene,
-                                                std::function<void(const std::string&)> say,
-                                                Diagnostics& findings);
+  static std::unique_ptr<SupervisedPlayer> create(const SupervisionSettings& settings, bool keepsScene,
+                                                  std::function<void(const std::string&)> say,
+                                                  Diagnostics& findings);
 
   /// The snapshot to continue from; null: the show begins.
   std::shared_ptr<const std::vector<std::uint8_t>> state() const { return state_; }
@@ -44,7 +44,7 @@ public:
   std::string remark() const;
 
 private:
-  SupervisedPart(std::unique_ptr<SharedProgress> progress, std::function<void(const std::string&)> say);
+  SupervisedPlayer(std::unique_ptr<SharedProgress> progress, std::function<void(const std::string&)> say);
   void keep(const TimeSignature& now, Scene& scene, const RunWatch& watch);
 
   std::unique_ptr<SharedProgress> progress_;
