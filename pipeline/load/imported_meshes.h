@@ -28,7 +28,7 @@ public:
     int up = -1;               ///< UpAxis; -1 = the file's own
     std::uint32_t levels = 0;  ///< number of simplified levels requested
     ModelForm form = ModelForm::Object;
-    std::string nodes;  ///< textOf(NodeSelection)
+    std::string nodes{};  ///< textOf(NodeSelection)
 
     auto operator<=>(const Key&) const = default;
     /// Returns the key of an open file; nothing if it is unknown.
