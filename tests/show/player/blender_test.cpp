@@ -93,7 +93,8 @@ protected:
     for (const auto& bone : truth_["bones"]) {
       const auto name = bone[0].get<std::string>();
       ASSERT_TRUE(parents.contains(name)) << name;
-      if (!bone[1].is_null()) EXPECT_EQ(parents[name], bone[1].get<std::string>()) << name;
+      const std::string parent = bone[1].is_null() ? parents[name] : bone[1].get<std::string>();
+      EXPECT_EQ(parents[name], parent) << name;
     }
     for (const char* other : {"Yard", "Block1", "Camera", "Lamp"})
       EXPECT_TRUE(parents.contains(other)) << other;
@@ -167,7 +168,7 @@ TEST_F(ProgramFullBlender, ObjHasItsGeometryAndMaterials) {
   EXPECT_LT(farthest(pointsOf(truth_["rest"]), points), kExact);
   expectStatic(points);
   std::map<std::string, bool> textured;
-  for (const Material& m : mesh->materials) textured[m.name] = m.texture >= 0;
+  for (const Material& m : mesh->materials) textured[m.name] = m.maps[kBaseMap].given();
   EXPECT_EQ(textured, (std::map<std::string, bool>{{"Skin", true}, {"Stone", false}}));
 }
 
