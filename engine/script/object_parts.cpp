@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <map>
-#include <vector>
 
 namespace stadion {
 namespace {
@@ -12,14 +11,14 @@ namespace {
 /// What a part has from its object: how the file is read, drawn and stood in for.
 constexpr Attr kFromObject[] = {"file", "draw", "unit", "up", "shape", "tolerance", "levels"};
 
-/// The names with a "/" in the order in which they are written, each once, with the offset of the first use.
-std::vector<std::pair<std::string, std::uint32_t>> pathsIn(Document& document) {
-  std::vector<std::pair<std::string, std::uint32_t>> paths;
-  std::map<std::string, std::uint32_t, std::less<>> seen;
+/// Each name with a "/", and the offset of its first use.
+using Paths = std::map<std::string, std::uint32_t, std::less<>>;
+
+Paths pathsIn(Document& document) {
+  Paths paths;
   DocumentWriter writer(document);
   const auto look = [&](Attr, const NodeReference& r, const EventMessage*) -> DocumentWriter::Resolution {
-    if (!r.inner().empty() && seen.try_emplace(std::string(r.name), r.where).second)
-      paths.emplace_back(r.name, r.where);
+    if (!r.inner().empty()) paths.try_emplace(std::string(r.name), r.where);
     return {};
   };
   for (std::uint32_t i = 0; i < document.size(); ++i) writer.resolveReferences(i, look);
@@ -37,10 +36,9 @@ std::optional<Declaration> objectOf(const Document& document, std::string_view p
 }
 
 /// The length of the longest path above this one that is named too, or of the object's name.
-std::size_t lengthOfParent(const std::vector<std::pair<std::string, std::uint32_t>>& paths,
-                           std::string_view path) {
+std::size_t lengthOfParent(const Paths& paths, std::string_view path) {
   for (std::size_t end = path.rfind('/'); end > lengthOfObject(path); end = path.rfind('/', end - 1))
-    if (std::ranges::any_of(paths, [&](const auto& p) { return p.first == path.substr(0, end); })) return end;
+    if (paths.contains(path.substr(0, end))) return end;
   return lengthOfObject(path);
 }
 
@@ -51,7 +49,7 @@ bool isPartByUse(const Declaration& object) {
 }
 
 void declareParts(Document& document) {
-  auto paths = pathsIn(document);
+  Paths paths = pathsIn(document);
   std::erase_if(paths, [&](const auto& p) { return !objectOf(document, p.first); });
   if (paths.empty()) return;
   DocumentWriter writer(document);
