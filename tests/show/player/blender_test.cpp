@@ -168,7 +168,10 @@ TEST_F(ProgramFullBlender, ObjHasItsGeometryAndMaterials) {
   EXPECT_LT(farthest(pointsOf(truth_["rest"]), points), kExact);
   expectStatic(points);
   std::map<std::string, bool> textured;
-  for (const Material& m : mesh->materials) textured[m.name] = m.maps[kBaseMap].given();
+  for (const Submesh& run : mesh->submeshes) {
+    const Material& m = mesh->materials[run.material];
+    textured[m.name] = m.maps[kBaseMap].given();
+  }
   EXPECT_EQ(textured, (std::map<std::string, bool>{{"Skin", true}, {"Stone", false}}));
 }
 

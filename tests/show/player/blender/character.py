@@ -115,11 +115,12 @@ def distance_to(point, start, end):
 
 
 def bind(body):
-    """At most four bones a vertex, the nearest ones."""
+    """At most four bones a vertex, the nearest ones. The exporter of glTF leaves out weights of about 1e-4."""
     groups = {name: body.vertex_groups.new(name=name) for name, *_ in BONES}
     for vertex in body.data.vertices:
         nearness = [(1 / (distance_to(vertex.co, head, tail) + 0.02) ** 4, name) for name, head, tail, _ in BONES]
-        strongest = sorted(nearness, reverse=True)[:4]
+        whole = sum(weight for weight, _ in nearness)
+        strongest = [(w, name) for w, name in sorted(nearness, reverse=True)[:4] if w > 0.01 * whole]
         total = sum(weight for weight, _ in strongest)
         for weight, name in strongest:
             groups[name].add([vertex.index], weight / total, "REPLACE")
