@@ -21,7 +21,7 @@ GltfBuilder materialSquare(const Json& material) {
   b.attribute("TEXCOORD_1", std::vector<float>{0, 0.5f, 1, 0.5f, 1, 1, 0, 1}, b.kFloat, "VEC2", 4);
   b.json["images"] = {{{"uri", "arms.png"}}, {{"uri", "none.png"}}};
   b.json["textures"] = {{{"source", 0}}, {{"source", 1}}};
-  b.json["materials"] = {material};
+  b.json["materials"] = Json::array({material});
   b.json["materials"][0]["name"] = "m";
   b.primitive()["material"] = 0;
   return b;
@@ -58,7 +58,7 @@ TEST_F(MaterialImport, ReadsSamplers) {
       materialSquare(Json::parse(R"({"pbrMetallicRoughness": {"baseColorTexture": {"index": 0}}})"));
   b.json["textures"][0]["sampler"] = 0;
   const auto samplerOf = [&](const char* json) {
-    b.json["samplers"] = {Json::parse(json)};
+    b.json["samplers"] = Json::array({Json::parse(json)});
     return load(b).mesh->materials[0].maps[kBaseMap].sampler;
   };
   constexpr WrapMode kRepeat = WrapMode::Repeat;
@@ -113,7 +113,7 @@ TEST_F(MaterialImport, TurnsTangentsWithTheirNode) {
   for (int i = 0; i < 4; ++i) tangents.insert(tangents.end(), {1, 0, 0, 1});
   b.attribute("TANGENT", tangents, b.kFloat, "VEC4", 4);
   const auto tangentOf = [&](const char* node) {
-    b.json["nodes"] = {Json::parse(node)};
+    b.json["nodes"] = Json::array({Json::parse(node)});
     return load(b).mesh->tangents.at(0);
   };
   // +Y up becomes +Z up: x stays, y becomes z.
