@@ -68,7 +68,7 @@ private:
   const std::vector<Nanoseconds>& stopsOf(const PoseTrack& way, const TrackerSample* t, Nanoseconds start,
                                           Nanoseconds until);
   Vec3 inNode(const Vec3& p_R, Nanoseconds time, const Affine& X_NR, const FrameContext& frame) const;
-  /// The first look: a visitor who is inside has entered.
+  /// The first look: it counts as entering if the visitor is inside.
   void beginLooking(const Vec3& p_N, Nanoseconds time, const TrackerSample* t, const FrameContext& frame);
   void goTo(const Vec3& p, bool jumped, Nanoseconds time);
   /// The buttons that were down when it began to look.
