@@ -146,7 +146,7 @@ struct alignas(64) RigidMotion {
   Spin spin;
 };
 
-/// The way out of a collider into which a hand has put the body (penetration_recovery.h).
+/// How a body leaves a collider into which a hand has put it (penetration_recovery.h).
 struct PenetrationRecovery {
   ColliderId of = 0;
   Vec3 normal = Vec3::UnitZ();  ///< unit, in the collider's frame

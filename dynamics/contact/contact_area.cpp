@@ -139,8 +139,8 @@ bool addCommon(const FacePieces& a, const FacePieces& b, ContactArea& area) {
   return true;
 }
 
-/// Whether a is the smaller side.
-bool isOnMore(const Side& a, std::span<const Side> b) {
+/// Whether side a is the smaller one; several pieces together count as large.
+bool isSmaller(const Side& a, std::span<const Side> b) {
   return b.size() > 1 || a.bound().radius <= b[0].bound().radius;
 }
 
@@ -148,7 +148,7 @@ std::shared_ptr<const ContactArea> areaIn(const Side& a, std::span<const Side> b
                                           const ContactPlane& plane) {
   // Meshes are looked through no farther than the smaller side reaches.
   const auto reachOf = [](const Side& s) { return s.bound().radius; };
-  const Side& small = isOnMore(a, b) ? a : b[0];
+  const Side& small = isSmaller(a, b) ? a : b[0];
   Frame2 f{plane, -plane.n, {}};
   if (!(reachOf(small) < 1e299)) return {};
   const Vec3 centre = small.at(tau).pose * small.bound().centre;
@@ -216,7 +216,7 @@ std::vector<FlatContact> flatContacts(const Side& a, std::span<const Side> b, do
     flat.area = areaIn(a, b, tau, plane);
     if (!flat.area) continue;
     plane.origin = plane.at(flat.area->middle());
-    flat.carrier = isOnMore(a, b) ? Carrier::A : Carrier::B;
+    flat.carrier = isSmaller(a, b) ? Carrier::A : Carrier::B;
     flats.push_back(std::move(flat));
   }
   return flats;

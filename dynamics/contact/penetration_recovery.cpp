@@ -12,7 +12,7 @@ namespace stadion {
 namespace {
 
 constexpr double kOut = 2e-5;      ///< overlap of what rests on something [m]
-constexpr double kUpright = 0.05;  ///< cosine: faces steeper than that to the way do not bar it
+constexpr double kUpright = 0.05;  ///< cosine: steeper faces do not bar the body's return
 
 bool isMesh(const Shape& s) {
   return std::holds_alternative<MeshShape>(s);
@@ -47,8 +47,8 @@ const TriangleTree* facesOf(const Shape& shape, TriangleTree& made) {
   return &made;
 }
 
-/// Where the straight way from p to q meets the triangle, as a share of it; negative if it does not.
-double meets(const Triangle& t, const Vec3& p, const Vec3& q) {
+/// Where the segment from p to q crosses the triangle, as a share of its length; negative if it does not.
+double crossing(const Triangle& t, const Vec3& p, const Vec3& q) {
   const double hp = t.normal.dot(p - t.v[0]), hq = t.normal.dot(q - t.v[0]);
   if ((hp > 0) == (hq > 0)) return -1;
   const double share = hp / (hp - hq);
@@ -60,15 +60,15 @@ double meets(const Triangle& t, const Vec3& p, const Vec3& q) {
   return share;
 }
 
-/// The first triangle on the way from p to q, -1 if none.
-std::int32_t firstOnWay(const TriangleTree& tree, const Vec3& p, const Vec3& q) {
+/// The first triangle that the segment from p to q crosses; -1 if none.
+std::int32_t firstCrossed(const TriangleTree& tree, const Vec3& p, const Vec3& q) {
   Aabb box;
   box.include(p);
   box.include(q);
   std::int32_t first = -1;
   double least = 2;
   tree.eachOverlapping(box, [&](std::uint32_t i) {
-    const double share = meets(tree.triangles()[i], p, q);
+    const double share = crossing(tree.triangles()[i], p, q);
     if (share >= 0 && share < least) {
       least = share;
       first = static_cast<std::int32_t>(i);
@@ -77,16 +77,16 @@ std::int32_t firstOnWay(const TriangleTree& tree, const Vec3& p, const Vec3& q) 
   return first;
 }
 
-/// A body in the frame of the thing.
+/// A body in the collider's frame.
 struct Inside {
   const Shape& shape;
-  Pose X;       ///< of the body there
-  Vec3 middle;  ///< there
+  Pose X;       ///< of the body
+  Vec3 middle;  ///< of its bounding sphere
   ConvexCore core;
   Aabb box;
 
-  Inside(const Side& body, const Side& thing, double tau)
-      : shape(*body.shape), X(thing.at(tau).pose.inverse() * body.at(tau).pose),
+  Inside(const Side& body, const Side& collider, double tau)
+      : shape(*body.shape), X(collider.at(tau).pose.inverse() * body.at(tau).pose),
         middle(X * body.bound().centre) {
     if (!isMesh(shape)) coreOf(shape, X, core);
     for (int i = 0; i < 3; ++i) {
@@ -94,7 +94,7 @@ struct Inside {
       box.lo[i] = -extent(-Vec3::Unit(i));
     }
   }
-  /// How far it reaches that way.
+  /// How far the body reaches along d.
   double extent(const Vec3& d) const {
     if (!isMesh(shape)) return core.extent(d);
     const Vec3 local = X.q.conjugate() * d;
@@ -102,13 +102,13 @@ struct Inside {
     for (const Vec3& c : std::get<MeshShape>(shape).tree.corners()) most = std::max(most, local.dot(c));
     return most + d.dot(X.p);
   }
-  /// Of a mesh: whether it may.
+  /// For a mesh always true: its exact test costs too much here.
   bool overlaps(const Triangle& t) const {
     return isMesh(shape) || convexGap(core, coreOf(t, Pose{}), middle - t.v[0]).distance < 0;
   }
 };
 
-/// Of the faces that the body overlaps without its middle being through, the one that looks most along d.
+/// Among the faces that the body overlaps and its middle has not crossed, the one whose normal is nearest to d.
 std::optional<PenetrationRecovery> mostAlong(const Inside& body, const TriangleTree& tree, const Vec3& d) {
   std::optional<PenetrationRecovery> best;
   tree.eachOverlapping(body.box, [&](std::uint32_t i) {
@@ -123,56 +123,56 @@ std::optional<PenetrationRecovery> mostAlong(const Inside& body, const TriangleT
 
 }  // namespace
 
-bool wentInto(const Side& thing, double tau, const Vec3& from, const Vec3& to) {
-  Aabb way;
-  way.include(from);
-  way.include(to);
-  if (!boundingBox(*thing.shape, thing.at(tau).pose).overlaps(way)) return false;
+bool wentInto(const Side& collider, double tau, const Vec3& from, const Vec3& to) {
+  Aabb path;
+  path.include(from);
+  path.include(to);
+  if (!boundingBox(*collider.shape, collider.at(tau).pose).overlaps(path)) return false;
   TriangleTree sheet;
-  const TriangleTree* tree = facesOf(*thing.shape, sheet);
+  const TriangleTree* tree = facesOf(*collider.shape, sheet);
   if (!tree) return false;
-  const Pose X = thing.at(tau).pose.inverse();
-  const std::int32_t first = firstOnWay(*tree, X * from, X * to);
+  const Pose X = collider.at(tau).pose.inverse();
+  const std::int32_t first = firstCrossed(*tree, X * from, X * to);
   if (first < 0) return false;
   const Triangle& t = tree->triangles()[static_cast<std::size_t>(first)];
   return std::fabs(t.normal.dot(X * to - t.v[0])) < kDeepest;
 }
 
-bool overlaps(const Side& body, const Side& thing, double tau) {
-  const double gap = gapBetween(body, thing, tau, {0.01}).distance;
-  return isMesh(*body.shape) && isMesh(*thing.shape) ? gap <= 0 : gap < -kTouching;
+bool overlaps(const Side& body, const Side& collider, double tau) {
+  const double gap = gapBetween(body, collider, tau, {0.01}).distance;
+  return isMesh(*body.shape) && isMesh(*collider.shape) ? gap <= 0 : gap < -kTouching;
 }
 
-std::optional<PenetrationRecovery> penetrationRecoveryOf(const Side& body, const Side& thing, double tau,
+std::optional<PenetrationRecovery> penetrationRecoveryOf(const Side& body, const Side& collider, double tau,
                                                          const Vec3& free) {
   TriangleTree sheet;
-  const TriangleTree* tree = facesOf(*thing.shape, sheet);
+  const TriangleTree* tree = facesOf(*collider.shape, sheet);
   if (!tree) return {};
-  const Inside inside(body, thing, tau);
-  const Vec3 from = thing.at(tau).pose.inverse() * free, back = from - inside.middle;
-  std::optional<PenetrationRecovery> way;
-  if (const std::int32_t first = firstOnWay(*tree, from, inside.middle); first >= 0) {
+  const Inside inside(body, collider, tau);
+  const Vec3 from = collider.at(tau).pose.inverse() * free, back = from - inside.middle;
+  std::optional<PenetrationRecovery> recovery;
+  if (const std::int32_t first = firstCrossed(*tree, from, inside.middle); first >= 0) {
     const Triangle& t = tree->triangles()[static_cast<std::size_t>(first)];
     if (!(std::fabs(t.normal.dot(inside.middle - t.v[0])) < kDeepest)) return {};
     const double side = t.normal.dot(back) < 0 ? -1 : 1;
-    way = PenetrationRecovery{0, side * t.normal, side};
-  } else if (overlaps(body, thing, tau)) {
-    way = mostAlong(inside, *tree, back.normalized());
+    recovery = PenetrationRecovery{0, side * t.normal, side};
+  } else if (overlaps(body, collider, tau)) {
+    recovery = mostAlong(inside, *tree, back.normalized());
   }
-  if (!way) return {};
-  way->of = thing.key.id;
-  if (!barrier(body, thing, tau, *way)) return {};
-  return way;
+  if (!recovery) return {};
+  recovery->of = collider.key.id;
+  if (!barrier(body, collider, tau, *recovery)) return {};
+  return recovery;
 }
 
-std::optional<PlaneShape> barrier(const Side& body, const Side& thing, double tau,
-                                  const PenetrationRecovery& way) {
+std::optional<PlaneShape> barrier(const Side& body, const Side& collider, double tau,
+                                  const PenetrationRecovery& recovery) {
   TriangleTree sheet;
-  const TriangleTree* tree = facesOf(*thing.shape, sheet);
+  const TriangleTree* tree = facesOf(*collider.shape, sheet);
   if (!tree) return {};
-  const Inside inside(body, thing, tau);
-  const Vec3& n = way.normal;
-  const auto bars = [&](const Triangle& t) { return way.side * t.normal.dot(n) > kUpright; };
+  const Inside inside(body, collider, tau);
+  const Vec3& n = recovery.normal;
+  const auto bars = [&](const Triangle& t) { return recovery.side * t.normal.dot(n) > kUpright; };
   double top = 0, level = -1e300;
   for (int i = 0; i < 3; ++i) top += n[i] * (n[i] < 0 ? inside.box.lo[i] : inside.box.hi[i]);
   tree->eachOverlapping(inside.box, [&](std::uint32_t i) {
@@ -184,18 +184,18 @@ std::optional<PlaneShape> barrier(const Side& body, const Side& thing, double ta
   bool below = false;
   // What leans over as it comes out sinks in by its own length at most.
   const Vec3 far = inside.middle + (kDeepest + 2 * body.bound().radius) * n;
-  if (const std::int32_t above = firstOnWay(*tree, inside.middle, far); above >= 0) {
+  if (const std::int32_t above = firstCrossed(*tree, inside.middle, far); above >= 0) {
     const Triangle& t = tree->triangles()[static_cast<std::size_t>(above)];
     below = bars(t);
     if (below)
-      level = std::max(level, n.dot(inside.middle + meets(t, inside.middle, far) * (far - inside.middle)));
+      level = std::max(level, n.dot(inside.middle + crossing(t, inside.middle, far) * (far - inside.middle)));
   }
   if (!(level + inside.extent(-n) > kOut)) return {};
   if (!below) {
-    const double gap = gapBetween(body, thing, tau, {0.01}).distance;
-    if (gap > (isMesh(*body.shape) && isMesh(*thing.shape) ? 1e-6 : -kOut)) return {};
+    const double gap = gapBetween(body, collider, tau, {0.01}).distance;
+    if (gap > (isMesh(*body.shape) && isMesh(*collider.shape) ? 1e-6 : -kOut)) return {};
   }
-  const Pose X = thing.at(tau).pose;
+  const Pose X = collider.at(tau).pose;
   Mat3 axes = basisAround(X.q * n);
   axes.col(0).swap(axes.col(2));
   axes.col(0) = axes.col(1).cross(axes.col(2));

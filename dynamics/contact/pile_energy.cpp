@@ -37,11 +37,7 @@ void PileEnergy::join(const Pile& pile) {
   }
   groups_.assign(pile.members, {});
   for (std::uint32_t i = 0; i < pile.members; ++i)
-    if (pushed_[i]) {
-      Group& g = groups_[of(i)];
-      g.touched = true;
-      g.driven = g.driven || driven_[i];
-    }
+    if (pushed_[i] && driven_[i]) groups_[of(i)].driven = true;
 }
 
 /// a M b of a member.

@@ -26,7 +26,7 @@ private:
     double across = 0;                        ///< start M end
     double fallsAtStart = 0, fallsAtEnd = 0;  ///< h v M g
     double lifts = 0;                         ///< by the shift [J]
-    bool driven = false, touched = false, deep = false;
+    bool driven = false, deep = false;
   };
   std::uint32_t of(std::uint32_t i);
   void join(const Pile& pile);

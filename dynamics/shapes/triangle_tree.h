@@ -38,9 +38,8 @@ public:
   explicit TriangleTree(const std::vector<std::array<Vec3, 3>>& triangles);
 
   bool empty() const { return triangles_.empty(); }
-  bool closed() const {
-    return closed_;
-  }  ///< encloses a volume: inside and outside are defined; a sheet with two sides does not
+  /// True if the triangles enclose a volume, so that inside and outside are defined. A sheet encloses none.
+  bool closed() const { return closed_; }
   const std::vector<Triangle>& triangles() const { return triangles_; }
   /// Corners of the triangles; equal ones are here once.
   const std::vector<Vec3>& corners() const { return corners_; }

@@ -42,8 +42,8 @@ public:
   std::uint64_t frame() const { return frame_; }  ///< counts frames
   Nanoseconds t0() const { return t0_; }          ///< start of the part
   Nanoseconds t1() const { return t1_; }          ///< end of the part; between frames, of the last one
-  double partStart() const { return from_; }      ///< tau of t0
-  double partEnd() const { return now_; }         ///< tau of t1; may lie beyond the window
+  double partStart() const { return partStart_; }      ///< tau of t0
+  double partEnd() const { return partEnd_; }         ///< tau of t1; may lie beyond the window
 
   Nanoseconds origin() const { return origin_; }  ///< start of the window
   Nanoseconds window() const { return window_; }  ///< length of the window
@@ -55,13 +55,13 @@ public:
   Instant instantAt(double tau) const { return Instant{origin_, 0}.plus(tau); }
   /// The share of the present part that is over at tau, in [0, 1].
   double shareAt(double tau) const {
-    return now_ > from_ ? std::clamp((tau - from_) / (now_ - from_), 0.0, 1.0) : 1;
+    return partEnd_ > partStart_ ? std::clamp((tau - partStart_) / (partEnd_ - partStart_), 0.0, 1.0) : 1;
   }
 
   template <class Fields>
   void state(Fields& f) {
     f("started", started_), f("t0", t0_), f("t1", t1_), f("origin", origin_), f("window", window_);
-    f("from", from_), f("now", now_), f("frame", frame_);
+    f("from", partStart_), f("now", partEnd_), f("frame", frame_);
     // The present lies in the window: from elsewhere, its end would be hours of simulation away.
     const bool isWindow = window_ >= kWindow && window_ <= kLongestWindow;
     const bool isNow = t0_ >= 0 && t0_ <= t1_ && origin_ >= 0 && origin_ <= t1_ && t1_ - origin_ < window_;
@@ -70,14 +70,14 @@ public:
 
 private:
   void measurePart() {
-    from_ = tauOf(t0_);
-    now_ = tauOf(t1_);
+    partStart_ = tauOf(t0_);
+    partEnd_ = tauOf(t1_);
   }
 
   bool started_ = false;
   Nanoseconds t0_ = 0, t1_ = 0, origin_ = 0;
   Nanoseconds window_ = kWindow;
-  double from_ = 0, now_ = 0;
+  double partStart_ = 0, partEnd_ = 0;
   std::uint64_t frame_ = 0;
 };
 

@@ -18,7 +18,7 @@ void forgetRecoveries(RigidBody& b, const WorldObjects& objects, double tau) {
   });
 }
 
-/// Where held bodies have been free last: in nothing, and not through anything since.
+/// Where held bodies were free last: they overlapped no collider, and have crossed none since.
 void PenetrationRecoveries::noteFreePlaces() {
   for (RigidBody* b : held_.list()) {
     if (b->mode != BodyMode::Held) continue;
@@ -31,16 +31,16 @@ void PenetrationRecoveries::noteFreePlaces() {
     box.hi.array() += b->bound.radius;
     bool free = true;
     boxes_.eachCollider(box, [&](const Collider& c) {
-      const Side thing = Side::of(c);
-      if (!free || !c.enabled || !objects_.mayTouch(self, thing)) return;
-      free = !overlaps(self, thing, time_.partEnd()) &&
-             !wentInto(thing, time_.partEnd(), b->grip.freePlace, middle);
+      const Side collider = Side::of(c);
+      if (!free || !c.enabled || !objects_.mayTouch(self, collider)) return;
+      free = !overlaps(self, collider, time_.partEnd()) &&
+             !wentInto(collider, time_.partEnd(), b->grip.freePlace, middle);
     });
     if (free) b->grip.freePlace = middle;
   }
 }
 
-/// A body that has been let go inside of something is to come out the way it went in.
+/// A body that a hand let go inside a collider returns the way it came.
 void PenetrationRecoveries::find(RigidBody& b) {
   b.grip.recoveries.clear();
   if (!b.grip.letGo) return;
@@ -55,10 +55,10 @@ void PenetrationRecoveries::find(RigidBody& b) {
   box.lo.array() -= b.bound.radius;
   box.hi.array() += b.bound.radius;
   boxes_.eachCollider(box, [&](const Collider& c) {
-    const Side thing = Side::of(c);
-    if (!c.enabled || !objects_.mayTouch(self, thing)) return;
-    if (const auto way = penetrationRecoveryOf(self, thing, tau, b.grip.freePlace))
-      b.grip.recoveries.push_back(*way);
+    const Side collider = Side::of(c);
+    if (!c.enabled || !objects_.mayTouch(self, collider)) return;
+    if (const auto recovery = penetrationRecoveryOf(self, collider, tau, b.grip.freePlace))
+      b.grip.recoveries.push_back(*recovery);
   });
   std::erase_if(recovering_, [&](BodyId id) {
     return id == b.id || !objects_.body(id) || objects_.body(id)->grip.recoveries.empty();

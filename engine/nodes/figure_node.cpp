@@ -4,7 +4,7 @@
 #include "engine/build/node_request.h"
 #include "engine/core/node_registry.h"
 #include "engine/nodes/clip_words.h"
-#include "engine/nodes/model_node.h"
+#include "engine/nodes/object_node.h"
 #include "engine/scene/scene.h"
 
 #include <algorithm>

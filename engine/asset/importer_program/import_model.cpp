@@ -14,7 +14,7 @@
 namespace stadion::importer {
 namespace {
 
-bool seenThrough(const Flat& flat) {
+bool hasTransparentVertex(const Flat& flat) {
   return std::ranges::any_of(flat.vertices, [](const FlatVertex& v) { return v.colour[3] != 255; });
 }
 
@@ -74,7 +74,7 @@ ImportedModel importModel(const Request& request) {
   addDropped(dropped, result.inventory);
   if (flat.triangles.empty() && !choice.hasGaps())
     throw Refusal(dropped.notFinite ? "holds no triangles with finite corners" : "holds no triangles");
-  readMaterials(scene, picturesOf(request), seenThrough(flat), result.mesh, result.inventory);
+  readMaterials(scene, picturesOf(request), hasTransparentVertex(flat), result.mesh, result.inventory);
   makeNormals(flat);
   turnMirrored(flat);
   joinInto(flat, result.mesh);

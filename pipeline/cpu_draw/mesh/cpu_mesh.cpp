@@ -5,7 +5,7 @@
 #include "pipeline/cpu_draw/mesh/cpu_material.h"
 #include "pipeline/gl/finite.h"
 #include "pipeline/gl/problem.h"
-#include "pipeline/gl_draw/gpu/surface_check.h"
+#include "pipeline/surface/mesh_check.h"
 
 #include <algorithm>
 #include <limits>
@@ -64,7 +64,7 @@ CpuMesh::CpuMesh(const Mesh& mesh, Look look) {
   copyExtras(mesh);
   Surface surface;
   makeMaterials(mesh, look, surface);
-  const bool open = !encloses(mesh);
+  const bool open = !isClosed(mesh);
   addLevel(mesh, mesh.indices, mesh.submeshes, open, surface);
   for (const MeshLevel& level : mesh.levels) addLevel(mesh, level.indices, level.submeshes, open, surface);
   for (auto* corners : {&surface.a, &surface.b, &surface.c})

@@ -1,7 +1,7 @@
 #include "pipeline/cpu_draw/mesh/cpu_texture.h"
 
 #include "engine/maths/srgb.h"
-#include "pipeline/gl_draw/gpu/mask_levels.h"
+#include "pipeline/surface/mask_levels.h"
 
 #include <algorithm>
 #include <array>

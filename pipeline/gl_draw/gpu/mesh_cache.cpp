@@ -3,8 +3,8 @@
 #include "engine/maths/srgb.h"
 #include "pipeline/gl/finite.h"
 #include "pipeline/gl/problem.h"
-#include "pipeline/gl_draw/gpu/mask_levels.h"
-#include "pipeline/gl_draw/gpu/surface_check.h"
+#include "pipeline/surface/mask_levels.h"
+#include "pipeline/surface/mesh_check.h"
 #include "pipeline/shader/uniform_blocks.h"
 
 #include <algorithm>
@@ -318,7 +318,7 @@ void MeshCache::uploadMaterials(const Mesh& mesh, GlMesh& out) {
 
 /// Lists the parts of all levels. Expects the textures.
 void MeshCache::listParts(const Mesh& mesh, const std::vector<MapTexture>& textures, GlMesh& out) const {
-  const PartMaker make{mesh, out, textures, materialStride(), !encloses(mesh)};
+  const PartMaker make{mesh, out, textures, materialStride(), !isClosed(mesh)};
   for (const Submesh& part : mesh.submeshes) {
     out.parts.push_back(make.partOf(part, mesh.indices, 0));
     out.transparentParts += mesh.materials[part.material].transparent();

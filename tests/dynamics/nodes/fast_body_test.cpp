@@ -3,7 +3,7 @@
 
 #include "dynamics/collision/shape_choice.h"
 #include "engine/input/tracker_jump.h"
-#include "engine/nodes/model_node.h"
+#include "engine/nodes/object_node.h"
 #include "engine/nodes/path_node.h"
 #include "engine/nodes/rig_node.h"
 #include "tests/dynamics/nodes/show_nodes.h"

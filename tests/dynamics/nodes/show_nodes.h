@@ -4,7 +4,7 @@
 #include "dynamics/collision/shape_choice.h"
 #include "dynamics/nodes/collision_node.h"
 #include "dynamics/nodes/dynamics_node.h"
-#include "engine/nodes/model_node.h"
+#include "engine/nodes/object_node.h"
 #include "tests/engine/scene/show_fixture.h"
 
 namespace stadion::show_nodes {

@@ -6,7 +6,7 @@
 #include "engine/input/input_recorder.h"
 #include "engine/nodes/group_node.h"
 #include "engine/nodes/lod_node.h"
-#include "engine/nodes/model_node.h"
+#include "engine/nodes/object_node.h"
 #include "engine/nodes/path_node.h"
 #include "engine/nodes/scene_node.h"
 #include "engine/nodes/sway_node.h"

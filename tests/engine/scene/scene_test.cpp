@@ -1,4 +1,4 @@
-#include "engine/nodes/model_node.h"
+#include "engine/nodes/object_node.h"
 #include "engine/nodes/scene_node.h"
 #include "engine/scene/scene.h"
 #include "tests/engine/scene/show_fixture.h"

@@ -2,7 +2,7 @@
 #include "engine/asset/mesh_checks.h"
 #include "engine/asset/simplify.h"
 #include "engine/maths/srgb.h"
-#include "pipeline/gl_draw/gpu/mask_levels.h"
+#include "pipeline/surface/mask_levels.h"
 #include "pipeline/process/per_wall_process_renderer.h"
 #include "tests/pipeline/gl_draw/renderer_scene.h"
 

@@ -1,7 +1,7 @@
 // What the renderer promises besides its pixels: the same pictures everywhere, errors said once, nothing
 // lost.
 #include "engine/base/run_stopped.h"
-#include "pipeline/gl_draw/gpu/surface_check.h"
+#include "pipeline/surface/mesh_check.h"
 #include "tests/pipeline/gl_draw/renderer_scene.h"
 
 #include <gtest/gtest.h>
@@ -352,12 +352,12 @@ TEST(PictureRenderer, RefusesAMeshThatWouldReadBeyondItsVertices) {
 }
 
 TEST(RendererSurface, ClosedMeshesEncloseAndOpenOnesDoNot) {
-  EXPECT_TRUE(encloses(*ball()));
-  EXPECT_TRUE(encloses(*MeshMaker(matt(1, 1, 1)).box({0, 0, 0}, {1, 2, 3}).seal()));
-  EXPECT_FALSE(encloses(*MeshMaker(matt(1, 1, 1)).quad({0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}).seal()));
+  EXPECT_TRUE(isClosed(*ball()));
+  EXPECT_TRUE(isClosed(*MeshMaker(matt(1, 1, 1)).box({0, 0, 0}, {1, 2, 3}).seal()));
+  EXPECT_FALSE(isClosed(*MeshMaker(matt(1, 1, 1)).quad({0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}).seal()));
   auto holed = MeshMaker(matt(1, 1, 1)).box({0, 0, 0}, {1, 2, 3}).seal();
   holed->indices.resize(holed->indices.size() - 3);
-  EXPECT_FALSE(encloses(*holed));
+  EXPECT_FALSE(isClosed(*holed));
 }
 
 TEST(RendererSurface, EveryKindOfDamageIsNamed) {

@@ -1,4 +1,4 @@
-#include "pipeline/gl_draw/gpu/surface_check.h"
+#include "pipeline/surface/mesh_check.h"
 
 #include <algorithm>
 #include <bit>
@@ -37,7 +37,7 @@ std::uint64_t edge(std::uint64_t from, std::uint64_t to) {
 
 }  // namespace
 
-bool encloses(const Mesh& mesh) {
+bool isClosed(const Mesh& mesh) {
   std::uint64_t balance = 0;
   for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
     const std::uint64_t a = placeOf(mesh, mesh.indices[i]);

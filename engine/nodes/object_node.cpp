@@ -1,4 +1,4 @@
-#include "engine/nodes/model_node.h"
+#include "engine/nodes/object_node.h"
 
 #include "engine/build/lint.h"
 #include "engine/build/node_request.h"

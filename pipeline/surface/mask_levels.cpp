@@ -1,4 +1,4 @@
-#include "pipeline/gl_draw/gpu/mask_levels.h"
+#include "pipeline/surface/mask_levels.h"
 
 #include "engine/maths/srgb.h"
 
