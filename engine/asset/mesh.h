@@ -5,6 +5,7 @@
 /// Threads  immutable after import: shared by App, every Cull and every Draw without locks.
 
 #include "engine/asset/material.h"
+#include "engine/figure/morph.h"
 #include "engine/figure/skeleton.h"
 #include "engine/maths/maths.h"
 
@@ -45,6 +46,7 @@ struct Mesh {
       colours;  ///< per vertex: colour in sRGB, alpha linear; same length, or empty
   /// What carries each vertex of a figure; same length as positions, or empty.
   std::vector<VertexJoints> joints;
+  std::vector<Morph> morphs;           ///< morph targets of a figure
   std::vector<std::uint32_t> indices;  ///< triangles, counter-clockwise seen from outside
   std::vector<Submesh> submeshes;
   std::vector<Material> materials;  ///< never empty

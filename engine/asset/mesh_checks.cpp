@@ -65,6 +65,13 @@ void addSkeleton(const Mesh& mesh, Hash& hash) {
       hash.add(c.values);
     }
   }
+  for (const MorphWeight& w : mesh.skeleton->weights) hash.add(w.name), hash.add(w.rest);
+  for (const Morph& m : mesh.morphs) {
+    hash.add(std::uint64_t{19} << 32 | m.weight);
+    hash.add(m.vertices);
+    hash.add(m.positions);
+    hash.add(m.normals);
+  }
 }
 
 void addMap(const MaterialMap& map, std::uint64_t kind, Hash& hash) {
@@ -134,7 +141,7 @@ std::uint64_t contentHash(const Mesh& mesh) {
 /// A figure is seen in any pose, so its bounds hold for all of them.
 void boundFigure(Mesh& mesh) {
   auto skeleton = std::make_shared<Skeleton>(*mesh.skeleton);
-  skeleton->reach = figureReach(*skeleton, mesh.positions, mesh.joints);
+  skeleton->reach = figureReach(*skeleton, mesh.positions, mesh.joints, mesh.morphs);
   mesh.sphere = skeleton->reach;
   mesh.bounds = {};
   mesh.bounds.include(Vec3(mesh.sphere.centre - Vec3::Constant(mesh.sphere.radius)));

@@ -6,18 +6,19 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <type_traits>
 
 namespace stadion {
 namespace {
 
 constexpr std::uint32_t kMagic = 0x4d445453;  // "STDM"
-constexpr std::uint32_t kVersion = 5;
+constexpr std::uint32_t kVersion = 6;
 
 struct Head {
   std::uint32_t magic, version;
   std::uint32_t vertices, indices, submeshes, materials, textures;
-  std::uint32_t hasUvs, hasSecondUvs, hasTangents, hasColours, hasSkeleton;
+  std::uint32_t hasUvs, hasSecondUvs, hasTangents, hasColours, hasSkeleton, morphs;
   double place[12];  ///< columns
 };
 
@@ -158,6 +159,29 @@ bool readGeometry(ValueReader& in, const Head& head, Mesh& mesh) {
          in.get(mesh.submeshes, head.submeshes);
 }
 
+struct MorphRecord {
+  std::uint32_t weight, vertices, hasNormals, unused;
+};
+
+bool readMorphs(ValueReader& in, const Head& head, const MeshLimits& limits, const Skeleton& skeleton,
+                std::vector<Morph>& morphs) {
+  std::uint64_t left = limits.morphedVertices;
+  for (std::uint32_t i = 0; i < head.morphs; ++i) {
+    MorphRecord r{};
+    Morph& m = morphs.emplace_back();
+    if (!in.get(r) || r.weight >= skeleton.weights.size() || r.vertices > left) return false;
+    left -= r.vertices;
+    m.weight = r.weight;
+    if (!in.get(m.vertices, r.vertices) || !in.get(m.positions, r.vertices) ||
+        !in.get(m.normals, r.hasNormals ? r.vertices : 0))
+      return false;
+    const bool ascend = std::ranges::adjacent_find(m.vertices, std::greater_equal<>()) == m.vertices.end();
+    if (!ascend || (!m.vertices.empty() && m.vertices.back() >= head.vertices)) return false;
+    if (!finite(m.positions) || !finite(m.normals)) return false;
+  }
+  return true;
+}
+
 bool readFigure(ValueReader& in, const Head& head, const MeshLimits& limits, Mesh& mesh) {
   if (!head.hasSkeleton) return true;
   auto skeleton = readSkeleton(in, limits.skeleton);
@@ -172,6 +196,7 @@ bool readFigure(ValueReader& in, const Head& head, const MeshLimits& limits, Mes
     for (const std::uint16_t joint : v.joint)
       if (joint >= skeleton->joints.size()) return false;
   }
+  if (!readMorphs(in, head, limits, *skeleton, mesh.morphs)) return false;
   mesh.skeleton = std::make_shared<const Skeleton>(std::move(*skeleton));
   return true;
 }
@@ -215,6 +240,7 @@ Head headOf(const Mesh& mesh) {
             !mesh.tangents.empty(),
             !mesh.colours.empty(),
             mesh.skeleton != nullptr,
+            count(mesh.morphs),
             {}};
   std::copy_n(mesh.place.data(), 12, head.place);
   return head;
@@ -244,7 +270,15 @@ std::vector<std::uint8_t> encode(const Mesh& mesh) {
     putName(out, t.name);
     out.put(t.rgba);
   }
-  if (mesh.skeleton) writeSkeleton(*mesh.skeleton, out);
+  if (mesh.skeleton) {
+    writeSkeleton(*mesh.skeleton, out);
+    for (const Morph& m : mesh.morphs) {
+      out.put(MorphRecord{m.weight, static_cast<std::uint32_t>(m.vertices.size()), !m.normals.empty(), 0});
+      out.put(m.vertices);
+      out.put(m.positions);
+      out.put(m.normals);
+    }
+  }
   return std::move(out.bytes);
 }
 
@@ -256,7 +290,7 @@ Result<std::unique_ptr<Mesh>> decode(std::span<const std::uint8_t> bytes, const 
     return Decoded::failure("not a mesh of this version");
   if (head.vertices > limits.vertices || head.indices / 3 > limits.triangles || head.indices % 3 != 0 ||
       head.materials > limits.materials || head.materials == 0 || head.textures > limits.textures ||
-      head.submeshes > limits.materials)
+      head.submeshes > limits.materials || head.morphs > limits.morphs || (head.morphs && !head.hasSkeleton))
     return Decoded::failure("a mesh beyond the limits");
   auto mesh = std::make_unique<Mesh>();
   if (!readGeometry(in, head, *mesh) || !readMaterials(in, head, *mesh) ||

@@ -23,6 +23,8 @@ struct MeshLimits {
   std::uint32_t textures = 256;
   std::uint32_t textureSide = 8192;                 ///< [pixels]
   std::uint64_t textureBytes = 512u * 1024 * 1024;  ///< all textures together
+  std::uint32_t morphs = 4096;
+  std::uint64_t morphedVertices = 50'000'000;  ///< of all morph targets together
   SkeletonLimits skeleton;
 };
 

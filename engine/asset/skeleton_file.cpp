@@ -7,7 +7,7 @@ namespace stadion {
 namespace {
 
 struct SkeletonHead {
-  std::uint32_t bones, joints, clips;
+  std::uint32_t bones, joints, clips, weights;
 };
 
 struct BoneRecord {
@@ -54,11 +54,12 @@ bool ascendAndFinite(const ClipChannel& c) {
          std::ranges::all_of(c.values, finite);
 }
 
-bool readChannel(ValueReader& in, std::size_t bones, std::uint64_t& keysLeft, ClipChannel& c) {
+bool readChannel(ValueReader& in, const SkeletonHead& head, std::uint64_t& keysLeft, ClipChannel& c) {
   ChannelRecord r{};
-  if (!in.get(r) || r.bone >= bones || r.target > ChannelTarget::Scale ||
-      r.interpolation > Interpolation::Cubic || r.times == 0 || r.values > keysLeft)
+  if (!in.get(r) || r.target > ChannelTarget::Weights || r.interpolation > Interpolation::Cubic ||
+      r.times == 0 || r.values > keysLeft)
     return false;
+  if (r.bone >= (r.target == ChannelTarget::Weights ? head.weights : head.bones)) return false;
   keysLeft -= r.values;
   c.bone = r.bone;
   c.target = r.target;
@@ -68,13 +69,13 @@ bool readChannel(ValueReader& in, std::size_t bones, std::uint64_t& keysLeft, Cl
          in.get(c.values, r.values) && ascendAndFinite(c);
 }
 
-bool readClip(ValueReader& in, std::size_t bones, std::uint64_t& keysLeft, Clip& clip) {
+bool readClip(ValueReader& in, const SkeletonHead& head, std::uint64_t& keysLeft, Clip& clip) {
   std::uint32_t channels = 0;
   if (!getName(in, clip.name) || !in.get(clip.length) || !in.get(channels)) return false;
   if (!std::isfinite(clip.length) || channels > in.left() / sizeof(ChannelRecord)) return false;
   clip.channels.resize(channels);
   return std::ranges::all_of(clip.channels,
-                             [&](ClipChannel& c) { return readChannel(in, bones, keysLeft, c); });
+                             [&](ClipChannel& c) { return readChannel(in, head, keysLeft, c); });
 }
 
 }  // namespace
@@ -94,7 +95,8 @@ bool getName(ValueReader& in, std::string& text) {
 
 void writeSkeleton(const Skeleton& skeleton, ValueWriter& out) {
   const auto count = [](const auto& v) { return static_cast<std::uint32_t>(v.size()); };
-  out.put(SkeletonHead{count(skeleton.bones), count(skeleton.joints), count(skeleton.clips)});
+  out.put(SkeletonHead{count(skeleton.bones), count(skeleton.joints), count(skeleton.clips),
+                       count(skeleton.weights)});
   for (const Bone& bone : skeleton.bones) {
     BoneRecord r{bone.parent, {}, {}, {}, {}};
     copyTo(bone.X_PB.data(), r.matrix), copyTo(bone.rest.translation.data(), r.translation);
@@ -106,6 +108,10 @@ void writeSkeleton(const Skeleton& skeleton, ValueWriter& out) {
     JointRecord r{joint.bone, {}};
     copyTo(joint.X_BN.data(), r.matrix);
     out.put(r);
+  }
+  for (const MorphWeight& w : skeleton.weights) {
+    out.put(w.rest);
+    putName(out, w.name);
   }
   for (const Clip& clip : skeleton.clips) {
     putName(out, clip.name);
@@ -122,7 +128,7 @@ void writeSkeleton(const Skeleton& skeleton, ValueWriter& out) {
 std::optional<Skeleton> readSkeleton(ValueReader& in, const SkeletonLimits& limits) {
   SkeletonHead head{};
   if (!in.get(head) || head.bones == 0 || head.bones > limits.bones || head.joints > limits.joints ||
-      head.clips > limits.clips)
+      head.clips > limits.clips || head.weights > limits.weights)
     return {};
   Skeleton skeleton;
   for (std::uint32_t i = 0; i < head.bones; ++i)
@@ -133,9 +139,13 @@ std::optional<Skeleton> readSkeleton(ValueReader& in, const SkeletonLimits& limi
     if (!in.get(r) || r.bone >= head.bones || !takeFinite(r.matrix, joint.X_BN.data())) return {};
     joint.bone = r.bone;
   }
+  for (std::uint32_t i = 0; i < head.weights; ++i) {
+    MorphWeight& w = skeleton.weights.emplace_back();
+    if (!in.get(w.rest) || !std::isfinite(w.rest) || !getName(in, w.name)) return {};
+  }
   std::uint64_t keysLeft = limits.keys;
   for (std::uint32_t i = 0; i < head.clips; ++i)
-    if (!readClip(in, head.bones, keysLeft, skeleton.clips.emplace_back())) return {};
+    if (!readClip(in, head, keysLeft, skeleton.clips.emplace_back())) return {};
   return skeleton;
 }
 

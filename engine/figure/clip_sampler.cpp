@@ -86,6 +86,7 @@ std::array<double, 4> sampleChannel(const ClipChannel& channel, double time) {
 
 void sampleClip(const Clip& clip, double time, std::span<BonePlace> places) {
   for (const ClipChannel& channel : clip.channels) {
+    if (channel.target == ChannelTarget::Weights) continue;
     const Value v = sampleChannel(channel, time);
     BonePlace& place = places[channel.bone];
     switch (channel.target) {
@@ -95,6 +96,11 @@ void sampleClip(const Clip& clip, double time, std::span<BonePlace> places) {
     case ChannelTarget::Weights: break;
     }
   }
+}
+
+void sampleWeights(const Clip& clip, double time, std::span<double> weights) {
+  for (const ClipChannel& channel : clip.channels)
+    if (channel.target == ChannelTarget::Weights) weights[channel.bone] = sampleChannel(channel, time)[0];
 }
 
 }  // namespace stadion

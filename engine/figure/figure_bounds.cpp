@@ -55,6 +55,40 @@ void includeKeys(const ClipChannel& c, Range& range) {
   }
 }
 
+/// The numbers of a cubic weight lie between its Bézier points, too.
+void includeWeights(const ClipChannel& c, double& most) {
+  const bool cubic = c.interpolation == Interpolation::Cubic;
+  for (std::size_t key = 0; key < c.times.size(); ++key) {
+    const auto number = [&](std::size_t which) { return double{c.values[cubic ? 3 * key + which : key]}; };
+    const double value = number(cubic ? 1 : 0);
+    most = std::max(most, std::fabs(value));
+    if (!cubic) continue;
+    if (key > 0)
+      most = std::max(most,
+                      std::fabs(value - (double{c.times[key]} - double{c.times[key - 1]}) / 3 * number(0)));
+    if (key + 1 < c.times.size())
+      most = std::max(most,
+                      std::fabs(value + (double{c.times[key + 1]} - double{c.times[key]}) / 3 * number(2)));
+  }
+}
+
+/// How far morph targets may move each vertex [m].
+std::vector<double> morphReach(const Skeleton& skeleton, std::size_t vertices,
+                               std::span<const Morph> morphs) {
+  std::vector<double> most;
+  for (const MorphWeight& w : skeleton.weights) most.push_back(std::fabs(double{w.rest}));
+  for (const Clip& clip : skeleton.clips)
+    for (const ClipChannel& channel : clip.channels)
+      if (channel.target == ChannelTarget::Weights) includeWeights(channel, most[channel.bone]);
+  std::vector<double> reach(vertices, 0);
+  for (const Morph& m : morphs)
+    for (std::size_t i = 0; i < m.vertices.size(); ++i) {
+      const auto& d = m.positions[i];
+      reach[m.vertices[i]] += most[m.weight] * Vec3(double{d[0]}, double{d[1]}, double{d[2]}).norm();
+    }
+  return reach;
+}
+
 std::vector<Range> rangesOf(const Skeleton& skeleton) {
   std::vector<Range> ranges;
   for (const Bone& bone : skeleton.bones) {
@@ -95,14 +129,18 @@ Region regionOf(const Bone& bone, const Range& range, const std::vector<Region>&
 
 /// The part of a mesh that a joint carries, in its bone's coordinates.
 std::vector<Aabb> carriedBoxes(const Skeleton& skeleton, std::span<const std::array<float, 3>> positions,
-                               std::span<const VertexJoints> joints) {
+                               std::span<const VertexJoints> joints, const std::vector<double>& further) {
   std::vector<Aabb> boxes(skeleton.joints.size());
+  std::vector<double> scales;
+  for (const Joint& joint : skeleton.joints) scales.push_back(widening(joint.X_BN.linear()));
   for (std::size_t i = 0; i < positions.size(); ++i) {
     const Vec3 p(double{positions[i][0]}, double{positions[i][1]}, double{positions[i][2]});
     for (std::size_t k = 0; k < VertexJoints::kMost; ++k)
       if (joints[i].weight[k] > 0) {
         const std::size_t joint = joints[i].joint[k];
-        boxes[joint].include(skeleton.joints[joint].X_BN * p);
+        const Vec3 at = skeleton.joints[joint].X_BN * p, spare = Vec3::Constant(scales[joint] * further[i]);
+        boxes[joint].include(Vec3(at - spare));
+        boxes[joint].include(Vec3(at + spare));
       }
   }
   return boxes;
@@ -111,14 +149,15 @@ std::vector<Aabb> carriedBoxes(const Skeleton& skeleton, std::span<const std::ar
 }  // namespace
 
 Sphere figureReach(const Skeleton& skeleton, std::span<const std::array<float, 3>> positions,
-                   std::span<const VertexJoints> joints) {
+                   std::span<const VertexJoints> joints, std::span<const Morph> morphs) {
   const std::vector<Range> ranges = rangesOf(skeleton);
   std::vector<Region> regions;
   for (std::size_t i = 0; i < skeleton.bones.size(); ++i)
     regions.push_back(regionOf(skeleton.bones[i], ranges[i], regions));
   std::vector<Sphere> spheres;
   for (const Region& region : regions) spheres.push_back(region.origin);
-  const std::vector<Aabb> boxes = carriedBoxes(skeleton, positions, joints);
+  const std::vector<Aabb> boxes =
+      carriedBoxes(skeleton, positions, joints, morphReach(skeleton, positions.size(), morphs));
   for (std::size_t j = 0; j < boxes.size(); ++j)
     if (!boxes[j].empty())
       spheres.push_back(carried(regions[skeleton.joints[j].bone], boxes[j].centre(),

@@ -24,6 +24,7 @@ void FigurePose::set(const Skeleton& skeleton, const FigureRecord& playing) {
     if (playing.layers[i].clip < skeleton.clips.size()) blend(skeleton, playing.layers[i]);
   placeBones(skeleton);
   makePalette(skeleton);
+  setWeights(skeleton, playing);
 }
 
 void FigurePose::takeRest(const Skeleton& skeleton, std::vector<BonePlace>& places) const {
@@ -37,9 +38,28 @@ void FigurePose::blend(const Skeleton& skeleton, const ClipLayer& layer) {
   const Clip& clip = skeleton.clips[layer.clip];
   takeRest(skeleton, layer_);
   sampleClip(clip, layer.time, layer_);
-  for (const ClipChannel& channel : clip.channels) moved_[channel.bone] = 1;
+  for (const ClipChannel& channel : clip.channels)
+    if (channel.target != ChannelTarget::Weights) moved_[channel.bone] = 1;
   for (std::size_t i = 0; i < places_.size(); ++i)
     if (moved_[i]) mix(places_[i], layer_[i], weight);
+}
+
+void FigurePose::setWeights(const Skeleton& skeleton, const FigureRecord& playing) {
+  weights_.clear();
+  if (skeleton.weights.empty()) return;
+  std::vector<double> rest, under;
+  for (const MorphWeight& w : skeleton.weights) rest.push_back(double{w.rest});
+  under = rest;
+  const std::size_t layers = std::min<std::size_t>(playing.layerCount, FigureRecord::kMostLayers);
+  for (std::size_t i = 0; i < layers; ++i) {
+    const ClipLayer& layer = playing.layers[i];
+    if (layer.clip >= skeleton.clips.size()) continue;
+    std::vector<double> over = rest;
+    sampleWeights(skeleton.clips[layer.clip], layer.time, over);
+    const double share = std::clamp(double{layer.weight}, 0.0, 1.0);
+    for (std::size_t k = 0; k < under.size(); ++k) under[k] += share * (over[k] - under[k]);
+  }
+  weights_.assign(under.begin(), under.end());
 }
 
 /// A bone that no clip moves keeps its matrix, which may shear.

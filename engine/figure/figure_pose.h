@@ -5,10 +5,11 @@
 ///     pose.set(skeleton, record);
 ///     pose.bone(i);     // X_NB
 ///     pose.palette();   // a matrix for each joint, for skinning
+///     pose.weights();   // a weight for each morph target
 ///
-/// Blending  a layer of weight w over a pose: translations and scales on the straight line, rotations with
-///           constant angular velocity, the short way. A bone that a layer's clip does not move counts as at
-///           rest there.
+/// Blending  a layer of weight w over a pose: translations, scales and weights of morph targets on the straight
+///           line, rotations with constant angular velocity, the short way. What a layer's clip does not move
+///           counts as at rest there.
 /// Threads   one at a time for each object; the results depend on the arguments alone.
 
 #include "engine/figure/figure_record.h"
@@ -32,10 +33,13 @@ public:
   const Affine& bone(std::size_t i) const { return bones_[i]; }
   /// By joint. Valid until the next call of set().
   std::span<const JointMatrix> palette() const { return palette_; }
+  /// By morph weight (Skeleton::weights). Valid until the next call of set().
+  std::span<const float> weights() const { return weights_; }
 
 private:
   void takeRest(const Skeleton& skeleton, std::vector<BonePlace>& places) const;
   void blend(const Skeleton& skeleton, const ClipLayer& layer);
+  void setWeights(const Skeleton& skeleton, const FigureRecord& playing);
   void placeBones(const Skeleton& skeleton);
   void makePalette(const Skeleton& skeleton);
 
@@ -43,6 +47,7 @@ private:
   std::vector<char> moved_;  ///< by bone: some layer moves it
   std::vector<Affine> bones_;
   std::vector<JointMatrix> palette_;
+  std::vector<float> weights_;
 };
 
 }  // namespace stadion

@@ -58,16 +58,24 @@ struct VertexJoints {
 enum class ChannelTarget : std::uint8_t { Translation, Rotation, Scale, Weights };
 enum class Interpolation : std::uint8_t { Step, Linear, Cubic };
 
+/// The weight of a morph target (morph.h).
+struct MorphWeight {
+  std::string name;
+  float rest = 0;  ///< where no clip moves it
+};
+
 /// Keys of one property of a bone, as in glTF 2.0, section 3.11. Times ascend. Each key has three numbers, a
-/// rotation four (x, y, z, w). A cubic key has three such values: tangent in, value, tangent out.
+/// rotation four (x, y, z, w), a weight one. A cubic key has three such values: tangent in, value, tangent out.
 struct ClipChannel {
-  std::uint32_t bone = 0;
+  std::uint32_t bone = 0;  ///< of Weights: which of Skeleton::weights instead
   ChannelTarget target = ChannelTarget::Translation;
   Interpolation interpolation = Interpolation::Linear;
   std::vector<float> times;  ///< [s]
   std::vector<float> values;
 
-  std::size_t width() const { return target == ChannelTarget::Rotation ? 4 : 3; }
+  std::size_t width() const {
+    return target == ChannelTarget::Rotation ? 4 : target == ChannelTarget::Weights ? 1 : 3;
+  }
 };
 
 struct Clip {
@@ -80,13 +88,14 @@ struct Skeleton {
   std::vector<Bone> bones;  ///< parents before their children
   std::vector<Joint> joints;
   std::vector<Clip> clips;
+  std::vector<MorphWeight> weights;
   /// Holds the origins and the carried vertices of all bones in N, whatever clips are played and blended. [m]
   Sphere reach;
 };
 
 /// The most that a skeleton may hold.
 struct SkeletonLimits {
-  std::uint32_t bones = 4096, joints = 4096, clips = 1024;
+  std::uint32_t bones = 4096, joints = 4096, clips = 1024, weights = 4096;
   std::uint64_t keys = 50'000'000;  ///< numbers of all keys
 };
 

@@ -72,10 +72,13 @@ CpuMesh::CpuMesh(const Mesh& mesh, Look look) {
   surface_ = std::make_shared<const Surface>(std::move(surface));
 }
 
-void CpuMesh::takePose(const Mesh& mesh, std::span<const JointMatrix> palette) {
+void CpuMesh::takePose(const Mesh& mesh, const FigurePose& pose) {
   constexpr std::size_t kBlock = 128;  // stays in the processor's cache
   posed_ = true;
-  const SkinSource source{mesh.positions, mesh.normals, mesh.joints};
+  const std::span<const JointMatrix> palette = pose.palette();
+  MorphedVertices morphed;
+  const SkinSource source =
+      morphed.apply({mesh.positions, mesh.normals, mesh.joints}, mesh.morphs, pose.weights());
   std::array<SkinnedVertex, kBlock> block;
   for (std::size_t first = 0; first < vertexCount_; first += kBlock) {
     const std::span<SkinnedVertex> some(block.data(), std::min(kBlock, vertexCount_ - first));

@@ -39,9 +39,9 @@ class CpuMesh {
 public:
   /// Expects a mesh without a drawingFault().
   CpuMesh(const Mesh& mesh, Look look);
-  /// Puts a figure into the pose of a palette. `mesh` is the one that this object, or the one that it is a copy
+  /// Puts a figure into a pose. `mesh` is the one that this object, or the one that it is a copy
   /// of, was made of; expects it to have a skeleton.
-  void takePose(const Mesh& mesh, std::span<const JointMatrix> palette);
+  void takePose(const Mesh& mesh, const FigurePose& pose);
   /// Returns true if its sections say nothing about where its triangles are.
   bool isPosed() const { return posed_; }
 

@@ -68,7 +68,7 @@ std::shared_ptr<const CpuMesh> PosedMeshes::find(const Mesh& mesh, const std::sh
   FigurePose bones;
   bones.set(*mesh.skeleton, playing);
   std::shared_ptr<CpuMesh> made = spares->take(*rest);
-  made->takePose(mesh, bones.palette());
+  made->takePose(mesh, bones);
   pose->mesh = std::move(made);
   return pose->mesh;
 }

@@ -43,7 +43,9 @@ FigureMeshes::Held* FigureMeshes::held(MeshId id, const Mesh& mesh, const GlMesh
 void FigureMeshes::pose(const Mesh& mesh, Held& figure) {
   pose_.set(*mesh.skeleton, figure.playing);
   vertices_.resize(mesh.positions.size());
-  skin({mesh.positions, mesh.normals, mesh.joints}, pose_.palette(), 0, vertices_);
+  const SkinSource source =
+      morphed_.apply({mesh.positions, mesh.normals, mesh.joints}, mesh.morphs, pose_.weights());
+  skin(source, pose_.palette(), 0, vertices_);
   tangents_.resize(mesh.tangents.size());
   skinTangents(mesh.tangents, mesh.joints, pose_.palette(), 0, tangents_);
   meshes_.setVertices(mesh, {vertices_, tangents_}, figure.gl);

@@ -47,6 +47,7 @@ private:
   std::uint64_t lists_ = 0;
   std::unordered_map<std::uint32_t, Held> figures_;
   FigurePose pose_;
+  MorphedVertices morphed_;
   std::vector<SkinnedVertex> vertices_;
   std::vector<std::array<float, 4>> tangents_;
 };

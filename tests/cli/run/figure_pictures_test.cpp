@@ -21,11 +21,13 @@ class FigureShow {
 public:
   FigureShow() {
     write("tube.glb", test::riggedTube().glb());
+    write("square.glb", test::morphingSquare().glb());
     write("show.evs", R"(light( direction="-1, 2, -3" )
 figure( name=left, file=tube.glb, clip=bend, position="-0.8, 4, 0",
         eventmessage="looped, right, play bend fade 0.3" )
 figure( name=right, file=tube.glb, clip=lift, phase=0.1, speed=0.6, position="0.8, 4, 0" )
 object( file=tube.glb, position="0, 6, 0" )
+figure( file=square.glb, clip=swell, position="-1, 5, 0" )
 )");
   }
 

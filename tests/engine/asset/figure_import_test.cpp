@@ -1,6 +1,6 @@
 #include "engine/asset/mesh_file.h"
 #include "engine/figure/figure_pose.h"
-#include "engine/figure/skinning.h"
+#include "engine/figure/morph.h"
 #include "tests/engine/asset/importing.h"
 #include "tests/engine/asset/rigged_model.h"
 
@@ -22,7 +22,9 @@ std::vector<SkinnedVertex> posed(const Mesh& mesh, std::uint32_t clip, double ti
   FigurePose pose;
   pose.set(*mesh.skeleton, playing);
   std::vector<SkinnedVertex> out(mesh.positions.size());
-  skin({mesh.positions, mesh.normals, mesh.joints}, pose.palette(), 0, out);
+  MorphedVertices morphed;
+  skin(morphed.apply({mesh.positions, mesh.normals, mesh.joints}, mesh.morphs, pose.weights()),
+       pose.palette(), 0, out);
   return out;
 }
 
@@ -59,6 +61,31 @@ TEST(FigureImport, ItsPosesAreThoseOfTheFile) {
   EXPECT_LT((rest - Vec3(-0.1, 0.1, 2)).norm(), 1e-6) << rest;
   EXPECT_LT((bent - Vec3(-1, 0.1, 1.1)).norm(), 1e-6) << bent;
   EXPECT_LT((lifted - Vec3(-0.1, 0.1, 2.5)).norm(), 1e-6) << lifted;
+}
+
+TEST(FigureImport, MorphTargetsFollowTheirClip) {
+  const Imported i = figureOf(morphingSquare());
+  ASSERT_TRUE(i.mesh) << i.error;
+  ASSERT_EQ(i.mesh->morphs.size(), 1U);
+  EXPECT_EQ(i.mesh->morphs[0].vertices.size(), 2U);
+  EXPECT_EQ(i.mesh->skeleton->weights[0].name, "open");
+  EXPECT_FLOAT_EQ(i.mesh->skeleton->weights[0].rest, 0.5f);
+  for (const double time : {0.0, 0.25, 1.0})
+    EXPECT_NEAR(extentOf(posed(*i.mesh, 0, time)).y(), 1 + time, 1e-6) << time;
+  EXPECT_TRUE(i.used("1 morph target (\"open\")")) << i.all();
+}
+
+TEST(FigureImport, AnObjectKeepsTheShapeOfItsWeightsAtRest) {
+  GltfBuilder b = morphingSquare();
+  b.json["nodes"].push_back(b.json["nodes"][0]);
+  b.json["nodes"][1]["translation"] = {0, 5, 0};
+  b.json["nodes"][1]["weights"] = {-0.5};
+  b.json["scenes"][0]["nodes"] = {0, 1};
+  const Imported i = figureOf(b, false);
+  ASSERT_TRUE(i.mesh) << i.error;
+  std::vector<float> widths;
+  for (const auto& p : i.mesh->positions) widths.push_back(p[0]);
+  EXPECT_EQ(widths, (std::vector<float>{0, 1.5f, 1.5f, 0, 0, 0.5f, 0.5f, 0}));
 }
 
 TEST(FigureImport, WithoutASkinEachNodeCarriesItsMesh) {

@@ -100,10 +100,11 @@ TEST(ModelInventory, NamesWhatAFileHolds) {
        {"2 lights (\"sun\", \"lamp\")", "1 camera (\"front\")",
         "2 clips (\"walk\", \"wave\"): an object plays none, use figure( )",
         "1 skin (\"rig\") of 1 bone: an object stands as its meshes are stored, use figure( )",
-        "1 morph target (\"smile\")", "1 line", "2 points",
-        "further texture coordinates of 1 mesh (\"body\")", "1 further vertex attribute (\"COLOR_1\")",
-        "1 further scene (\"night\")", "map \"clearcoatTexture\" of 1 material (\"skin\")",
-        "glTF extension \"KHR_materials_clearcoat\"", "unknown glTF extension \"ACME_smell\""})
+        "1 morph target (\"smile\"): an object keeps the shape of their weights at rest, use figure( )",
+        "1 line", "2 points", "further texture coordinates of 1 mesh (\"body\")",
+        "1 further vertex attribute (\"COLOR_1\")", "1 further scene (\"night\")",
+        "map \"clearcoatTexture\" of 1 material (\"skin\")", "glTF extension \"KHR_materials_clearcoat\"",
+        "unknown glTF extension \"ACME_smell\""})
     EXPECT_TRUE(full.leftOut(text)) << text << "\n" << full.all();
   EXPECT_EQ(full.losses.all().size(), full.inventory.texts(ContentUse::LeftOut).size() +
                                           full.inventory.texts(ContentUse::Approximated).size());

@@ -58,4 +58,22 @@ inline GltfBuilder riggedTube() {
   return b;
 }
 
+/// A square of 1 m that a morph target "open" stretches along the file's x by up to a metre. Its weight is 0.5 at
+/// rest; the clip "swell" takes it from 0 to 1 within a second.
+inline GltfBuilder morphingSquare() {
+  GltfBuilder b;
+  b.square();
+  const auto target =
+      b.accessor(std::vector<float>{0, 0, 0, 1, 0, 0, 1, 0, 0, 0, 0, 0}, GltfBuilder::kFloat, "VEC3", 4);
+  b.primitive()["targets"] = {{{"POSITION", target}}};
+  b.json["meshes"][0]["extras"] = {{"targetNames", {"open"}}};
+  b.json["meshes"][0]["weights"] = {0.5};
+  const auto times = b.accessor(std::vector<float>{0, 1}, GltfBuilder::kFloat, "SCALAR", 2);
+  const auto values = b.accessor(std::vector<float>{0, 1}, GltfBuilder::kFloat, "SCALAR", 2);
+  b.json["animations"] = {{{"name", "swell"},
+                           {"samplers", {{{"input", times}, {"output", values}}}},
+                           {"channels", {{{"sampler", 0}, {"target", {{"node", 0}, {"path", "weights"}}}}}}}};
+  return b;
+}
+
 }  // namespace stadion::test

@@ -1,6 +1,6 @@
 #include "engine/figure/figure_bounds.h"
 #include "engine/figure/figure_pose.h"
-#include "engine/figure/skinning.h"
+#include "engine/figure/morph.h"
 #include "tests/engine/figure/figures.h"
 
 #include <gtest/gtest.h>
@@ -141,6 +141,69 @@ TEST(FigurePose, NoClipAndNoBlendLeavesTheReach) {
             << seed;
     }
   }
+}
+
+/// A weight's keys overshoot between cubic ones; the reach holds for that, too.
+TEST(FigurePose, NoMorphTargetLeavesTheReach) {
+  for (unsigned seed = 0; seed < 20; ++seed) {
+    RandomKeys random(seed);
+    Skeleton s = chain(2);
+    s.clips.push_back(wildClip(s, seed));
+    s.weights = {{"smile", 0.3f}, {"blink", 0}};
+    for (std::uint32_t w = 0; w < 2; ++w)
+      s.clips[0].channels.push_back(channel(w, ChannelTarget::Weights,
+                                            w == 0 ? Interpolation::Cubic : Interpolation::Linear,
+                                            {0, 0.7f, 2}, random.many(w == 0 ? 9 : 3, -2, 2)));
+    std::vector<std::array<float, 3>> positions, normals;
+    std::vector<VertexJoints> joints(40);
+    std::vector<Morph> morphs(2);
+    for (std::uint32_t i = 0; i < 40; ++i) {
+      positions.push_back({random.in(-0.3, 0.3), random.in(-0.3, 0.3), random.in(0, 2)});
+      normals.push_back({0, 0, 1});
+      joints[i].joint[0] = static_cast<std::uint16_t>(i % 2);
+      morphs[i % 2].vertices.push_back(i);
+      morphs[i % 2].positions.push_back({random.in(-1, 1), random.in(-1, 1), random.in(-1, 1)});
+    }
+    morphs[1].weight = 1;
+    const Sphere reach = figureReach(s, positions, joints, morphs);
+    FigurePose pose;
+    MorphedVertices morphed;
+    std::vector<SkinnedVertex> out(positions.size());
+    for (int i = 0; i < 60; ++i) {
+      pose.set(s, playing({{0, 1, random.in(0, 2)}}));
+      skin(morphed.apply({positions, normals, joints}, morphs, pose.weights()), pose.palette(), 0, out);
+      for (const SkinnedVertex& v : out)
+        EXPECT_LE(
+            (Vec3(double{v.position[0]}, double{v.position[1]}, double{v.position[2]}) - reach.centre).norm(),
+            reach.radius)
+            << seed;
+    }
+  }
+}
+
+TEST(FigurePose, AMorphTargetAddsItsWeightTimesTheDifference) {
+  Skeleton s = chain(1);
+  s.weights = {{"smile", 0.25f}};
+  Clip clip{"laugh", 1, {}};
+  clip.channels.push_back(channel(0, ChannelTarget::Weights, Interpolation::Linear, {0, 1}, {0, 1}));
+  s.clips = {clip, {"still", 1, {}}};
+  const std::vector<std::array<float, 3>> positions{{0, 0, 0}, {1, 0, 0}}, normals(2, {0, 0, 1});
+  const std::vector<VertexJoints> joints(2);
+  const std::vector<Morph> morphs{{0, {1}, {{0, 0, 2}}, {{0, 1, -1}}}};
+  FigurePose pose;
+  MorphedVertices morphed;
+  const auto second = [&](const FigureRecord& record) {
+    pose.set(s, record);
+    std::vector<SkinnedVertex> out(2);
+    skin(morphed.apply({positions, normals, joints}, morphs, pose.weights()), pose.palette(), 0, out);
+    EXPECT_EQ(out[0].position, positions[0]);
+    return out[1];
+  };
+  EXPECT_FLOAT_EQ(second({}).position[2], 0.5f);
+  EXPECT_FLOAT_EQ(second(playing({{0, 1, 0.75}})).position[2], 1.5f);
+  EXPECT_FLOAT_EQ(second(playing({{0, 1, 1}})).normal[1], 1);
+  // Half of a clip that leaves the weight at rest.
+  EXPECT_FLOAT_EQ(second(playing({{0, 1, 1}, {1, 0.5f, 0}})).position[2], 1.25f);
 }
 
 }  // namespace

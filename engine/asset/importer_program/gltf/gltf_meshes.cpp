@@ -3,6 +3,7 @@
 #include "engine/asset/importer_program/source/name_list.h"
 
 #include <algorithm>
+#include <cmath>
 #include <set>
 
 namespace stadion::importer {
@@ -176,11 +177,19 @@ private:
 
 }  // namespace
 
+std::vector<float> weightsOf(const GltfValue& from) {
+  std::vector<float> weights;
+  for (const double w : from.numbers("weights"))
+    weights.push_back(std::isfinite(w) ? static_cast<float>(std::clamp(w, -1e6, 1e6)) : 0);
+  return weights;
+}
+
 void readGltfMeshes(GltfDocument& document, SourceScene& to) {
   for (const GltfValue& from : document.root().objects("meshes", "mesh")) {
     SourceMesh mesh;
     mesh.name = nameOf(from);
     mesh.targetNames = from.object("extras").texts("targetNames");
+    mesh.targetWeights = weightsOf(from);
     for (const GltfValue& part : from.objects("primitives", "primitive")) {
       GltfPrimitive primitive(document, part, to.materials.size());
       mesh.primitives.push_back(primitive.read());

@@ -65,6 +65,7 @@ private:
     }
     if (const auto mesh = from.index("mesh", to_.meshes.size())) node.meshes.push_back(*mesh);
     node.children = from.indices("children", nodes);
+    node.targetWeights = weightsOf(from);
     node.skin = numberOr(from.index("skin", skins));
     node.camera = numberOr(from.index("camera", to_.cameras.size()));
     node.light = numberOr(from.extension("KHR_lights_punctual").index("light", to_.lights.size()));

@@ -22,4 +22,7 @@ inline std::string nameOf(const GltfValue& value) {
   return value.text("name");
 }
 
+/// Returns the weights of morph targets that a mesh or a node states.
+std::vector<float> weightsOf(const GltfValue& from);
+
 }  // namespace stadion::importer

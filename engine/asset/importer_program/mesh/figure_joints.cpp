@@ -55,7 +55,8 @@ bool playable(const SourceChannel& c) {
 }  // namespace
 
 FigureJoints::FigureJoints(const SourceScene& scene, const SkeletonLimits& limits)
-    : scene_(scene), limits_(limits), boneOf_(scene.nodes.size(), -1), jointOfNode_(scene.nodes.size(), -1) {
+    : scene_(scene), limits_(limits), firstWeight_(scene.nodes.size(), -1), boneOf_(scene.nodes.size(), -1),
+      jointOfNode_(scene.nodes.size(), -1) {
   bones_.push_back({{}, -1, scene.toShow, placeOf(scene.toShow)});
   for (const std::uint32_t root : scene.roots) addBones(root);
   // A joint may lie outside of the shown scene.
@@ -66,6 +67,7 @@ FigureJoints::FigureJoints(const SourceScene& scene, const SkeletonLimits& limit
       addBones(at);
     }
   addJoints();
+  addWeights();
 }
 
 void FigureJoints::addBones(std::uint32_t root) {
@@ -103,6 +105,26 @@ void FigureJoints::addJoints() {
     throw Refusal("has more than " + std::to_string(limits_.joints) + " joints");
 }
 
+/// Each node has weights of its own, also if it shares a mesh.
+void FigureJoints::addWeights() {
+  for (std::size_t i = 0; i < scene_.nodes.size(); ++i) {
+    if (boneOf_[i] < 0) continue;
+    const SourceNode& node = scene_.nodes[i];
+    const std::size_t first = weights_.size();
+    for (const std::uint32_t number : node.meshes) {
+      const SourceMesh& mesh = scene_.meshes[number];
+      std::size_t targets = 0;
+      for (const SourcePrimitive& part : mesh.primitives) targets = std::max(targets, part.targets.size());
+      for (std::size_t k = weights_.size() - first; k < targets; ++k)
+        weights_.push_back(
+            {k < mesh.targetNames.size() ? mesh.targetNames[k] : std::string(), weightAtRest(node, mesh, k)});
+    }
+    if (weights_.size() > limits_.weights)
+      throw Refusal("has more than " + std::to_string(limits_.weights) + " morph targets");
+    if (weights_.size() > first) firstWeight_[i] = static_cast<std::int32_t>(first);
+  }
+}
+
 std::int32_t FigureJoints::skinOf(std::uint32_t node, std::uint32_t mesh) const {
   const std::int32_t own = scene_.meshes[mesh].skin;
   return own >= 0 ? own : scene_.nodes[node].skin;
@@ -134,15 +156,35 @@ VertexJoints FigureJoints::of(const SourcePrimitive& part, std::size_t vertex, s
   return v;
 }
 
+/// A channel for each weight, of the one that has the numbers of all.
+void FigureJoints::addWeightChannels(const SourceChannel& from, Clip& clip) const {
+  if (firstWeight_[from.node] < 0) return;
+  const auto first = static_cast<std::size_t>(firstWeight_[from.node]);
+  const std::size_t rows = from.times.size() * (from.interpolation == Interpolation::Cubic ? 3 : 1);
+  const std::size_t width = from.values.size() / rows;
+  for (std::size_t k = 0; k < width && first + k < weights_.size(); ++k) {
+    if (k > 0 && std::ranges::find(firstWeight_, static_cast<std::int32_t>(first + k)) != firstWeight_.end())
+      break;  // that of another node
+    ClipChannel c{
+        static_cast<std::uint32_t>(first + k), ChannelTarget::Weights, from.interpolation, from.times, {}};
+    for (std::size_t row = 0; row < rows; ++row) c.values.push_back(from.values[row * width + k]);
+    clip.channels.push_back(std::move(c));
+  }
+}
+
 Clip FigureJoints::clipOf(const SourceClip& from, std::string name, std::size_t& leftOut) const {
   Clip clip{std::move(name), 0, {}};
   for (const SourceChannel& c : from.channels) {
-    if (c.target == ChannelTarget::Weights || boneOf_[c.node] < 0) continue;
+    if (boneOf_[c.node] < 0) continue;
     if (!playable(c)) {
       ++leftOut;
       continue;
     }
     clip.length = std::max(clip.length, double{c.times.back()});
+    if (c.target == ChannelTarget::Weights) {
+      addWeightChannels(c, clip);
+      continue;
+    }
     clip.channels.push_back(
         {static_cast<std::uint32_t>(boneOf_[c.node]), c.target, c.interpolation, c.times, c.values});
   }
@@ -152,7 +194,7 @@ Clip FigureJoints::clipOf(const SourceClip& from, std::string name, std::size_t&
 Skeleton FigureJoints::skeleton(ModelInventory& inventory) const {
   if (scene_.clips.size() > limits_.clips)
     throw Refusal("has more than " + std::to_string(limits_.clips) + " clips");
-  Skeleton skeleton{bones_, joints_, {}, {}};
+  Skeleton skeleton{bones_, joints_, {}, weights_, {}};
   std::size_t leftOut = 0;
   std::uint64_t keys = 0;
   for (const SourceClip& clip : scene_.clips) {

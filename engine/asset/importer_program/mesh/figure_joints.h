@@ -22,19 +22,26 @@ public:
   VertexJoints of(const SourcePrimitive& part, std::size_t vertex, std::uint32_t node,
                   std::int32_t skin) const;
 
+  /// The weight of the first morph target below that node; -1 = it has none.
+  std::int32_t firstWeight(std::uint32_t node) const { return firstWeight_[node]; }
+
   /// Without its reach.
   Skeleton skeleton(ModelInventory& inventory) const;
 
 private:
   void addBones(std::uint32_t root);
   void addJoints();
+  void addWeights();
   VertexJoints carriedBy(std::uint32_t joint) const;
+  void addWeightChannels(const SourceChannel& from, Clip& clip) const;
   Clip clipOf(const SourceClip& from, std::string name, std::size_t& leftOut) const;
 
   const SourceScene& scene_;
   SkeletonLimits limits_;
   std::vector<Bone> bones_;
   std::vector<Joint> joints_;
+  std::vector<MorphWeight> weights_;
+  std::vector<std::int32_t> firstWeight_;   ///< by node
   std::vector<std::int32_t> boneOf_;        ///< by node; -1 = none
   std::vector<std::int32_t> jointOfNode_;   ///< by node: that of what has no skin; -1 = none
   std::vector<std::uint32_t> firstOfSkin_;  ///< by skin: its first joint

@@ -115,8 +115,11 @@ public:
       for (const SourcePrimitive& primitive : scene_.meshes[mesh].primitives) {
         const std::size_t first = flat.vertices.size();
         const std::int32_t skin = joints_ ? joints_->skinOf(index, mesh) : -1;
-        append(primitive, joints_ ? scene_.toShow : X, skin < 0 && X.linear().determinant() < 0);
-        if (joints_) takeJoints(primitive, index, skin, first);
+        const Shape shape = restOf(primitive, node, scene_.meshes[mesh]);
+        append(primitive, shape, joints_ ? scene_.toShow : X, skin < 0 && X.linear().determinant() < 0);
+        if (!joints_) continue;
+        takeJoints(primitive, index, skin, first);
+        takeMorphs(primitive, index, first);
       }
     for (const std::uint32_t child : node.children)
       if (!choice_ || !choice_->isLeftOut(child)) visit(child, X, depth + 1);
@@ -125,14 +128,64 @@ public:
   Flat flat;
 
 private:
-  void append(const SourcePrimitive& part, const Affine& X, bool mirrored) {
+  /// Positions and normals of a primitive.
+  struct Shape {
+    const std::vector<Float3>&positions, &normals;
+  };
+
+  /// An object stands in the shape that its morph targets give it at rest. A figure morphs as it is drawn.
+  Shape restOf(const SourcePrimitive& part, const SourceNode& node, const SourceMesh& mesh) {
+    const auto weightOf = [&](std::size_t k) { return joints_ ? 0 : weightAtRest(node, mesh, k); };
+    bool morphs = false;
+    for (std::size_t k = 0; k < part.targets.size(); ++k) morphs = morphs || weightOf(k) != 0;
+    if (!morphs) return {part.positions, part.normals};
+    positions_ = part.positions;
+    normals_ = part.normals;
+    for (std::size_t k = 0; k < part.targets.size(); ++k) {
+      addTo(positions_, part.targets[k].positions, weightOf(k));
+      addTo(normals_, part.targets[k].normals, weightOf(k));
+    }
+    return {positions_, normals_};
+  }
+
+  static void addTo(std::vector<Float3>& values, const std::vector<Float3>& differences, float weight) {
+    for (std::size_t i = 0; i < std::min(values.size(), differences.size()); ++i)
+      for (std::size_t c = 0; c < 3; ++c) values[i][c] += weight * differences[i][c];
+  }
+
+  void takeMorphs(const SourcePrimitive& part, std::uint32_t node, std::size_t first) {
+    const std::int32_t weight = joints_->firstWeight(node);
+    if (weight < 0 || part.targets.empty()) return;
+    const std::uint32_t number = morphed_ + 1;
+    for (std::size_t i = first; i < flat.vertices.size(); ++i) flat.vertices[i].morph = ++morphed_;
+    for (std::size_t k = 0; k < part.targets.size(); ++k) {
+      const MorphTarget& target = part.targets[k];
+      if (target.positions.size() != flat.vertices.size() - first) continue;
+      FlatMorph morph{static_cast<std::uint32_t>(weight) + static_cast<std::uint32_t>(k), number, {}, {}};
+      const Mat3 turn = scene_.toShow.linear();
+      for (const Float3& d : target.positions) morph.positions.push_back(difference(d, turn));
+      const bool normals = scene_.keepNormals && target.normals.size() == target.positions.size();
+      const double scale = std::cbrt(std::fabs(turn.determinant()));
+      for (std::size_t i = 0; normals && i < target.normals.size(); ++i)
+        morph.normals.push_back(difference(target.normals[i], turn / scale));
+      flat.morphs.push_back(std::move(morph));
+    }
+  }
+
+  static std::array<float, 3> difference(const Float3& d, const Mat3& by) {
+    const Vec3 turned = by * Vec3(d[0], d[1], d[2]);
+    if (!(turned.norm() < kFarthest)) return {0, 0, 0};
+    return {static_cast<float>(turned.x()), static_cast<float>(turned.y()), static_cast<float>(turned.z())};
+  }
+
+  void append(const SourcePrimitive& part, const Shape& shape, const Affine& X, bool mirrored) {
     if (part.triangles.empty()) return;
     if (flat.vertices.size() + part.positions.size() > limits_.mesh.vertices)
       throw Refusal("has more than " + std::to_string(limits_.mesh.vertices) + " vertices");
     if (flat.triangles.size() + part.triangles.size() > limits_.mesh.triangles)
       throw Refusal("has more than " + std::to_string(limits_.mesh.triangles) + " triangles");
     const auto first = static_cast<std::uint32_t>(flat.vertices.size());
-    appendVertices(part, X);
+    appendVertices(part, shape, X);
     for (std::array<std::uint32_t, 3> corner : part.triangles) {
       for (std::uint32_t& c : corner) c += first;
       flat.triangles.push_back({corner, part.material, mirrored});
@@ -144,7 +197,7 @@ private:
       flat.vertices[i].joints = joints_->of(part, i - first, node, skin);
   }
 
-  void appendVertices(const SourcePrimitive& part, const Affine& X) {
+  void appendVertices(const SourcePrimitive& part, const Shape& shape, const Affine& X) {
     const Mat3 cofactors = cofactorsOf(X.linear());
     const SourceMaterial* material = materialOf(scene_, part);
     const PrimitiveUvs uvs = uvsOf(part, material);
@@ -156,12 +209,12 @@ private:
     flat.hasSecondUvs |= second;
     flat.hasTangents |= tangents;
     flat.hasColours |= !part.colours.empty();
-    for (std::size_t i = 0; i < part.positions.size(); ++i) {
+    for (std::size_t i = 0; i < shape.positions.size(); ++i) {
       FlatVertex v;
-      const Float3& at = part.positions[i];
+      const Float3& at = shape.positions[i];
       const Vec3 p = X * Vec3(at[0], at[1], at[2]);
       for (int k = 0; k < 3; ++k) v.position[k] = static_cast<float>(p[k]) + 0.0f;  // + 0 makes -0 equal to 0
-      if (normals) v.normal = turnedNormal(part.normals[i], cofactors);
+      if (normals) v.normal = turnedNormal(shape.normals[i], cofactors);
       if (!uvs.first->empty()) v.uv = uvs.firstMap((*uvs.first)[i]);
       if (second) v.secondUv = uvs.secondMap((*uvs.second)[i]);
       if (tangents) v.tangent = turnedTangent(part.tangents[i], X.linear());
@@ -179,6 +232,8 @@ private:
   const FigureJoints* joints_;  ///< null: of an object
   const NodeChoice* choice_;    ///< null: of a figure, all nodes
   const FlattenLimits& limits_;
+  std::uint32_t morphed_ = 0;                ///< vertices that morph targets move
+  std::vector<Float3> positions_, normals_;  ///< restOf()'s answer
 };
 
 enum class Fault { None, NotFinite, Collapsed, Sliver };

@@ -18,6 +18,7 @@ struct FlatVertex {
   std::array<float, 4> tangent{0, 0, 0, 1};  ///< w: side of the bitangent; zero if the file has none
   std::array<std::uint8_t, 4> colour{255, 255, 255, 255};
   VertexJoints joints{};
+  std::uint32_t morph = 0;  ///< of a figure: number of what morph targets move, from 1; 0 = it is not moved
 };
 
 struct FlatTriangle {
@@ -26,9 +27,17 @@ struct FlatTriangle {
   bool mirrored = false;  ///< of a figure: its node turns left into right, so its corners are to be turned
 };
 
+/// Differences to the vertices with consecutive numbers `FlatVertex::morph`.
+struct FlatMorph {
+  std::uint32_t weight = 0;  ///< as in Skeleton::weights
+  std::uint32_t first = 1;
+  std::vector<std::array<float, 3>> positions, normals;  ///< normals: as many, or none
+};
+
 struct Flat {
   std::vector<FlatVertex> vertices;
   std::vector<FlatTriangle> triangles;
+  std::vector<FlatMorph> morphs;
   bool hasUvs = false, hasSecondUvs = false, hasTangents = false, hasColours = false, hasJoints = false;
 };
 

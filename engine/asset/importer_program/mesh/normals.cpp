@@ -82,7 +82,7 @@ Vec3 cornerNormal(const std::vector<Face>& faces, const CornerTable& meeting, st
 
 bool same(const FlatVertex& a, const FlatVertex& b) {
   return a.position == b.position && a.normal == b.normal && a.uv == b.uv && a.secondUv == b.secondUv &&
-         a.tangent == b.tangent && a.colour == b.colour && a.joints == b.joints;
+         a.tangent == b.tangent && a.colour == b.colour && a.joints == b.joints && a.morph == b.morph;
 }
 
 // Finds equal vertices: open addressing over the numbers of those already in the mesh.
@@ -104,10 +104,43 @@ public:
   std::vector<FlatVertex> vertices;
 
 private:
-  static_assert(sizeof(FlatVertex) == 84, "hashed as bytes: no padding");
+  static_assert(sizeof(FlatVertex) == 88, "hashed as bytes: no padding");
   static constexpr std::uint32_t kEmpty = 0xffffffff;
   std::vector<std::uint32_t> slots_;
 };
+
+/// The differences of all primitives that belong to one weight. `numbers`: by vertex, FlatVertex::morph.
+Morph morphOf(const Flat& flat, std::uint32_t weight, const std::vector<std::uint32_t>& numbers) {
+  constexpr std::array<float, 3> kNone{0, 0, 0};
+  Morph morph;
+  morph.weight = weight;
+  bool normals = false;
+  for (const FlatMorph& from : flat.morphs) normals |= from.weight == weight && !from.normals.empty();
+  for (std::uint32_t v = 0; v < numbers.size(); ++v)
+    for (const FlatMorph& from : flat.morphs) {
+      if (from.weight != weight || numbers[v] < from.first ||
+          numbers[v] - from.first >= from.positions.size())
+        continue;
+      const std::size_t at = numbers[v] - from.first;
+      const std::array<float, 3>& turn = from.normals.empty() ? kNone : from.normals[at];
+      if (from.positions[at] == kNone && turn == kNone) continue;
+      morph.vertices.push_back(v);
+      morph.positions.push_back(from.positions[at]);
+      if (normals) morph.normals.push_back(turn);
+    }
+  return morph;
+}
+
+void joinMorphs(const Flat& flat, const std::vector<FlatVertex>& vertices, Mesh& mesh) {
+  if (flat.morphs.empty()) return;
+  std::vector<std::uint32_t> numbers;
+  for (const FlatVertex& v : vertices) numbers.push_back(v.morph);
+  std::uint32_t most = 0;
+  for (const FlatMorph& from : flat.morphs) most = std::max(most, from.weight);
+  for (std::uint32_t weight = 0; weight <= most; ++weight)
+    if (Morph morph = morphOf(flat, weight, numbers); !morph.vertices.empty())
+      mesh.morphs.push_back(std::move(morph));
+}
 
 }  // namespace
 
@@ -158,6 +191,7 @@ void joinInto(const Flat& flat, Mesh& mesh) {
     if (flat.hasColours) mesh.colours.push_back(v.colour);
     if (flat.hasJoints) mesh.joints.push_back(v.joints);
   }
+  joinMorphs(flat, set.vertices, mesh);
 }
 
 }  // namespace stadion::importer

@@ -192,7 +192,17 @@ private:
       targets.insert(targets.end(), mesh.targetNames.begin(), mesh.targetNames.end());
       targets.resize(targets.size() + most - mesh.targetNames.size());
     }
-    if (!targets.empty()) add(ContentUse::LeftOut, listed(targets, "morph target"));
+    if (targets.empty()) return;
+    const auto turnsTangents = [](const SourcePrimitive& part) {
+      return std::ranges::any_of(part.targets, [](const MorphTarget& t) { return !t.tangents.empty(); });
+    };
+    add(figure_ ? ContentUse::Used : ContentUse::LeftOut,
+        listed(targets, "morph target") +
+            (figure_ ? "" : ": an object keeps the shape of their weights at rest, use figure( )"));
+    if (figure_ && std::ranges::any_of(scene_.meshes, [&](const SourceMesh& mesh) {
+          return std::ranges::any_of(mesh.primitives, turnsTangents);
+        }))
+      add(ContentUse::LeftOut, "tangents of morph targets: those of the mesh are used");
   }
 
   const SourceScene& scene_;

@@ -106,6 +106,7 @@ struct SourceMesh {
   std::int32_t skin = -1;  ///< that of its vertices; -1: that of the node
   std::vector<SourcePrimitive> primitives;
   std::vector<std::string> targetNames;
+  std::vector<float> targetWeights;  ///< of the targets at rest; those that are missing are 0
 };
 
 struct SourceNode {
@@ -114,7 +115,14 @@ struct SourceNode {
   std::optional<BonePlace> place;    ///< the same in the file's own parts, if it states these
   std::int32_t parent = -1, skin = -1, camera = -1, light = -1;
   std::vector<std::uint32_t> children, meshes;
+  std::vector<float> targetWeights;  ///< instead of those of its meshes, if it has any
 };
+
+/// The weight of a mesh's morph target below a node where no clip moves it.
+inline float weightAtRest(const SourceNode& node, const SourceMesh& mesh, std::size_t target) {
+  const std::vector<float>& weights = node.targetWeights.empty() ? mesh.targetWeights : node.targetWeights;
+  return target < weights.size() ? weights[target] : 0;
+}
 
 struct SourceSkin {
   std::string name;
@@ -122,7 +130,8 @@ struct SourceSkin {
   std::vector<Affine> inverseBinds;   ///< mesh to joint; as many as joints
 };
 
-/// Keys of one property of a node. A cubic key has three values: tangent in, value, tangent out.
+/// Keys of one property of a node. A cubic key has three values: tangent in, value, tangent out. A value of
+/// weights has a number for each morph target of the node's mesh.
 struct SourceChannel {
   std::uint32_t node = 0;
   ChannelTarget target = ChannelTarget::Translation;
