@@ -63,6 +63,8 @@ struct ArcPiece {
 
   /// From X_WN on it goes straight and turns evenly.
   static ArcPiece straight(const Instant& from, const Pose& X_WN, const Vec3& v, const Vec3& omega);
+  /// Goes along the curve for so many seconds.
+  static ArcPiece curved(const Instant& from, double seconds, const PoseCurve& curve);
   /// Returns position and motion of N's origin.
   Kinematics at(double when) const;
   Pose poseAfter(double seconds) const {
@@ -83,6 +85,9 @@ using ArcTrack = std::vector<ArcPiece>;
 Pose poseOn(const ArcTrack& arcs, Nanoseconds time, Limit limit);
 /// Returns true if the body is placed from outside at exactly `time`.
 bool jumpsAt(const ArcTrack& arcs, Nanoseconds time);
+/// The same motion as arcs. Velocities are the derivatives of its curves. Expects at least one knot; after the
+/// last one it stands still.
+ArcTrack arcsOf(const PoseTrack& track);
 /// Adds the path as straight chords, up to `end`, for nodes that follow no arcs.
 void addChords(const ArcTrack& arcs, Nanoseconds end, PoseTrack& track);
 

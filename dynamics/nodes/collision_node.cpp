@@ -255,7 +255,7 @@ void CollisionNode::followFrom(Part& part, const Pose& before, FrameContext& fra
     part.track.front().jump = true;
     part.track.insert(part.track.begin(), {frame.start(), before, false});
   } else if (!part.track.empty()) {
-    followBody(part, before, frame);
+    if (!followBody(part, before, frame) && bends(part.track)) part.arcs = arcsOf(part.track);
   }
   part.pose = poseOf(placements.world(part.placement));
 }

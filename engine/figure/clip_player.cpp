@@ -114,6 +114,46 @@ FigureRecord ClipPlayer::at(Nanoseconds time) const {
   return record;
 }
 
+void ClipPlayer::turns(const Skeleton& skeleton, Nanoseconds from, Nanoseconds to,
+                       std::vector<Nanoseconds>& times) const {
+  const Nanoseconds end = reached(to);
+  const auto add = [&](Nanoseconds time) {
+    if (time > from && time <= end) times.push_back(time);
+  };
+  if (paused()) add(pausedAt_);
+  for (std::size_t i = firstSeen(from); i < layers_.size(); ++i) {
+    add(layers_[i].since);
+    add(layers_[i].since + layers_[i].fade);
+    if (layers_[i].clip < skeleton.clips.size())
+      addKeys(layers_[i], skeleton.clips[layers_[i].clip], from, end, times);
+  }
+}
+
+void ClipPlayer::addKeys(const Layer& layer, const Clip& clip, Nanoseconds from, Nanoseconds to,
+                         std::vector<Nanoseconds>& times) {
+  if (layer.speed == 0 || from >= to) return;
+  const auto unwrapped = [&](Nanoseconds time) {
+    return layer.start + layer.speed * seconds(time - layer.since);
+  };
+  const double first = std::min(unwrapped(from), unwrapped(to)),
+               last = std::max(unwrapped(from), unwrapped(to));
+  const auto addAt = [&](double clipTime) {
+    const Nanoseconds time = layer.since + std::llround((clipTime - layer.start) / layer.speed * 1e9);
+    if (time > from && time <= to) times.push_back(time);
+  };
+  const auto addPass = [&](double begins) {
+    addAt(begins);
+    addAt(begins + layer.length);
+    for (const ClipChannel& channel : clip.channels)
+      for (auto key = std::ranges::lower_bound(channel.times, first - begins);
+           key != channel.times.end() && *key <= last - begins; ++key)
+        addAt(begins + *key);
+  };
+  if (!layer.loop) return addPass(0);
+  for (double pass = std::floor(first / layer.length); pass * layer.length <= last; ++pass)
+    addPass(pass * layer.length);
+}
+
 bool ClipPlayer::fits(std::size_t clips) const {
   return layers_.size() <= FigureRecord::kMostLayers && std::ranges::all_of(layers_, [&](const Layer& l) {
            return l.clip < clips && std::isfinite(l.start) && std::isfinite(l.speed) &&

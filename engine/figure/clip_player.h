@@ -9,6 +9,7 @@
 
 #include "engine/base/time_signature.h"
 #include "engine/figure/figure_record.h"
+#include "engine/figure/skeleton.h"
 
 #include <cstdint>
 #include <optional>
@@ -47,6 +48,10 @@ public:
   /// Forgets clips that others have replaced by `time`.
   void forget(Nanoseconds time);
   FigureRecord at(Nanoseconds time) const;
+  /// Adds the times in (from, to] at which the motion may bend or jump: keys of the clips, ends of passes and
+  /// of fades.
+  void turns(const Skeleton& skeleton, Nanoseconds from, Nanoseconds to,
+             std::vector<Nanoseconds>& times) const;
   /// Returns the number of ends up to `time` that takeEnd() has not returned.
   double endsUpTo(Nanoseconds time) const;
   /// Returns true if a restored state can be played with a skeleton of so many clips.
@@ -73,6 +78,8 @@ private:
   };
 
   Nanoseconds reached(Nanoseconds time) const;
+  static void addKeys(const Layer& layer, const Clip& clip, Nanoseconds from, Nanoseconds to,
+                      std::vector<Nanoseconds>& times);
   static double timeIn(const Layer& layer, Nanoseconds time);
   static double weightOf(const Layer& layer, Nanoseconds time);
   static std::optional<Nanoseconds> endOf(const Layer& layer);

@@ -1,12 +1,17 @@
 #pragma once
-/// A motion inside a frame: straight ways and even turns between knots, and jumps.
+/// A motion inside a frame: what lies between knots, and jumps.
 ///
+/// CurvePoses  two knots the motion is straight and turns evenly, or is a curve of fourth degree through three
+///          more poses (PoseCurve). At 20 rad/s and 2 ms such a curve misses a true circle by 1e-9 of its
+///          radius, and straight motion by 2e-4.
 /// Times    non-decreasing. Before the first knot it is at that knot's pose, after the last one likewise.
 /// Frames   given by the owner; all knots of a pose track are in the same one.
 
 #include "engine/base/time_signature.h"
 #include "engine/maths/maths.h"
 
+#include <array>
+#include <optional>
 #include <vector>
 
 namespace stadion {
@@ -18,10 +23,15 @@ Vec3 scaleOf(const Affine& X);
 /// A placement at X with the scale of `like`.
 Affine withScale(const Pose& X, const Affine& like);
 
+/// The poses at 1/4, 1/2 and 3/4 of the time between two knots.
+using CurvePoses = std::array<Pose, 3>;
+
 struct PoseKnot {
   Nanoseconds time = 0;  ///< show time [ns]
   Pose X;
   bool jump = false;  ///< a jump: before `time` the pose is that of the knot before, from then on it is X
+  /// The motion from the knot before to this one; nothing: straight. Not part of the recorded state.
+  std::optional<CurvePoses> between = std::nullopt;
 
   template <class Self, class Fields>
   static void fields(Self& k, Fields& f) {
@@ -36,6 +46,37 @@ using PoseTrack = std::vector<PoseKnot>;
 
 /// Turning or curved ways are approximated by chords of this length, on a grid of show time [ns].
 constexpr Nanoseconds kChord = 2'000'000;
+
+/// The polynomials of fourth degree through five equidistant poses; s runs from 0 at the first to 1 at the
+/// last.
+struct PoseCurve {
+  std::array<Vec3, 5> p;             ///< coefficients of the position
+  std::array<Eigen::Vector4d, 5> q;  ///< of the quaternion (x, y, z, w), before it is brought to unit length
+
+  PoseCurve(const Pose& first, const CurvePoses& between, const Pose& last);
+  Pose at(double s) const;
+  /// The angular velocity and its rate of change, with s as time.
+  struct Turning {
+    Vec3 omega, alpha;
+  };
+  Turning turningAt(double s) const;
+};
+
+/// A curve over a shorter time is taken as straight: whole nanoseconds are too coarse for its quarters [ns].
+constexpr Nanoseconds kShortestCurve = 10'000;
+
+/// Returns the poses between two times of a motion; nothing if these are too near to each other.
+template <class PoseAt>
+std::optional<CurvePoses> poseBetween(Nanoseconds from, Nanoseconds to, PoseAt poseAt) {
+  if (to - from < kShortestCurve) return {};
+  CurvePoses poses;
+  for (std::size_t k = 0; k < poses.size(); ++k)
+    poses[k] = poseAt(from + (to - from) * static_cast<Nanoseconds>(k + 1) / 4);
+  return poses;
+}
+
+/// Returns true if some part of it is a curve.
+bool bends(const PoseTrack& track);
 
 /// The side of a jump at exactly the requested time.
 enum class Limit { Before, After };

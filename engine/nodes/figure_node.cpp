@@ -19,6 +19,11 @@ namespace {
 constexpr CommandId kPlay = commandNamed("play"), kPause = commandNamed("pause"),
                     kStop = commandNamed("stop"), kPose = commandNamed("pose");
 
+/// As near as a motion of at most 1000 m/s and 1000 rad/s comes within a nanosecond.
+bool isNear(const Pose& a, const Pose& b) {
+  return (a.p - b.p).norm() < 1e-6 && std::fabs(a.q.dot(b.q)) > 1 - 1e-12;
+}
+
 std::string_view wordsOf(const Message& m) {
   return m.arguments.empty() ? std::string_view() : m.arguments[0];
 }
@@ -68,6 +73,7 @@ void FigureNode::receive(const Message& m, FrameContext& frame) {
   if (!skeleton_) return;
   const Nanoseconds when = frame.effective(m);
   endClips(when);  // what has ended up to the command still counts
+  if (!carried_.empty()) past_.push_back({when, player_});
   if (m.command == kPlay) play(wordsOf(m), when, frame.scene);
   if (m.command == kPose) pose(wordsOf(m), when, frame.scene);
   if (m.command == kPause) player_.pause(when);
@@ -103,6 +109,7 @@ void FigureNode::simulate(FrameContext& frame) {
   const Nanoseconds now = frame.now.time;
   endClips(now);
   traceCarried(frame);
+  past_.clear();
   player_.forget(now);
   show(now, frame.scene);
 }
@@ -132,27 +139,65 @@ void FigureNode::placeCarried(Nanoseconds time, Scene& scene) {
       node->place(scene, X_WN * pose_.bone(c.bone) * node->attributes().X_PN);
 }
 
-/// Reports the motion within the frame to nodes that watch: chords, as of a path that bends.
+FigureRecord FigureNode::playedAt(Nanoseconds time) const {
+  const auto past = std::ranges::upper_bound(past_, time, {}, &Past::until);
+  return (past == past_.end() ? player_ : past->player).at(time);
+}
+
+/// Reports the motion within the frame to nodes that watch: curves between the times at which it may bend.
 void FigureNode::traceCarried(FrameContext& frame) {
   const Placements& placements = frame.scene.placements();
   PoseTracks& tracks = frame.scene.poseTracks();
+  const Nanoseconds from = frame.start(), to = frame.now.time;
   std::vector<std::pair<PlacedNode*, std::uint32_t>> watched;
   for (const Carried& c : carried_)
     if (PlacedNode* node = carriedNode(c.node, frame.scene);
         node && placements.watchedBelow(node->placement()))
       watched.emplace_back(node, c.bone);
-  if (watched.empty() || frame.start() >= frame.now.time) return;
-  for (const auto& [node, bone] : watched)
-    tracks.of(node->placement(), {frame.start(), poseOf(placements.world(node->placement())), false});
+  if (watched.empty() || from >= to) return;
+
+  std::vector<Nanoseconds> times;
+  for (Nanoseconds t = (from / kChord + 1) * kChord; t < to; t += kChord) times.push_back(t);
+  Nanoseconds since = from;
+  for (const Past& past : past_) {
+    past.player.turns(*skeleton_, since, past.until, times);
+    if (past.until > from && past.until <= to) times.push_back(past.until);
+    since = past.until;
+  }
+  player_.turns(*skeleton_, since, to, times);
+  times.push_back(to);
+  std::ranges::sort(times);
+  times.erase(std::unique(times.begin(), times.end()), times.end());
+
   const Affine X_WN = placements.world(placement());
-  for (Nanoseconds t = (frame.start() / kChord + 1) * kChord;; t += kChord) {
-    t = std::min(t, frame.now.time);
-    pose_.set(*skeleton_, player_.at(t));
-    const Affine at = withScale(tracks.at(placement(), t, placements), X_WN);
+  const auto posesAt = [&](Nanoseconds t) {
+    pose_.set(*skeleton_, playedAt(t));
+    const Affine X = withScale(tracks.at(placement(), t, placements), X_WN);
+    std::vector<Pose> poses;
     for (const auto& [node, bone] : watched)
-      tracks.of(node->placement(), {})
-          .push_back({t, poseOf(at * pose_.bone(bone) * node->attributes().X_PN), false});
-    if (t == frame.now.time) break;
+      poses.push_back(poseOf(X * pose_.bone(bone) * node->attributes().X_PN));
+    return poses;
+  };
+  for (const auto& [node, bone] : watched)
+    tracks.of(node->placement(), {from, poseOf(placements.world(node->placement())), false});
+  Nanoseconds before = from;
+  for (const Nanoseconds t : times) {
+    std::array<std::vector<Pose>, 3> between;
+    const bool curved = poseBetween(before, t, [&, k = between.begin()](Nanoseconds time) mutable {
+                          *k++ = posesAt(time);
+                          return Pose{};
+                        }).has_value();
+    // One moment before: a clip may jump at t.
+    const std::vector<Pose> last = posesAt(t - 1), now = posesAt(t);
+    for (std::size_t i = 0; i < watched.size(); ++i) {
+      PoseTrack& track = tracks.of(watched[i].first->placement(), {});
+      std::optional<CurvePoses> curve;
+      if (curved) curve = CurvePoses{between[0][i], between[1][i], between[2][i]};
+      const bool jumps = !isNear(last[i], now[i]);
+      track.push_back({t, jumps ? last[i] : now[i], false, curve});
+      if (jumps) track.push_back({t, now[i], true});
+    }
+    before = t;
   }
 }
 

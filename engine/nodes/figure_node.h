@@ -5,6 +5,8 @@
 ///           repeats. Both at the exact time.
 /// Commands  play [CLIP [fade SECONDS] [speed FACTOR] [from SECONDS] [once|loop]], pause, stop, pose CLIP SECONDS,
 ///           reset, and those of a placed node.
+/// Times     nodes that watch a bone get its motion inside the frame as curves between the clips' keys, of 2 ms
+///           at most (pose_track.h).
 /// It is not visited while nothing moves it.
 
 #include "engine/figure/clip_player.h"
@@ -62,6 +64,7 @@ private:
   PlacedNode* carriedNode(NodeRef node, Scene& scene) const;
   void placeCarried(Nanoseconds time, Scene& scene);
   void traceCarried(FrameContext& frame);
+  FigureRecord playedAt(Nanoseconds time) const;
 
   struct Carried {
     NodeRef node;
@@ -72,6 +75,12 @@ private:
   ClipPlayer::Start standard_;  ///< speed, loop and fade if a command does not state them
   Beginning beginning_;
   ClipPlayer player_;
+  /// What it played in this frame before a command changed it.
+  struct Past {
+    Nanoseconds until = 0;
+    ClipPlayer player;
+  };
+  std::vector<Past> past_;
   FigureRecords::Number number_ = 0;
   bool moves_ = false;
   std::vector<Carried> carried_;  ///< nodes that bones carry; each says so itself, also after a restart

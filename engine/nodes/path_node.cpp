@@ -86,7 +86,8 @@ void PathNode::trace(Nanoseconds to, FrameContext& frame) {
   std::vector<Nanoseconds>& passed = passed_;
   passed.clear();
   const Nanoseconds span = loop_ ? to - since_ : std::min(to - since_, length() - elapsed_);
-  if (bends_)
+  const bool bends = bends_ || frame.scene.poseTracks().bends(up, placements);
+  if (bends)
     for (Nanoseconds t = (since_ / kChord + 1) * kChord - since_; t < span; t += kChord) passed.push_back(t);
   for (Nanoseconds base = -elapsed_; base < span; base += pass) {
     auto key =
@@ -98,10 +99,15 @@ void PathNode::trace(Nanoseconds to, FrameContext& frame) {
   passed.push_back(span);
   std::ranges::sort(passed);
   passed.erase(std::unique(passed.begin(), passed.end()), passed.end());
+  const auto inPass = [&](Nanoseconds t) { return (elapsed_ + t - 1) % pass + 1; };  // its end included
+  const auto after = [&](Nanoseconds t) {
+    return at(since_ + t, toSeconds(loop_ ? inPass(t) : elapsed_ + t));
+  };
+  Nanoseconds before = 0;
   for (const Nanoseconds t : passed) {
-    const Nanoseconds in = (elapsed_ + t - 1) % pass + 1;  // of this pass, its end included
-    way.push_back({since_ + t, at(since_ + t, loop_ ? toSeconds(in) : toSeconds(elapsed_ + t)), false});
-    if (loop_ && in == pass) way.push_back({since_ + t, at(since_ + t, 0), true});
+    way.push_back({since_ + t, after(t), false, bends ? poseBetween(before, t, after) : std::nullopt});
+    if (loop_ && inPass(t) == pass) way.push_back({since_ + t, at(since_ + t, 0), true});
+    before = t;
   }
 }
 

@@ -8,8 +8,8 @@
 /// Commands  enable (goes on where it stopped; after its end, from the first key again), disable (the target
 ///           stays where it is at the command's time), toggle, reset (back to the first key), and those of a
 ///           placed node when it moves what stands below it.
-/// Times     nodes that watch the target get its way inside the frame: straight ways exactly, bends and
-///           turns as chords of 2 ms on a grid of show time.
+/// Times     nodes that watch the target get its motion inside the frame: straight motion exactly, bends and
+///           turns as curves of 2 ms on a grid of show time (pose_track.h).
 /// Degraded  while it rests, its time stands still. If it runs in one of several frames, its target is then
 ///           where its own time has it. Watching nodes see it go straight there within that frame.
 /// Frames    keys are in the coordinates of the target's parent, or of its own parent.

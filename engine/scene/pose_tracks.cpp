@@ -2,6 +2,7 @@
 
 #include "engine/maths/functions.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace stadion {
@@ -55,6 +56,14 @@ Pose PoseTracks::startOf(PlacementId id, const Placements& placements) const {
   return carrier ? carrier->track.front().X * (carrier->track.back().X.inverse() * now) : now;
 }
 
+bool PoseTracks::bends(PlacementId id, const Placements& placements) const {
+  const Known* carrier = above(id, placements);
+  if (!carrier) return false;
+  const Eigen::Vector4d first = carrier->track.front().X.q.coeffs();
+  return stadion::bends(carrier->track) ||
+         std::ranges::any_of(carrier->track, [&](const PoseKnot& k) { return k.X.q.coeffs() != first; });
+}
+
 PoseTrack PoseTracks::within(PlacementId id, const Pose& before, Nanoseconds start, Nanoseconds end,
                              const Placements& placements) const {
   const Pose now = poseOf(placements.world(id));
@@ -77,11 +86,16 @@ PoseTrack PoseTracks::within(PlacementId id, const Pose& before, Nanoseconds sta
     const PoseKnot* last = nullptr;
     for (const PoseKnot& knot : way) {
       // What hangs off something that turns goes round, not straight.
-      if (last && !itself && !knot.jump && knot.X.q.coeffs() != last->X.q.coeffs())
+      const bool turns = last && !knot.jump && !knot.between && knot.X.q.coeffs() != last->X.q.coeffs();
+      if (turns && !itself)
         for (Nanoseconds t = (last->time / kChord + 1) * kChord; t < knot.time; t += kChord)
           track.push_back({t, at(t, poseOn(way, t, Limit::Before)), false});
       const Pose X = at(knot.time, knot.X);
-      if (last || !near(X, before)) track.push_back({knot.time, X, knot.jump || (!last && !late)});
+      std::optional<CurvePoses> between;
+      if (last && knot.between)
+        between = poseBetween(last->time, knot.time,
+                              [&, k = knot.between->begin()](Nanoseconds t) mutable { return at(t, *k++); });
+      if (last || !near(X, before)) track.push_back({knot.time, X, knot.jump || (!last && !late), between});
       last = &knot;
     }
     if (track.back().time >= end || near(track.back().X, now)) return track;

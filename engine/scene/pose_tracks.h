@@ -22,13 +22,15 @@ public:
   /// clear().
   PoseTrack& of(PlacementId id, const PoseKnot& first);
   /// The pose track of the placement from `start`, where it was at `before`, to `end`: its own or that of the
-  /// nearest above it, on which its place changes evenly; else straight. Empty if it stays.
+  /// nearest above it, on which its place changes evenly; else straight. Empty if it stays. Curves stay curves.
   PoseTrack within(PlacementId id, const Pose& before, Nanoseconds start, Nanoseconds end,
                    const Placements& placements) const;
 
   /// The pose at a time of this frame, or at its start, if nothing moved on what carries the placement.
   Pose at(PlacementId id, Nanoseconds time, const Placements& placements) const;
   Pose startOf(PlacementId id, const Placements& placements) const;
+  /// Returns true if what carries the placement turns or goes along a curve in this frame.
+  bool bends(PlacementId id, const Placements& placements) const;
 
 private:
   struct Known {
