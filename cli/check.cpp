@@ -1,4 +1,4 @@
-/// `stadion check SHOW...`: everything that can be found wrong without playing; `--assets DIR`: every model
+/// `stadion check SHOW...`: everything that can be found wrong without playing; `--assets PATH`: a model or every one
 /// below a folder.
 
 #include "engine/asset/check.h"
@@ -129,9 +129,9 @@ int checkEach(const std::vector<std::string>& files, const std::vector<std::stri
   return report.wrong() ? kBadInput : kOk;
 }
 
-int checkModels(const std::string& folder, CheckReport& report) {
+int checkModels(const std::string& place, CheckReport& report) {
   const auto counts =
-      checkAssets(Importer::installedProgram(), folder, [&](const AssetFinding& f) { report.add(f); });
+      checkAssets(Importer::installedProgram(), place, [&](const AssetFinding& f) { report.add(f); });
   if (!counts) {
     std::fprintf(stderr, "%s\n", format(counts.error()).c_str());
     return kBadInput;
@@ -161,7 +161,7 @@ void addCheckCommand(CLI::App& app, int& code) {
                   "is checked in that show.");
   command->callback([o, &code] {
     if (o->scripts.empty() && o->models.empty()) {
-      const char* wrong = "name a script, or a folder with --assets DIR";
+      const char* wrong = "name a script, or a model or folder with --assets PATH";
       std::fprintf(stderr, "check: %s\n", wrong);
       if (o->json) printJson({{"error", wrong}});
       code = kBadInput;

@@ -205,7 +205,8 @@ constexpr OptionRow kRows[] = {
     {"--limit", whole("S", 1, 1e5), "seconds that one case may take", Measurement},
     {"--minutes", number("MIN", 0.1, 1e5), "begins no round that would end later", Measurement},
 
-    {"--assets", folder(), "imports every model below this folder and counts the results", Measurement},
+    {"--assets", file("PATH"), "imports this model, or every one below this folder, and counts the results",
+     Measurement},
     {"--full", flag(),
      "adds the acceptance counts: 10 000 damaged files of each kind, 1000 reloads, 300 frames of every "
      "comparison, the tests that measure time, and those that run Blender",

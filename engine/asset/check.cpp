@@ -23,15 +23,19 @@ std::vector<std::string> modelsBelow(const fs::path& folder) {
 
 }  // namespace
 
-Result<AssetCounts> checkAssets(const fs::path& importerProgram, const fs::path& folder,
+Result<AssetCounts> checkAssets(const fs::path& importerProgram, const fs::path& place,
                                 const std::function<void(const AssetFinding&)>& tell,
                                 const ImportLimits& limits) {
+  std::error_code ignored;
+  const bool single = fs::is_regular_file(place, ignored);
+  const fs::path folder = !single ? place : place.has_parent_path() ? place.parent_path() : fs::path(".");
   AssetRoots roots;
   if (!roots.add(folder))
-    return Result<AssetCounts>::failure("\"" + folder.string() + "\" is not a folder that can be opened");
+    return Result<AssetCounts>::failure("\"" + place.string() +
+                                        "\" is not a model or folder that can be opened");
   Importer importer(importerProgram, std::move(roots), limits);
   AssetCounts counts;
-  for (const std::string& name : modelsBelow(folder)) {
+  for (const std::string& name : single ? std::vector{place.filename().string()} : modelsBelow(folder)) {
     AssetFinding finding;
     finding.file = name;
     const bool readable = formatOf(name) != nullptr;

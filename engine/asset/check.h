@@ -1,5 +1,5 @@
 #pragma once
-/// Imports every model file of a folder and reports the results, for `stadion check --assets`.
+/// Imports a model file, or every one of a folder, and reports the results, for `stadion check --assets`.
 
 #include "engine/asset/import.h"
 
@@ -16,7 +16,7 @@ enum class AssetVerdict {
 
 struct AssetFinding {
   AssetVerdict verdict = AssetVerdict::Failed;
-  std::string file;            ///< below the folder
+  std::string file;            ///< below the folder, or its name alone
   std::string message;         ///< the error; empty when loaded
   ModelInventory inventory;    ///< when loaded: what becomes of the content
   Diagnostics losses;          ///< what is approximated or left out, as warnings
@@ -28,10 +28,10 @@ struct AssetCounts {
   std::size_t faults = 0;  ///< failed files for which the importer program crashed, hung or ran out of memory
 };
 
-/// Imports the files of `folder` in the order of names, without following symbolic links. Skips files that
-/// are no models. Returns an error only if the folder cannot be opened.
+/// Imports the files of a folder in the order of names, without following symbolic links. Skips files that are no
+/// models. `place` may be a single file as well. Returns an error only if `place` cannot be opened.
 Result<AssetCounts> checkAssets(const std::filesystem::path& importerProgram,
-                                const std::filesystem::path& folder,
+                                const std::filesystem::path& place,
                                 const std::function<void(const AssetFinding&)>& tell,
                                 const ImportLimits& limits = {});
 

@@ -33,6 +33,22 @@ TEST(AssetCheck, CountsWhatLoadsAndWhatDoesNot) {
   EXPECT_FALSE(checkAssets(Importer::installedProgram(), "/nonexistent", [](const AssetFinding&) {}));
 }
 
+TEST(AssetCheck, ASingleFileIsChecked) {
+  TestFolder folder;
+  std::filesystem::copy(models(), folder.path() / "models");
+  std::vector<std::string> told;
+  const auto check = [&](const char* file) {
+    return checkAssets(Importer::installedProgram(), folder.path() / file,
+                       [&](const AssetFinding& f) { told.push_back(f.file); });
+  };
+  EXPECT_EQ(check("models/empty.stl").value().failed, 1U);
+  folder.write("horse.blend", "x");
+  EXPECT_EQ(check("horse.blend").value().refused, 1U);
+  folder.write("notes.txt", "x");
+  EXPECT_EQ(check("notes.txt").value().refused, 1U);
+  EXPECT_EQ(told, (std::vector<std::string>{"empty.stl", "horse.blend", "notes.txt"}));
+}
+
 TEST(AssetCheck, TheModelsOfTheAssimpPackageNeitherCrashNorHang) {
   const std::filesystem::path folder = "/usr/share/assimp";
   if (!std::filesystem::exists(folder / "models"))
