@@ -14,7 +14,7 @@
 namespace stadion {
 namespace {
 
-constexpr double kFar = 1e4;  ///< [m]
+constexpr double kFarthestPlace = 1e4;  ///< [m]
 
 class RigParser {
 public:
@@ -52,7 +52,7 @@ private:
     if (axis && in_.finished()) rig_.upIsY = *axis == 1;
   }
   void origin() {
-    const auto v = vector("the origin", kFar);
+    const auto v = vector("the origin", kFarthestPlace);
     if (v && in_.finished()) rig_.origin = *v;
   }
   void yaw() {
@@ -78,7 +78,7 @@ private:
   // The fields of a tracker; they fill tracker_.
 
   bool offset() {
-    const auto v = vector("offset", kFar);
+    const auto v = vector("offset", kFarthestPlace);
     if (v) tracker_.X_DT.p = *v;
     return v.has_value();
   }
@@ -88,7 +88,7 @@ private:
     return v.has_value();
   }
   bool safe() {
-    tracker_.safe = vector("safe", kFar);
+    tracker_.safe = vector("safe", kFarthestPlace);
     return tracker_.safe.has_value();
   }
 
