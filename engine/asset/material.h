@@ -79,11 +79,11 @@ struct Material {
   float alphaCutoff =
       0;  ///< 0 = nothing is cut out; else what has less alpha is not there, the rest is opaque
   bool doubleSided = false;
-  bool textureHasAlpha = false;
-  bool unlit = false;  ///< shows the base colour as it is: neither light nor emission
+  bool partlyTransparent = false;  ///< its texture or its vertices have an alpha below 1
+  bool unlit = false;              ///< shows the base colour as it is: neither light nor emission
 
   bool masked() const { return alphaCutoff > 0; }
-  bool transparent() const { return !masked() && (baseColour[3] < 0.999f || textureHasAlpha); }
+  bool transparent() const { return !masked() && (baseColour[3] < 0.999f || partlyTransparent); }
 };
 
 }  // namespace stadion

@@ -120,7 +120,7 @@ std::uint64_t contentHash(const Mesh& mesh) {
     hash.add(m.metallic);
     hash.add(static_cast<std::uint64_t>(m.maps[kBaseMap].texture));
     hash.add(std::uint64_t{m.doubleSided});
-    hash.add(std::uint64_t{m.textureHasAlpha});
+    hash.add(std::uint64_t{m.partlyTransparent});
     // Only where there is such a thing: other meshes keep the hashes that they have always had.
     if (m.masked()) hash.add(std::uint64_t{1} << 32), hash.add(m.alphaCutoff);
     const MaterialMap& glow = m.maps[kEmissiveMap];

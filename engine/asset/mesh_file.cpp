@@ -31,7 +31,7 @@ struct MapRecord {
 struct MaterialRecord {
   float baseColour[4], emissive[3], roughness, metallic, alphaCutoff, normalScale, occlusionStrength;
   MapRecord maps[kMapKinds];
-  std::uint32_t doubleSided, textureHasAlpha, unlit;
+  std::uint32_t doubleSided, partlyTransparent, unlit;
 };
 
 template <std::size_t N>
@@ -103,7 +103,7 @@ bool toMaterial(const MaterialRecord& r, std::size_t textures, Material& m) {
   m.normalScale = r.normalScale;
   m.occlusionStrength = r.occlusionStrength;
   m.doubleSided = r.doubleSided != 0;
-  m.textureHasAlpha = r.textureHasAlpha != 0;
+  m.partlyTransparent = r.partlyTransparent != 0;
   m.unlit = r.unlit != 0;
   return true;
 }
@@ -119,7 +119,7 @@ MaterialRecord recordOf(const Material& m) {
   r.occlusionStrength = m.occlusionStrength;
   std::ranges::transform(m.maps, r.maps, [](const MaterialMap& map) { return recordOf(map); });
   r.doubleSided = m.doubleSided;
-  r.textureHasAlpha = m.textureHasAlpha;
+  r.partlyTransparent = m.partlyTransparent;
   r.unlit = m.unlit;
   return r;
 }

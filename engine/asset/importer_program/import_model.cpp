@@ -14,8 +14,13 @@
 namespace stadion::importer {
 namespace {
 
-bool hasTransparentVertex(const Flat& flat) {
-  return std::ranges::any_of(flat.vertices, [](const FlatVertex& v) { return v.colour[3] != 255; });
+/// By material, whether vertices with it have an alpha below 1.
+std::vector<bool> alphaOfVertices(const Flat& flat, std::size_t materials) {
+  std::vector<bool> below(materials, false);
+  for (const FlatTriangle& t : flat.triangles)
+    for (const std::uint32_t c : t.corner)
+      if (flat.vertices[c].colour[3] != 255 && t.material < materials) below[t.material] = true;
+  return below;
 }
 
 void addDropped(const DroppedTriangles& dropped, ModelInventory& inventory) {
@@ -74,7 +79,8 @@ ImportedModel importModel(const Request& request) {
   addDropped(dropped, result.inventory);
   if (flat.triangles.empty() && !choice.hasGaps())
     throw Refusal(dropped.notFinite ? "holds no triangles with finite corners" : "holds no triangles");
-  readMaterials(scene, picturesOf(request), hasTransparentVertex(flat), result.mesh, result.inventory);
+  readMaterials(scene, picturesOf(request), alphaOfVertices(flat, scene.materials.size()), result.mesh,
+                result.inventory);
   makeNormals(flat);
   turnMirrored(flat);
   joinInto(flat, result.mesh);

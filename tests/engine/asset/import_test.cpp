@@ -76,7 +76,7 @@ TEST(AssetImport, MaterialsColoursAndTexturesArrive) {
     EXPECT_NEAR(m.emissive[2], 0.5, 1e-6);
     EXPECT_NEAR(m.roughness, 0.5, 1e-6);
     EXPECT_NEAR(m.metallic, 0.25, 1e-6);
-    EXPECT_TRUE(m.doubleSided && m.textureHasAlpha && m.transparent());
+    EXPECT_TRUE(m.doubleSided && m.partlyTransparent && m.transparent());
     ASSERT_EQ(m.maps[kBaseMap].texture, 0);
     const Texture& picture = mesh.textures.at(0);
     const std::vector<std::uint8_t> pixels{255, 0, 0,   255, 0,   255, 0,   255,

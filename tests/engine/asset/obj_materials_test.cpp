@@ -64,7 +64,7 @@ TEST_F(ObjMaterials, AnOpacityMapGivesTheAlpha) {
   ASSERT_TRUE(both.mesh) << both.error;
   ASSERT_EQ(both.mesh->textures.size(), 1u) << both.all();
   EXPECT_EQ(both.mesh->textures[0].width, 2u);
-  EXPECT_TRUE(woodOf(*both.mesh).textureHasAlpha);
+  EXPECT_TRUE(woodOf(*both.mesh).partlyTransparent);
   EXPECT_TRUE(both.approximated("the opacity map \"leaf.png\": its size is that of \"arms.png\""))
       << both.all();
   const Imported same = load("map_Kd arms.png\nmap_d arms.png\n");

@@ -19,7 +19,7 @@ TEST(AssetSurfaces, AMaskIsACutoffAndItsPictureKeepsItsAlpha) {
   const Mesh& mesh = *loaded.value();
   const Material& m = firstMaterial(mesh);
   EXPECT_EQ(m.alphaCutoff, 0.5f);
-  EXPECT_TRUE(m.masked() && m.doubleSided && m.textureHasAlpha);
+  EXPECT_TRUE(m.masked() && m.doubleSided && m.partlyTransparent);
   EXPECT_FALSE(m.transparent() || mesh.transparent());
   const Texture& leaf = mesh.textures.at(static_cast<std::size_t>(m.maps[kBaseMap].texture));
   EXPECT_EQ(leaf.rgba.at(3), 255);
@@ -100,6 +100,19 @@ TEST(AssetSurfaces, AMaskIsOneOnlyWhereSomethingCanBeCutOut) {
     EXPECT_FALSE(m.transparent()) << c.material;
     EXPECT_TRUE(c.cutoff > 0 || m.baseColour[3] == 1) << c.material;
   }
+}
+
+TEST(AssetSurfaces, AlphaOfVerticesMakesABlendedMaterialTransparent) {
+  const ModelFolder in;
+  Importer importer = importerOf(in.folder.path());
+  const auto transparent = [&](const char* material, bool colours) {
+    in.folder.write("square.gltf", squareOf(material, "lamp.png", colours));
+    auto loaded = importer.load("square.gltf");
+    return loaded && firstMaterial(*loaded.value()).transparent();
+  };
+  EXPECT_TRUE(transparent(R"("alphaMode": "BLEND")", true));
+  EXPECT_FALSE(transparent(R"("alphaMode": "BLEND")", false));
+  EXPECT_FALSE(transparent(R"("alphaMode": "OPAQUE")", true));
 }
 
 TEST(AssetSurfaces, LightIsThereOnlyWithAFactorAndAPictureThatCanBeRead) {

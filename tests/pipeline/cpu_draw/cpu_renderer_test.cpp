@@ -126,7 +126,7 @@ TEST(CpuRenderer, CutsOutWhatTheMaterialCutsOut) {
   Texture holes = test::chequered(64, 8);
   for (std::size_t i = 0; i < holes.rgba.size(); i += 4) holes.rgba[i + 3] = holes.rgba[i] > 200 ? 255 : 0;
   Material fence = matt(1, 1, 1);
-  fence.alphaCutoff = 0.5f, fence.textureHasAlpha = true;
+  fence.alphaCutoff = 0.5f, fence.partlyTransparent = true;
   MeshMaker maker(fence);
   maker.texture(holes).quad({-1.5, 0, 0}, {1.5, 0, 0}, {1.5, 0, 2}, {-1.5, 0, 2});
   list.opaque = {test::place(meshes.add(maker.seal()))};

@@ -145,7 +145,7 @@ std::vector<MapFeature> mapFeatures() {
       {"masked",
        [=](Mesh& mesh) {
          moved(mesh);
-         mesh.materials[0].alphaCutoff = 0.5f, mesh.materials[0].textureHasAlpha = true;
+         mesh.materials[0].alphaCutoff = 0.5f, mesh.materials[0].partlyTransparent = true;
          for (std::size_t i = 3; i < 4 * 64 * 20; i += 4) mesh.textures[0].rgba[i] = 0;
        }},
       {"transparent", [=](Mesh& mesh) { moved(mesh), mesh.materials[0].baseColour[3] = 0.6f; }}};

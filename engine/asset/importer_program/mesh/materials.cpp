@@ -25,7 +25,7 @@ void readMask(float cutoff, std::uint8_t leastOfTexture, bool alphaOfVertices, M
     to.alphaCutoff = cutoff;
   else {
     to.baseColour[3] = 1;
-    to.textureHasAlpha = false;
+    to.partlyTransparent = false;
   }
 }
 
@@ -82,7 +82,7 @@ Material readMaterial(const SourceMaterial& from, bool alphaOfVertices, Pictures
   to.unlit = from.unlit;
   const std::int32_t base = to.maps[kBaseMap].texture = readBase(from, pictures);
   const std::uint8_t least = base >= 0 ? leastAlpha(mesh.textures[static_cast<std::size_t>(base)]) : 255;
-  to.textureHasAlpha = least < 255;
+  to.partlyTransparent = least < 255 || (alphaOfVertices && from.alphaMode == AlphaMode::Blend);
   if (from.alphaMode == AlphaMode::Mask) readMask(from.alphaCutoff, least, alphaOfVertices, to);
   readFurtherMaps(from, pictures, to);
   // If the file does not state the number of sides, transparent surfaces have two: the walls of a glass room
@@ -93,11 +93,12 @@ Material readMaterial(const SourceMaterial& from, bool alphaOfVertices, Pictures
 
 }  // namespace
 
-void readMaterials(const SourceScene& scene, const PictureSource& source, bool alphaOfVertices, Mesh& mesh,
-                   ModelInventory& inventory) {
+void readMaterials(const SourceScene& scene, const PictureSource& source,
+                   const std::vector<bool>& alphaOfVertices, Mesh& mesh, ModelInventory& inventory) {
   Pictures pictures(scene, source, mesh, inventory);
-  for (const SourceMaterial& from : scene.materials)
-    mesh.materials.push_back(readMaterial(from, alphaOfVertices, pictures, mesh));
+  for (std::size_t i = 0; i < scene.materials.size(); ++i)
+    mesh.materials.push_back(
+        readMaterial(scene.materials[i], i < alphaOfVertices.size() && alphaOfVertices[i], pictures, mesh));
   if (mesh.materials.empty()) mesh.materials.emplace_back();
 }
 
