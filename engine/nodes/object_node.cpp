@@ -49,7 +49,7 @@ constinit const NodeType kObjectType{
 
 namespace node_types {
 
-void addModelNode(NodeRegistrar& types) {
+void addObjectNode(NodeRegistrar& types) {
   types.add(kObjectType);
 }
 
