@@ -209,7 +209,7 @@ constexpr OptionRow kRows[] = {
      Measurement},
     {"--full", flag(),
      "adds the acceptance counts: 10 000 damaged files of each kind, 1000 reloads, 300 frames of every "
-     "comparison, the tests that measure time, and those that run Blender",
+     "comparison, the tests that measure time, and those that run Blender and three.js",
      Measurement},
     {"--only", text("REGEX"), "runs only tests whose names match", Measurement},
     {"--summarize", file(), "runs nothing; prints the results in this file of ctest --output-junit",
