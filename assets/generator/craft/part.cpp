@@ -22,6 +22,13 @@ void addQuad(Part& to, const std::array<Vertex, 4>& corners) {
   to.triangles.push_back({first, first + 2, first + 3});
 }
 
+void dropFlat(Part& part) {
+  std::erase_if(part.triangles, [&](const auto& t) {
+    const auto& v = part.vertices;
+    return length(cross(v[t[1]].p - v[t[0]].p, v[t[2]].p - v[t[0]].p)) < 1e-8;
+  });
+}
+
 void paint(Part& part, const std::function<Rgb(const Vertex&)>& colour) {
   for (Vertex& v : part.vertices) v.colour = colour(v);
 }

@@ -46,6 +46,8 @@ struct Placement {
 void add(Part& to, const Part& from, const Placement& place = {});
 /// Appends a quadrilateral, counter-clockwise, with corners of its own.
 void addQuad(Part& to, const std::array<Vertex, 4>& corners);
+/// Removes triangles without area.
+void dropFlat(Part& part);
 /// Sets every vertex's colour to a function of the vertex.
 void paint(Part& part, const std::function<Rgb(const Vertex&)>& colour);
 /// Projects the picture from the sides that the triangles face, `metres` a width.

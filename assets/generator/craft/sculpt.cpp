@@ -105,14 +105,36 @@ private:
 
 }  // namespace
 
-void Clay::grow(Point p, double reach) {
-  low_ = {std::min(low_.x, p.x - reach), std::min(low_.y, p.y - reach), std::min(low_.z, p.z - reach)};
-  high_ = {std::max(high_.x, p.x + reach), std::max(high_.y, p.y + reach), std::max(high_.z, p.z + reach)};
+Clay& Clay::on(int bone, const Pose& X) {
+  const auto point = [](const Vec3& v) { return Point{v.x(), v.y(), v.z()}; };
+  const Mat3 m = X.q.toRotationMatrix();
+  bone_ = bone, turned_ = true;
+  axes_ = {point(m.col(0)), point(m.col(1)), point(m.col(2))};
+  origin_ = point(X.p);
+  return *this;
+}
+
+void Clay::put(Kind kind, Point a, Point b, double ra, double rb, double melt) {
+  Lump lump{kind, a, b, ra, rb, melt, {}, 0, bone_, turned_, axes_, origin_};
+  const bool rod = kind == Kind::Rod;
+  const Point middle = rod ? 0.5 * (a + b) : a;
+  lump.reach = rod ? 0.5 * length(b - a) + std::max(ra, rb) : std::max({b.x, b.y, b.z});
+  lump.middle = turned_ ? origin_ + middle.x * axes_[0] + middle.y * axes_[1] + middle.z * axes_[2] : middle;
+  lumps_.push_back(lump);
+  if (kind == Kind::Hollow) return;
+  const auto grow = [&](Point at, double reach) {
+    const Point p = turned_ ? origin_ + at.x * axes_[0] + at.y * axes_[1] + at.z * axes_[2] : at;
+    low_ = {std::min(low_.x, p.x - reach), std::min(low_.y, p.y - reach), std::min(low_.z, p.z - reach)};
+    high_ = {std::max(high_.x, p.x + reach), std::max(high_.y, p.y + reach), std::max(high_.z, p.z + reach)};
+  };
+  if (rod)
+    grow(a, ra), grow(b, rb);
+  else
+    grow(a, lump.reach);
 }
 
 Clay& Clay::ball(Point middle, Point radii, double melt) {
-  lumps_.push_back({Kind::Ball, middle, radii, 0, 0, melt});
-  grow(middle, std::max({radii.x, radii.y, radii.z}));
+  put(Kind::Ball, middle, radii, 0, 0, melt);
   return *this;
 }
 
@@ -121,8 +143,7 @@ Clay& Clay::balls(Point middle, Point radii, double melt) {
 }
 
 Clay& Clay::rod(Point a, Point b, double ra, double rb, double melt) {
-  lumps_.push_back({Kind::Rod, a, b, ra, rb, melt});
-  grow(a, ra), grow(b, rb);
+  put(Kind::Rod, a, b, ra, rb, melt);
   return *this;
 }
 
@@ -131,7 +152,7 @@ Clay& Clay::rods(Point a, Point b, double ra, double rb, double melt) {
 }
 
 Clay& Clay::hollow(Point middle, Point radii, double melt) {
-  lumps_.push_back({Kind::Hollow, middle, radii, 0, 0, melt});
+  put(Kind::Hollow, middle, radii, 0, 0, melt);
   return *this;
 }
 
@@ -140,14 +161,26 @@ Clay& Clay::relief(std::function<double(Point)> out) {
   return *this;
 }
 
+double Clay::distance(const Lump& lump, Point p) {
+  if (lump.turned) {
+    const Point q = p - lump.origin;
+    p = {dot(lump.axes[0], q), dot(lump.axes[1], q), dot(lump.axes[2], q)};
+  }
+  return lump.kind == Kind::Rod ? rodDistance(p, lump.a, lump.b, lump.ra, lump.rb)
+                                : ballDistance(p, lump.a, lump.b);
+}
+
 double Clay::distance(Point p) const {
   double d = 1e3;
   for (const Lump& lump : lumps_) {
-    switch (lump.kind) {
-    case Kind::Ball: d = melted(d, ballDistance(p, lump.a, lump.b), lump.melt); break;
-    case Kind::Rod: d = melted(d, rodDistance(p, lump.a, lump.b, lump.ra, lump.rb), lump.melt); break;
-    case Kind::Hollow: d = -melted(-d, ballDistance(p, lump.a, lump.b), lump.melt); break;
+    if (lump.kind == Kind::Hollow) {
+      d = -melted(-d, distance(lump, p), lump.melt);
+      continue;
     }
+    // What is too far away to melt changes nothing. A flat ball's distance may seem half of what it is.
+    if (turned_ && length(p - lump.middle) - lump.reach > 2 * std::max(d, 0.0) + 2 * lump.melt + 0.02)
+      continue;
+    d = melted(d, distance(lump, p), lump.melt);
   }
   return relief_ ? d - relief_(p) : d;
 }
@@ -162,9 +195,30 @@ Point Clay::outward(Point p) const {
 
 Part Clay::cast(double step, const std::function<Rgb(Point, Point)>& colour) const {
   const Point room = 2.5 * step * Point{1, 1, 1} + Point{0.02, 0.02, 0.02};
-  Part part = Net(*this, low_ - room, high_ + room, step).cast();
+  return cast(step, low_ - room, high_ + room, colour);
+}
+
+Part Clay::cast(double step, Point low, Point high, const std::function<Rgb(Point, Point)>& colour) const {
+  Part part = Net(*this, low, high, step).cast();
   for (Vertex& v : part.vertices) v.colour = colour(v.p, v.n);
   return part;
+}
+
+double Clay::open(Point p, Point outward, double reach) const {
+  return std::clamp(distance(p + reach * outward) / reach, 0.0, 1.0);
+}
+
+std::vector<double> Clay::pulls(Point p, std::size_t bones, double over) const {
+  std::vector<double> least(bones, 1e3);
+  double nearest = 1e3;
+  for (const Lump& lump : lumps_) {
+    if (lump.kind == Kind::Hollow) continue;
+    const double d = distance(lump, p);
+    double& of = least[static_cast<std::size_t>(lump.bone)];
+    of = std::min(of, d), nearest = std::min(nearest, d);
+  }
+  for (double& d : least) d = det::exp(std::max((nearest - d) / over, -30.0));
+  return least;
 }
 
 Part mirrored(Part part) {
