@@ -1,5 +1,5 @@
 #include "assets/generator/olympia/olympia.h"
-#include "assets/generator/olympia/person.h"
+#include "assets/generator/olympia/spectators.h"
 #include "assets/generator/olympia/stadium_shape.h"
 
 // They sit in loose rows on the slope, in clusters, and look at what goes on near the start, where they are
@@ -14,8 +14,12 @@ bool taken(Point p) {  // by the judges' stand or the altar
   return std::fabs(p.y - kStand.y) < 9.5 && std::fabs(p.x) < kTrackSide + 13;
 }
 
-Detail detailAt(Point p) {
-  const double far = length({p.x, p.y < 12 ? std::min(3 * (p.y + 10), 0.0) : p.y - 12, 0});
+/// From where visitors are; what lies behind them counts as farther.
+double farFrom(Point p) {
+  return length({p.x, p.y < 12 ? std::min(3 * (p.y + 10), 0.0) : p.y - 12, 0});
+}
+
+Detail detailAt(double far) {
   return far < 17.5 ? Detail::Near : far < 40 ? Detail::Middle : Detail::Far;
 }
 
@@ -32,10 +36,9 @@ std::vector<Point> seats(double side) {
 
 }  // namespace
 
-Parts crowd(double side, double low, double high) {
+std::vector<Spectator> spectatorsOn(double side) {
   Dice dice(side > 0 ? 11 : 12);
-  Part people;
-  people.finish = {"people", "", 0.95, 0};
+  std::vector<Spectator> all;
   for (const Point& seat : seats(side)) {
     const Point p = seat + Point{dice.between(-0.3, 0.3), dice.between(-0.3, 0.3), 0};
     const double cluster = roughNoise(0.11 * p + Point{31, 0, 0}, 2);
@@ -44,11 +47,29 @@ Parts crowd(double side, double low, double high) {
     const bool there =
         dice.even() < full * smoothstep(mix(0.42, 0.26, near), mix(0.64, 0.56, near), cluster) + 0.012;
     const Person person = somebody(dice, dice.even() < (up > 22 && cluster > 0.5 ? 0.4 : 0.05));
-    if (!there || taken(p) || p.y < low || p.y >= high) continue;
+    if (!there || taken(p)) continue;
     const Point to{0, mix(22, std::max(p.y, -10.0), 0.45), 0};
     const double yaw = det::atan2(-(to.x - p.x), to.y - p.y) + 0.25 * (person.turn - 0.5);
-    const double size = mix(0.92, 1.06, person.turn);
-    add(people, figure(person, detailAt(p)), {{p.x, p.y, groundHeight(p) - 0.04}, yaw, {size, size, size}});
+    all.push_back({person,
+                   {p.x, p.y, groundHeight(p) - 0.04},
+                   yaw,
+                   mix(0.92, 1.06, person.turn),
+                   beside(p),
+                   farFrom(p)});
+  }
+  std::stable_sort(all.begin(), all.end(),
+                   [](const Spectator& a, const Spectator& b) { return a.far < b.far; });
+  return all;
+}
+
+Parts crowd(double side, double low, double high) {
+  Part people;
+  people.finish = {"people", "", 0.95, 0};
+  const std::vector<Spectator> all = spectatorsOn(side);
+  for (std::size_t i = kNearSpectators; i < all.size(); ++i) {
+    const Spectator& s = all[i];
+    if (s.at.y < low || s.at.y >= high) continue;
+    add(people, figure(s.person, detailAt(s.far)), {s.at, s.yaw, {s.size, s.size, s.size}});
   }
   return {people};
 }

@@ -1,6 +1,6 @@
 #include "assets/generator/olympia/motion.h"
 
-#include "assets/generator/olympia/body.h"
+#include "assets/generator/olympia/joints.h"
 
 namespace stadion::assets {
 namespace {

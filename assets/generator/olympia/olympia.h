@@ -36,8 +36,8 @@ Parts embankments();
 /// The plain, the hill of Kronos and the ridges around the valley, to 3 km.
 Parts countryside();
 
-/// Spectators on one embankment (side 1: north, right; -1: south, left) from `low` to `high` along the track.
-/// The farther from the start, the plainer.
+/// Spectators on one embankment (side 1: north, right; -1: south, left) from `low` to `high` along the track,
+/// without the nearest (spectators.h). The farther from the start, the plainer.
 Parts crowd(double side, double low, double high);
 
 /// Pines, cypresses and olives around the stadium, and the wood on the hill of Kronos.

@@ -231,8 +231,8 @@ TEST(ProgramOlympia, APartOfTheShowIsCheckedInIt) {
   const auto part = [](const char* name) {
     return (std::filesystem::path(olympia()).parent_path() / "olympia" / name).string();
   };
-  // Its names are of the show around it; an athlete is a part of a part.
-  for (const char* name : {"game_discus.evs", "athlete_discus.evs"}) {
+  // Its names are of the show around it.
+  for (const char* name : {"game_discus.evs", "officials.evs"}) {
     const ProgramResult checked = stadionProgram({"check", part(name)});
     EXPECT_EQ(checked.status, 0) << checked.out;
     EXPECT_NE(checked.out.find(": ok, as a part of "), checked.out.npos) << checked.out;

@@ -116,7 +116,7 @@ TEST(ProgramView, ShowsAModelAndTheOneThatIsSavedInItsPlace) {
   ASSERT_TRUE(view.playing());
   ASSERT_TRUE(view.pressed("F12", "screenshot:"));
   const auto discus = view.shot(1);
-  std::filesystem::copy_file(assetFolder() + "/athlete_head_dark.glb", model,
+  std::filesystem::copy_file(assetFolder() + "/judge.glb", model,
                              std::filesystem::copy_options::overwrite_existing);
   ASSERT_TRUE(view.program().says(model + " was saved"));
   ASSERT_TRUE(view.program().says("playing " + model, 2));

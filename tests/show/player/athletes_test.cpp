@@ -12,23 +12,29 @@
 namespace stadion {
 namespace {
 
-constexpr double kGo = 0.5, kAgain = 6, kEnd = 6.5;  // [s] when he is told to begin and to go back
+constexpr double kThrow = 0.5, kWait = 6, kEnd = 6.5;  // [s] when clips begin, and the end
+constexpr double kClipAfter = 0.05;  // [s] the games start the clip so long after the athlete's turn
 constexpr double kRate = 60;
 
 struct Moment {
   double time = 0;                 ///< [s]
-  std::map<std::string, Vec3> at;  ///< [m] where nodes are
+  std::map<std::string, Vec3> at;  ///< [m] where bones are
 };
 
 struct Athlete {
-  std::string script;
-  double release = 0;         ///< [s] after go, as its script says
+  double release = 0;         ///< [s] of the clip, as the game has it
   Vec3 place = Vec3::Zero();  ///< [m] of what he lets go, likewise
   std::vector<Moment> moments;
   int finished = 0;
 
   const Moment& near(double time) const { return moments.at(static_cast<std::size_t>(time * kRate + 0.5)); }
 };
+
+/// The line of a script that begins so, from there on.
+std::string lineOf(const std::string& script, const std::string& begin) {
+  const std::size_t at = script.find(begin);
+  return at == std::string::npos ? "" : script.substr(at, script.find('\n', at) - at);
+}
 
 Moment momentOf(double time, Scene& scene) {
   Moment m;
@@ -40,19 +46,29 @@ Moment momentOf(double time, Scene& scene) {
   return m;
 }
 
-Athlete playAthlete(const std::string& name) {
+/// Plays `clip` from kThrow on, and "wait" from kWait on.
+Athlete playAthlete(const std::string& name, const std::string& clip) {
   Athlete athlete;
-  athlete.script = fileContent(STADION_SOURCE_DIR "/scripts/olympia/athlete_" + name + ".evs");
+  const std::string game = fileContent(STADION_SOURCE_DIR "/scripts/olympia/game_" + name + ".evs");
+  const std::string rival = lineOf(game, "dynobject( name=rival"),
+                    hides = lineOf(game, "timesup, held, hide,");
   Vec3& p = athlete.place;
-  const std::size_t said = athlete.script.find("s after `go"), there = athlete.script.find("It is then at (");
-  if (said == std::string::npos || there == std::string::npos) return athlete;
-  std::sscanf(athlete.script.c_str() + athlete.script.rfind('#', said), "# %lf", &athlete.release);
-  std::sscanf(athlete.script.c_str() + there, "It is then at (%lf,%lf,%lf)", &p.x(), &p.y(), &p.z());
+  const std::size_t position = rival.find("position=\"");
+  if (position == std::string::npos || hides.empty()) return athlete;
+  std::sscanf(rival.c_str() + position, "position=\"%lf, %lf, %lf", &p.x(), &p.y(), &p.z());
+  std::sscanf(hides.c_str(), "timesup, held, hide, %lf", &athlete.release);
+  p.x() += 1.9;  // where he stands in the game
+  athlete.release -= kClipAfter;
+  std::string script = "figure( name=athlete, file=athlete_" + name + ".glb, clip=wait )\n";
+  for (const char* bone : {"pelvis", "head", "right_hand", "left_hand", "right_foot", "left_foot"})
+    script += std::string("bone( name=") + bone + ", parent=athlete, bone=" + bone + " )\n";
+  const std::string held = lineOf(game, "object( name=held"), hand = lineOf(game, "bone( name=athletes_hand");
+  script += name == "ball" ? "group( name=held, position=\"0, 0, 0.11\" )\n" : hand + "\n" + held + "\n";
+  script += "timer( period=0.48, eventmessage=\"timesup, athlete, play " + clip +
+            " fade 0.05 once, latency=0.02\" )\n"
+            "timer( period=6, eventmessage=\"timesup, athlete, play wait\" )\n";
   const TestFolder folder;
-  const auto player = openShow(folder.write(
-      "athlete.evs", athlete.script +
-                         "\ntimer( period=0.48, eventmessage=\"timesup, go, enable, latency=0.02\" )\n"
-                         "timer( period=6, eventmessage=\"timesup, again, enable\" )\n"));
+  const auto player = openShow(folder.write("athlete.evs", script));
   if (!player) return athlete;
   ShowParts parts = player->parts(StereoLayout::Pair);
   parts.observer = [&](const TimeSignature& now, const InputSample&, const Scene& scene) {
@@ -64,36 +80,42 @@ Athlete playAthlete(const std::string& name) {
   return athlete;
 }
 
+/// How fast a foot slides at most while its sole is on the ground. [m/s]
+double slide(const Athlete& athlete) {
+  double fastest = 0;
+  for (std::size_t i = 1; i < athlete.moments.size(); ++i) {
+    if (athlete.moments[i].time > kWait) break;
+    for (const char* foot : {"right_foot", "left_foot"}) {
+      const Vec3 a = athlete.moments[i - 1].at.at(foot), b = athlete.moments[i].at.at(foot);
+      EXPECT_GT(b.z(), 0.068) << foot << " in the ground at " << athlete.moments[i].time << " s";
+      if (std::max(a.z(), b.z()) < 0.083) fastest = std::max(fastest, kRate * (b - a).norm());
+    }
+  }
+  return fastest;
+}
+
 class Athletes : public testing::TestWithParam<const char*> {
 protected:
   void SetUp() override {
-    athlete_ = playAthlete(GetParam());
+    athlete_ = playAthlete(GetParam(), "throw");
     ASSERT_GT(athlete_.release, 1);
     ASSERT_GT(athlete_.moments.size(), kEnd * kRate);
+    ASSERT_EQ(athlete_.moments[0].at.size(), 7u);
   }
   Athlete athlete_;
 };
 
-TEST_P(Athletes, LetGoWhereAndWhenTheirScriptsSay) {
-  const Vec3 held = athlete_.near(kGo + athlete_.release).at.at("held");
+TEST_P(Athletes, LetGoWhereAndWhenTheirGamesSay) {
+  const Vec3 held = athlete_.near(kThrow + athlete_.release).at.at("held");
   // Poses are told every thirtieth of a second, and a fast hand goes half a metre in it.
   EXPECT_LT((held - athlete_.place).norm(), 0.04) << held.transpose();
 }
 
 TEST_P(Athletes, DoNotSlideOnTheFootThatStands) {
-  double fastest = 0;
-  for (std::size_t i = 1; i < athlete_.moments.size(); ++i) {
-    if (athlete_.moments[i].time > kAgain) break;
-    for (const char* foot : {"right_foot", "left_foot"}) {
-      const Vec3 a = athlete_.moments[i - 1].at.at(foot), b = athlete_.moments[i].at.at(foot);
-      EXPECT_GT(b.z(), 0.07) << foot << " in the ground at " << athlete_.moments[i].time << " s";
-      if (std::max(a.z(), b.z()) < 0.083) fastest = std::max(fastest, kRate * (b - a).norm());
-    }
-  }
-  EXPECT_LT(fastest, 0.6) << "m/s, with the sole on the ground";
+  EXPECT_LT(slide(athlete_), 0.6) << "m/s, with the sole on the ground";
 }
 
-TEST_P(Athletes, StandStillAfterwardsAndAreBackWhenToldSo) {
+TEST_P(Athletes, StandStillAfterwardsAndAreBackWhenTheyWait) {
   EXPECT_EQ(athlete_.finished, 1) << "one event tells the end";
   const auto &first = athlete_.moments.front().at, &last = athlete_.moments.back().at;
   const auto& stood = athlete_.near(5.6).at;
@@ -102,6 +124,17 @@ TEST_P(Athletes, StandStillAfterwardsAndAreBackWhenToldSo) {
     EXPECT_LT((athlete_.near(5.5).at.at(name) - stood.at(name)).norm(), 0.01) << name;
   }
   EXPECT_GT((stood.at("pelvis") - first.at("pelvis")).norm(), 0.5) << "he had gone on";
+}
+
+TEST_P(Athletes, WalkBackToWhereTheyBegan) {
+  const Athlete walking = playAthlete(GetParam(), "walk");
+  ASSERT_GT(walking.moments.size(), kEnd * kRate);
+  const auto &began = walking.near(kThrow + 0.1).at, &back = walking.near(kWait - 0.02).at;
+  EXPECT_LT((began.at("pelvis") - athlete_.near(5.5).at.at("pelvis")).norm(), 0.05)
+      << "from where he has thrown";
+  for (const char* name : {"pelvis", "head", "right_foot", "left_foot"})
+    EXPECT_LT((back.at(name) - walking.moments.front().at.at(name)).norm(), 0.08) << name;
+  EXPECT_LT(slide(walking), 1.0) << "m/s, with the sole on the ground";
 }
 
 INSTANTIATE_TEST_SUITE_P(OfOlympia, Athletes, testing::Values("discus", "javelin", "ball"));
