@@ -13,23 +13,27 @@ namespace stadion::assets {
 class GlbWriter {
 public:
   /// Adds a primitive of the only mesh.
-  void add(const Part& part) { primitive(part, ""); }
+  void add(const Part& part) { primitive(part, "", false); }
+  /// Its normals are bytes (KHR_mesh_quantization), and so are the bones' numbers if they are `narrow`.
   void add(const SkinnedPart& skinned, bool narrow);
 
   /// Adds numbers and returns the index of their accessor. `target`: 34962 corners' values, 34963 corners, 0
   /// others.
   int accessor(const std::string& bytes, int target, std::size_t count, int component, const char* type,
-               const std::string& more);
+               const std::string& more, int stride = 0);
+  /// Likewise, all in one view. To be called before the first accessor().
+  void keepClipsTogether() { views_.push_back(""); }
+  int clipAccessor(const std::string& bytes, std::size_t count, const char* type, const std::string& more);
 
   /// The file. `nodes` and `more` are the JSON of scenes and nodes, and of whatever else follows the meshes.
   std::string take(const std::string& nodes, const std::string& more = "");
 
 private:
-  void primitive(const Part& part, const std::string& more);
+  void primitive(const Part& part, const std::string& more, bool quantized);
   int material(const Finish& finish);
 
   std::vector<std::string> primitives_, materials_, pictures_, accessors_, views_;
-  std::string numbers_;
+  std::string numbers_, clips_;
 };
 
 namespace glb {

@@ -113,13 +113,16 @@ public:
       : model_(model), place_error_(place_error), turn_error_(turn_error) {}
 
   std::string write() {
+    writer_.keepClipsTogether();
     const bool narrow = model_.bones.size() <= 256;
     for (const SkinnedPart& part : model_.parts)
       if (!part.part.triangles.empty()) writer_.add(part, narrow);
     const std::string skin = skinText();
     std::vector<std::string> clips;
     for (const ClipModel& clip : model_.clips) clips.push_back(clipText(clip));
-    return writer_.take(nodesText(), ",\n\"skins\":[" + skin + "],\n\"animations\":" + glb::joined(clips));
+    return writer_.take(nodesText(), ",\n\"skins\":[" + skin + "],\n\"animations\":" + glb::joined(clips) +
+                                         ",\n\"extensionsUsed\":[\"KHR_mesh_quantization\"],"
+                                         "\"extensionsRequired\":[\"KHR_mesh_quantization\"]");
   }
 
 private:
@@ -182,10 +185,10 @@ private:
       glb::putFloat(times, clip.times[i]);
       turns ? putTurn(values, keys.pose(i).q) : putPlace(values, keys.pose(i).p);
     }
-    const int input = writer_.accessor(
-        times, 0, kept.size(), 5126, "SCALAR",
+    const int input = writer_.clipAccessor(
+        times, kept.size(), "SCALAR",
         text(",\"min\":[%.9g],\"max\":[%.9g]", clip.times[kept.front()], clip.times[kept.back()]));
-    const int output = writer_.accessor(values, 0, kept.size(), 5126, turns ? "VEC4" : "VEC3", "");
+    const int output = writer_.clipAccessor(values, kept.size(), turns ? "VEC4" : "VEC3", "");
     samplers_.push_back(text("{\"input\":%d,\"output\":%d}", input, output));
   }
 

@@ -38,9 +38,13 @@ char linearByte(double srgb) {
   return static_cast<char>(static_cast<int>(linear * 255 + 0.5));
 }
 
+char signedByte(double v) {
+  return static_cast<char>(static_cast<int>(std::floor(127 * v + 0.5)));
+}
+
 }  // namespace
 
-void GlbWriter::primitive(const Part& part, const std::string& more) {
+void GlbWriter::primitive(const Part& part, const std::string& more, bool quantized) {
   const auto count = static_cast<unsigned>(part.vertices.size());
   std::string positions, colours, uvs, normals, corners;
   Point low{1e9, 1e9, 1e9}, high{-1e9, -1e9, -1e9};
@@ -54,7 +58,10 @@ void GlbWriter::primitive(const Part& part, const std::string& more) {
     for (double c : {v.colour.x, v.colour.y, v.colour.z}) colours.push_back(linearByte(c));
     colours.push_back(static_cast<char>(255));
     glb::putFloat(uvs, v.uv[0]), glb::putFloat(uvs, v.uv[1]);
-    glb::putPoint(normals, v.n);
+    if (quantized)
+      for (const double n : {v.n.x, v.n.z, -v.n.y, 0.0}) normals.push_back(signedByte(n));
+    else
+      glb::putPoint(normals, v.n);
     smoothed = smoothed && dot(v.n, v.n) > 0;
   }
   for (const auto& t : part.triangles)
@@ -68,7 +75,11 @@ void GlbWriter::primitive(const Part& part, const std::string& more) {
       glb::text(",\"COLOR_0\":%d", accessor(colours, 34962, count, 5121, "VEC4", ",\"normalized\":true"));
   if (!part.finish.picture.empty())
     attributes += glb::text(",\"TEXCOORD_0\":%d", accessor(uvs, 34962, count, 5126, "VEC2", ""));
-  if (smoothed) attributes += glb::text(",\"NORMAL\":%d", accessor(normals, 34962, count, 5126, "VEC3", ""));
+  if (smoothed && quantized)
+    attributes +=
+        glb::text(",\"NORMAL\":%d", accessor(normals, 34962, count, 5120, "VEC3", ",\"normalized\":true", 4));
+  else if (smoothed)
+    attributes += glb::text(",\"NORMAL\":%d", accessor(normals, 34962, count, 5126, "VEC3", ""));
   const int indices = accessor(corners, 34963, static_cast<unsigned>(3 * part.triangles.size()),
                                narrow ? 5123 : 5125, "SCALAR", "");
   primitives_.push_back("{\"attributes\":{" + attributes + more +
@@ -94,7 +105,7 @@ void GlbWriter::add(const SkinnedPart& skinned, bool narrow) {
   const std::size_t count = skinned.carriers.size();
   const int joint = accessor(joints, 34962, count, narrow ? 5121 : 5123, "VEC4", "");
   const int weight = accessor(weights, 34962, count, 5121, "VEC4", ",\"normalized\":true");
-  primitive(skinned.part, glb::text(",\"JOINTS_0\":%d,\"WEIGHTS_0\":%d", joint, weight));
+  primitive(skinned.part, glb::text(",\"JOINTS_0\":%d,\"WEIGHTS_0\":%d", joint, weight), true);
 }
 
 std::string GlbWriter::take(const std::string& nodes, const std::string& more) {
@@ -109,6 +120,12 @@ std::string GlbWriter::take(const std::string& nodes, const std::string& more) {
     }
     json += ",\n\"images\":" + glb::joined(images) + ",\n\"textures\":" + glb::joined(textures);
   }
+  if (!clips_.empty()) {
+    while (numbers_.size() % 4 != 0) numbers_.push_back(0);
+    views_[0] =
+        glb::text("{\"buffer\":0,\"byteOffset\":%zu,\"byteLength\":%zu}", numbers_.size(), clips_.size());
+    numbers_ += clips_;
+  }
   json += ",\n\"accessors\":" + glb::joined(accessors_) + ",\n\"bufferViews\":" + glb::joined(views_) +
           glb::text(",\n\"buffers\":[{\"byteLength\":%d}]}", static_cast<int>(numbers_.size()));
   while (json.size() % 4 != 0) json.push_back(' ');
@@ -121,15 +138,26 @@ std::string GlbWriter::take(const std::string& nodes, const std::string& more) {
 }
 
 int GlbWriter::accessor(const std::string& bytes, int target, std::size_t count, int component,
-                        const char* type, const std::string& more) {
+                        const char* type, const std::string& more, int stride) {
   while (numbers_.size() % 4 != 0) numbers_.push_back(0);
   views_.push_back(
       glb::text("{\"buffer\":0,\"byteOffset\":%zu,\"byteLength\":%zu", numbers_.size(), bytes.size()) +
+      (stride == 0 ? "" : glb::text(",\"byteStride\":%d", stride)) +
       (target == 0 ? "}" : glb::text(",\"target\":%d}", target)));
   numbers_ += bytes;
   accessors_.push_back(glb::text("{\"bufferView\":%d,\"componentType\":%d,\"count\":%zu,\"type\":\"%s\"",
                                  static_cast<int>(views_.size()) - 1, component, count, type) +
                        more + "}");
+  return static_cast<int>(accessors_.size()) - 1;
+}
+
+int GlbWriter::clipAccessor(const std::string& bytes, std::size_t count, const char* type,
+                            const std::string& more) {
+  accessors_.push_back(glb::text("{\"bufferView\":0,\"byteOffset\":%zu,\"componentType\":5126,\"count\":%zu,"
+                                 "\"type\":\"%s\"",
+                                 clips_.size(), count, type) +
+                       more + "}");
+  clips_ += bytes;
   return static_cast<int>(accessors_.size()) - 1;
 }
 

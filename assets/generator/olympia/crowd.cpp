@@ -14,6 +14,11 @@ bool taken(Point p) {  // by the judges' stand or the altar
   return std::fabs(p.y - kStand.y) < 9.5 && std::fabs(p.x) < kTrackSide + 13;
 }
 
+/// From the stands of the games and the way to them.
+double beside(Point p) {
+  return length({std::max(std::fabs(p.x) - 7, 0.0), p.y < -9 ? -9 - p.y : std::max(p.y, 0.0), 0});
+}
+
 /// From where visitors are; what lies behind them counts as farther.
 double farFrom(Point p) {
   return length({p.x, p.y < 12 ? std::min(3 * (p.y + 10), 0.0) : p.y - 12, 0});
@@ -58,7 +63,7 @@ std::vector<Spectator> spectatorsOn(double side) {
                    farFrom(p)});
   }
   std::stable_sort(all.begin(), all.end(),
-                   [](const Spectator& a, const Spectator& b) { return a.far < b.far; });
+                   [](const Spectator& a, const Spectator& b) { return a.near < b.near; });
   return all;
 }
 

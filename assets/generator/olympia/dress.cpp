@@ -144,7 +144,7 @@ private:
   Rgb clothColour(Point p, Point n) const {
     const double open = clay_.open(p, n, 0.022), edge = inside(look_, p);
     const Rgb linen = linenColour(look_.cloth, hang(look_, p), open, n);
-    return mix(linenColour(look_.border, 0.5, open, n), linen, smoothstep(0.016, 0.027, edge));
+    return mix(linenColour(look_.border, 0.5, open, n), linen, smoothstep(0.022, 0.034, edge));
   }
 
   Rgb bareColour(Point p, Point n) const {

@@ -112,7 +112,8 @@ Rgb HeadClay::colour(Point p, const Rgb& skin) const {
       std::min(length(p - Point{0.030, 0.0855, 0.133}), length(p - Point{-0.030, 0.0855, 0.133}));
   if (eye < 0.0055) return Rgb{0.13, 0.09, 0.07};
   if (eye < 0.0095) return p.z > 0.137 ? times({0.55, 0.46, 0.42}, skin) : Rgb{0.80, 0.76, 0.71};
-  if (face_.distance(p) > 0.0025 && p.y < 0.115 && near(p))
+  const double over = beard_ && p.z < 0.105 && p.y > 0 ? 0.0008 : 0.0025;
+  if (face_.distance(p) > over && p.y < 0.118 && near(p))
     return mix(0.75, 1.3, roughNoise(60 * p, 2)) * hair_;
   const bool brow =
       std::fabs(p.z - 0.153) < 0.005 && std::fabs(p.x) > 0.010 && std::fabs(p.x) < 0.046 && p.y > 0.06;

@@ -9,7 +9,7 @@
 namespace stadion::assets {
 namespace {
 
-constexpr double kRobeStep = 0.030, kBareStep = 0.0180, kNearStep = 0.0120;  // [m]
+constexpr double kRobeStep = 0.039, kBareStep = 0.0225, kNearStep = 0.0150;  // [m]
 constexpr double kHip = joints::kHipHeight;
 
 struct Official {
@@ -62,8 +62,8 @@ Clay robeClay() {
       .rod({0.12, 0.11, 0.05}, {-0.12, 0.13, 0.12}, 0.05, 0.065, 0.06);
   clay.rod({-0.12, 0.155, 0.14}, {-0.14, 0.16, -0.30}, 0.040, 0.065, 0.05);  // its end falls from the hand
   clay.on(boneOf(Joint::RightArm), rest[static_cast<std::size_t>(boneOf(Joint::RightArm))]);
-  clay.ball({0, 0, -0.01}, {0.076, 0.078, 0.076}, 0.05)
-      .rod({0, 0, -0.03}, {0.004, 0, -0.17}, 0.068, 0.086, 0.05);
+  clay.ball({0, 0, -0.01}, {0.068, 0.070, 0.068}, 0.05)
+      .rod({0, 0, -0.03}, {0.004, 0, -0.17}, 0.060, 0.080, 0.05);
   clay.relief([](Point p) { return 0.012 * foldAt(p - Point{0, 0, kHip}); });
   return clay;
 }

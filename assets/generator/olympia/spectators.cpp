@@ -19,7 +19,7 @@ std::array<Vec3, kPieces> jointsOf(const Person& person) {
   const double hip = person.standing ? 0.88 : 0.12;
   return {Vec3(0, 0, 0),
           Vec3(0, 0, hip + 0.08),
-          Vec3(0, -0.005, hip + 0.58),
+          Vec3(0, -0.005, hip + 0.525),
           Vec3(0.18, 0, hip + 0.5),
           Vec3(0.245, 0.04, hip + 0.24),
           Vec3(-0.18, 0, hip + 0.5),
@@ -40,15 +40,16 @@ void addCloth(Clay& clay, const Person& person) {
     clay.ball({0, 0.02, 0.11}, {0.20, 0.19, 0.15}, 0.06);
     clay.rods({0.09, 0.02, 0.12}, {0.105, 0.37, 0.36}, 0.105, 0.078, 0.06);
     clay.rods({0.105, 0.38, 0.35}, {0.10, 0.44, 0.05}, 0.072, 0.060, 0.05);
-    clay.rod({0, 0.10, 0.13}, {0, 0.36, 0.26}, 0.08, 0.07, 0.08);
+    clay.rod({0, 0.10, 0.13}, {0, 0.38, 0.20}, 0.09, 0.085, 0.10);
   }
   on(Trunk);
   clay.ball({0, 0, hip + 0.24}, {0.175, 0.125, 0.27}, 0.08)
-      .ball({0, -0.01, hip + 0.45}, {0.15, 0.095, 0.10}, 0.06);
+      .ball({0, -0.01, hip + 0.45}, {0.135, 0.09, 0.10}, 0.06);
+  clay.rods({0.03, -0.02, hip + 0.535}, {0.15, -0.01, hip + 0.475}, 0.052, 0.056, 0.05);
   for (const double side : {1.0, -1.0}) {
     on(side > 0 ? RightUpper : LeftUpper);
-    clay.ball({side * 0.18, 0, hip + 0.49}, {0.066, 0.066, 0.062}, 0.05)
-        .rod({side * 0.185, 0, hip + 0.47}, {side * 0.225, 0.025, hip + 0.34}, 0.058, 0.066, 0.04);
+    clay.ball({side * 0.17, 0, hip + 0.47}, {0.062, 0.062, 0.058}, 0.06)
+        .rod({side * 0.185, 0, hip + 0.45}, {side * 0.222, 0.025, hip + 0.33}, 0.052, 0.058, 0.05);
   }
 }
 
@@ -65,21 +66,21 @@ void addBare(Clay& clay, const Person& person, const std::array<Vec3, kPieces>& 
   const Point neck = pointOf(joints[Skull]);
   clay.on(Skull, {});
   clay.rod(neck - Point{0, 0, 0.06}, neck + Point{0, 0.005, 0.07}, 0.055, 0.052, 0.03);
-  clay.ball(neck + Point{0, -0.004, 0.165}, {0.076, 0.096, 0.088}, 0.03)
-      .ball(neck + Point{0, 0.036, 0.11}, {0.058, 0.060, 0.080}, 0.03);
+  clay.ball(neck + Point{0, -0.004, 0.165}, {0.084, 0.102, 0.094}, 0.03)
+      .ball(neck + Point{0, 0.036, 0.11}, {0.066, 0.066, 0.086}, 0.03);
   clay.rod(neck + Point{0, 0.092, 0.145}, neck + Point{0, 0.112, 0.108}, 0.010, 0.014, 0.012);
   if (person.beard) clay.ball(neck + Point{0, 0.062, 0.05}, {0.050, 0.046, 0.052}, 0.02);
   if (person.hat)
     clay.ball(neck + Point{0, 0, 0.215}, {0.17, 0.18, 0.022}, 0.02)
         .ball(neck + Point{0, -0.005, 0.25}, {0.085, 0.095, 0.06}, 0.03);
   else
-    clay.ball(neck + Point{0, -0.022, 0.185}, {0.082, 0.094, 0.085}, 0.01);
+    clay.ball(neck + Point{0, -0.022, 0.185}, {0.092, 0.102, 0.094}, 0.01);
 }
 
 Rgb faceColour(const Person& person, Point p) {  // p: from the neck
   if (person.hat && p.z > 0.195) return {0.80, 0.68, 0.42};
   const double eye = std::min(length(p - Point{0.03, 0.088, 0.14}), length(p - Point{-0.03, 0.088, 0.14}));
-  if (eye < 0.018) return 0.45 * person.skin;
+  if (eye < 0.020) return 0.40 * person.skin;
   if (person.beard && p.z < 0.085 && p.z > 0.01 && p.y > 0.01) return person.hair;
   const bool hair = p.z > 0.205 - 0.4 * std::max(p.y - 0.03, 0.0) || (p.y < 0.015 && p.z > 0.085);
   return hair ? person.hair : person.skin;
@@ -143,7 +144,7 @@ void addPerson(FigureModel& model, SkinnedPart& people, const Spectator& s, int 
     add(people.part, part, {s.at, s.yaw, {s.size, s.size, s.size}});
   };
   append(clay, step, cloth);
-  append(bare, 0.66 * step, skin);
+  append(bare, 0.50 * step, skin);
 }
 
 /// A smooth motion that repeats, from -1 to 1.
@@ -237,7 +238,7 @@ FigureModel nearSpectators(double side) {
   Dice dice(side > 0 ? 21 : 22);
   std::vector<Moves> moves;
   for (std::size_t i = 0; i < std::min(all.size(), kNearSpectators); ++i) {
-    addPerson(model, people, all[i], static_cast<int>(1 + i * kPieces), all[i].far < 16 ? 0.062 : 0.074);
+    addPerson(model, people, all[i], static_cast<int>(1 + i * kPieces), all[i].near < 8.5 ? 0.062 : 0.100);
     moves.emplace_back(all[i].person, dice);
   }
   model.parts.push_back(std::move(people));

@@ -11,10 +11,11 @@ struct Spectator {
   Point at;     ///< in the stadium
   double yaw;   ///< [rad]
   double size;  ///< 1 = a man of 1.76 m
+  double near;  ///< [m] from where visitors walk
   double far;   ///< [m] likewise, but what lies behind them counts as farther
 };
 
-constexpr std::size_t kNearSpectators = 14;  ///< of a side
+constexpr std::size_t kNearSpectators = 16;  ///< of a side
 
 /// Those of one side, the nearest first.
 std::vector<Spectator> spectatorsOn(double side);
