@@ -20,6 +20,25 @@ PlaceAttributes statedPlaceOf(const Declaration& d) {
   return place;
 }
 
+/// The words of a text. Colours have nothing but numbers.
+std::vector<std::string> wordsOf(std::string_view text) {
+  std::vector<std::string> words;
+  for (std::size_t at = 0; (at = text.find_first_not_of(" \t+", at)) != text.npos;) {
+    const std::size_t end = std::min(text.find_first_of(" \t", at), text.size());
+    words.emplace_back(text.substr(at, end - at));
+    at = end;
+  }
+  return words;
+}
+
+Paint paintOf(const Declaration& d) {
+  Paint paint;
+  if (d.has("tint")) paint.tint = d.vec3("tint");
+  if (d.has("emit")) paint.emit = d.vec3("emit");
+  if (d.has("opacity")) paint.opacity = d.number("opacity");
+  return paint;
+}
+
 Notification notificationOf(const EventMessage& m, const NodeRegistry& types) {
   const ArgumentKind argument = types.command(m.commandId)->argument;
   Notification n;
@@ -31,6 +50,7 @@ Notification notificationOf(const EventMessage& m, const NodeRegistry& types) {
     n.arguments = {std::string(kAttachPartNames[static_cast<std::size_t>(m.part)])};
   if (!m.field.name.empty()) n.arguments.push_back(std::string(m.field.name));
   if (argument == ArgumentKind::Words) n.arguments.push_back(unescaped(m.words));
+  if (argument == ArgumentKind::Colour || argument == ArgumentKind::Share) n.arguments = wordsOf(m.words);
   if (!m.tracker.empty()) n.arguments.push_back(std::string(m.tracker));
   return n;
 }
@@ -48,6 +68,7 @@ public:
 
   bool isStatic(std::uint32_t i) const {
     if (document_[i].kind() != "object" || mentioned_[i] || hasChild_[i]) return false;
+    if (!paintOf(document_[i]).isNeutral()) return false;  // chunks have no paint
     for (std::uint32_t up = parent_[i]; up != kNone; up = parent_[up])
       if (mayMove(up)) return false;
     return true;
@@ -166,6 +187,7 @@ private:
     a.mesh = input_.meshes(d);
     if (input_.store.find(a.mesh)->indices.empty()) a.mesh = kNoMesh;  // all of it is in parts
     a.drawn = d.flag("draw");
+    a.paint = paintOf(d);
     if (d.is(Trait::Figure)) return a;
     a.shape = std::string(d.text("shape"));
     a.tolerance = d.number("tolerance");

@@ -54,8 +54,10 @@ RegisteredType::RegisteredType(const NodeType& type, std::string source)
   appendRows<AttributeSpec>(attributes_, kCommonRows);
   if (has(Trait::Placed)) appendRows<AttributeSpec>(attributes_, kPlacedRows);
   appendRows(attributes_, type.attributes);
+  if (type.traits.meets(kPaintedTraits)) appendRows<AttributeSpec>(attributes_, kPaintRows);
   if (has(Trait::Switched)) appendRows<CommandSpec>(commands_, kSwitchCommands);
   if (has(Trait::Placed)) appendRows<CommandSpec>(commands_, kPlacedCommands);
+  if (type.traits.meets(kPaintedTraits)) appendRows<CommandSpec>(commands_, kPaintCommands);
   appendRows<CommandSpec>(commands_, kCommonCommands);
   appendRows(commands_, type.commands);
   for (const AttributeSpec& row : attributes_)
@@ -130,6 +132,7 @@ void NodeRegistry::listWords() {
   };
   list(kSwitchCommands);
   list(kPlacedCommands);
+  list(kPaintCommands);
   list(kCommonCommands);
   for (const Index i : byName_) {
     list(types_[i].type().commands);

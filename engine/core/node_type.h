@@ -137,6 +137,8 @@ enum class ArgumentKind : std::uint8_t {
   Tracker,         ///< [tracker]
   Field,           ///< the name of a force field
   Words,           ///< the rest of the command, any text without commas
+  Colour,          ///< R G B, each from 0 to 1 (sRGB)
+  Share,           ///< a number from 0 to 1
 };
 
 struct CommandSpec {

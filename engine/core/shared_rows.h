@@ -77,6 +77,26 @@ inline constexpr AttributeSpec kPlacedRows[] = {
      .range = {0, kFar, true}},
 };
 
+/// Attributes of every node with a model (kPaintedTraits), beside the common ones.
+inline constexpr AttributeSpec kPaintRows[] = {
+    {.name = "tint",
+     .kind = ValueKind::Colour,
+     .help = "what the model's colours are multiplied with: red, green, blue (sRGB)",
+     .standard = "1, 1, 1",
+     .range = kColourRange},
+    {.name = "emit",
+     .kind = ValueKind::Colour,
+     .help = "what the model glows with beside its own glow: red, green, blue (sRGB)",
+     .standard = "0, 0, 0",
+     .range = kColourRange},
+    {.name = "opacity",
+     .kind = ValueKind::Number,
+     .help = "what the model's alpha is multiplied with; below 1 it is seen through, at 0 it is not drawn",
+     .standard = "1",
+     .range = kUnitInterval},
+};
+inline constexpr TraitSet kPaintedTraits{Trait::Model, Trait::Figure};
+
 /// Most types with Trait::Switched take it.
 inline constexpr AttributeSpec kInitStateRow{.name = "initstate",
                                              .kind = ValueKind::Flag,
@@ -98,6 +118,15 @@ inline constexpr CommandSpec kPlacedCommands[] = {
      "follows no tracker any more; its parent carries it again, from where it is"},
     {"show", ArgumentKind::None, "show", "becomes visible, with all below it"},
     {"hide", ArgumentKind::None, "hide", "becomes invisible, with all below it"},
+};
+/// Commands of types with kPaintedTraits.
+inline constexpr CommandSpec kPaintCommands[] = {
+    {"tint", ArgumentKind::Colour, "tint R G B",
+     "multiplies the model's colours with this one (sRGB); 1 1 1 leaves them as they are"},
+    {"emit", ArgumentKind::Colour, "emit R G B",
+     "adds this colour (sRGB) to the model's own glow; 0 0 0 leaves it as it is"},
+    {"opacity", ArgumentKind::Share, "opacity SHARE",
+     "multiplies the model's alpha; below 1 it is seen through, at 0 it is not drawn"},
 };
 /// Commands of every node.
 inline constexpr CommandSpec kCommonCommands[] = {

@@ -54,6 +54,8 @@ void ChangeSet::clear() {
   lightsChanged = false;
   figures.clear();
   figuresChanged = false;
+  paints.clear();
+  paintsChanged = false;
 }
 
 }  // namespace stadion

@@ -12,6 +12,7 @@
 #include "engine/core/message.h"
 #include "engine/figure/figure_record.h"
 #include "engine/maths/maths.h"
+#include "engine/published/paint.h"
 #include "engine/published/shadow_places.h"
 
 #include <array>
@@ -43,9 +44,14 @@ struct InstanceRecord {
   static constexpr std::uint32_t kShown = 1, kTransparent = 2;
   static constexpr unsigned kFigureAt = 8;  ///< the bits of a figure's number, which is not 0, begin here
 
+  static constexpr unsigned kPaintAt = 20;  ///< likewise, of a paint's number; the last bit is free
+
   std::uint32_t figure() const { return flags >> kFigureAt & kMostFigures; }
+  std::uint32_t paint() const { return flags >> kPaintAt & kMostPaints; }
 };
 static_assert(std::is_trivially_copyable_v<InstanceRecord> && sizeof(InstanceRecord) == 144);
+static_assert((kMostFigures << InstanceRecord::kFigureAt) < (1U << InstanceRecord::kPaintAt) &&
+              (kMostPaints << InstanceRecord::kPaintAt) < (1U << 31));
 
 InstanceRecord makeInstance(const Affine& X_WN, const Mesh& mesh, MeshId id, bool shown, NodeRef owner,
                             double lodFactor = 1);
@@ -129,6 +135,8 @@ struct ChangeSet {
   std::vector<LightRecord> lights;  ///< all that shine (at most kMostLights), when lightsChanged
   bool figuresChanged = false;
   std::vector<FigureRecord> figures;  ///< what each plays, by number - 1, when figuresChanged
+  bool paintsChanged = false;
+  std::vector<PaintRecord> paints;  ///< by number - 1, when paintsChanged
   SkyRecord sky;
   ViewerRecord viewer;
   ShadowRecord shadows;

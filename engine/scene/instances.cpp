@@ -21,7 +21,8 @@ InstanceId Instances::add(PlacementId placement, MeshId mesh, bool drawn, NodeRe
   Instance& i = all_[id];
   i.placement = placement;
   i.owner = owner;
-  i.figure = 0;
+  i.figure = i.paint = 0;
+  i.seeThrough = i.vanished = false;
   i.drawn = drawn;
   i.live = true;
   if (first_.size() <= placement) first_.resize(placement + std::size_t{1}, kNone);
@@ -47,7 +48,14 @@ void Instances::setMesh(InstanceId id, MeshId mesh) {
 }
 
 void Instances::setFigure(InstanceId id, std::uint16_t figure) {
-  all_[id].figure = figure;
+  all_[id].figure = figure & kMostFigures;
+  mark(id);
+}
+
+void Instances::setPaint(InstanceId id, std::uint16_t number, double opacity) {
+  all_[id].paint = number & kMostPaints;
+  all_[id].seeThrough = number != 0 && static_cast<float>(opacity) < PaintRecord::kOpaque;
+  all_[id].vanished = number != 0 && opacity == 0;
   mark(id);
 }
 
@@ -78,9 +86,9 @@ inline void Instances::describe(const Instance& i, bool shown, const Degradation
                                 InstanceRecord& r) {
   r.mesh = i.mesh;
   r.owner = i.owner;
-  r.flags = (i.drawn && shown ? InstanceRecord::kShown : 0) |
-            (i.transparent ? InstanceRecord::kTransparent : 0) |
-            std::uint32_t{i.figure} << InstanceRecord::kFigureAt;
+  r.flags = (i.drawn && shown && !i.vanished ? InstanceRecord::kShown : 0) |
+            (i.transparent || i.seeThrough ? InstanceRecord::kTransparent : 0) |
+            i.figure << InstanceRecord::kFigureAt | i.paint << InstanceRecord::kPaintAt;
   r.lodFactor = i.leveled ? static_cast<float>(degradation.of(i.owner).lod) : 0;
 }
 

@@ -39,6 +39,8 @@ public:
   void setMesh(InstanceId id, MeshId mesh);
   /// Sets the number of the figure that the instance shows (figure_records.h).
   void setFigure(InstanceId id, std::uint16_t figure);
+  /// Sets the number of the instance's paint (PaintTable), and what follows from its opacity.
+  void setPaint(InstanceId id, std::uint16_t number, double opacity);
   /// Returns true if the instance exists and belongs to `owner`; nodes ask this when they are restored.
   bool owns(InstanceId id, NodeRef owner) const {
     return id < all_.size() && all_[id].live && all_[id].owner == owner;
@@ -79,18 +81,26 @@ private:
     MeshId mesh = kNoMesh;
     NodeRef owner;
     InstanceId next = kNone;  ///< at the same placement
-    std::uint16_t figure = 0;
-    bool drawn : 1 = true, live : 1 = false, changed : 1 = false;
+    std::uint32_t figure : 12 = 0, paint : 11 = 0;
+    std::uint32_t drawn : 1 = true, live : 1 = false, changed : 1 = false;
     /// Properties of the mesh; leveled: it has simplified levels.
-    bool transparent : 1 = false, leveled : 1 = false;
+    std::uint32_t transparent : 1 = false, leveled : 1 = false;
+    /// Properties of the paint: it lets the background shine through, or all of it.
+    std::uint32_t seeThrough : 1 = false, vanished : 1 = false;
 
     template <class Self, class Fields>
     static void fields(Self& i, Fields& f) {
-      bool drawn = i.drawn, live = i.live;
+      bool drawn = i.drawn, live = i.live, seeThrough = i.seeThrough, vanished = i.vanished;
+      std::uint16_t figure = i.figure, paint = i.paint;
       f("placement", i.placement), f("mesh", i.mesh), f("owner", i.owner), f("next", i.next);
-      f("figure", i.figure);
-      f("drawn", drawn), f("live", live);
+      f("figure", figure), f("paint", paint);
+      f("drawn", drawn), f("live", live), f("see through", seeThrough), f("vanished", vanished);
       if (f.restores()) {
+        if (figure > kMostFigures || paint > kMostPaints) f.fail();
+        i.figure = figure & kMostFigures;
+        i.paint = paint & kMostPaints;
+        i.seeThrough = seeThrough;
+        i.vanished = vanished;
         i.drawn = drawn;
         i.live = live;
       }

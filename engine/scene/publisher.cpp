@@ -39,6 +39,7 @@ void Publisher::publish(const TimeSignature& now, const InputSample& input, Chan
   });
   instances_.publishMarked(degradation_, changes);
   figures_.publish(changes);
+  paints_.publish(changes);
   if (lights_.due()) lights_.publish(feed_.rigPose() * feed_.headInRig(input).p, changes);
   changes.sky = lights_.skyRecord();
   updateViewer(input, changes);

@@ -6,6 +6,7 @@
 /// Threads    App only; the later stages see the ChangeSet's records alone.
 /// Errors     none. Chunks beyond kMostChunks are not shown: the scene promotes their objects.
 
+#include "engine/published/paint_table.h"
 #include "engine/published/records.h"
 #include "engine/published/shadow_places.h"
 #include "engine/scene/degradation.h"
@@ -22,9 +23,9 @@ namespace stadion {
 
 class Publisher {
 public:
-  Publisher(Placements& placements, Instances& instances, FigureRecords& figures, Lights& lights,
-            const Degradation& degradation, const InputFeed& feed)
-      : placements_(placements), instances_(instances), figures_(figures), lights_(lights),
+  Publisher(Placements& placements, Instances& instances, FigureRecords& figures, PaintTable& paints,
+            Lights& lights, const Degradation& degradation, const InputFeed& feed)
+      : placements_(placements), instances_(instances), figures_(figures), paints_(paints), lights_(lights),
         degradation_(degradation), feed_(feed) {}
 
   /// Shows the load's chunk if there is room for it.
@@ -49,6 +50,7 @@ private:
   Placements& placements_;
   Instances& instances_;
   FigureRecords& figures_;
+  PaintTable& paints_;
   Lights& lights_;
   const Degradation& degradation_;
   const InputFeed& feed_;

@@ -12,7 +12,8 @@ Scene::Scene(SceneLoader& loader, MeshStore& meshes, std::size_t threads)
     : loader_(loader), tree_(*this), requests_(loader), instances_(placements_, meshes, time_),
       lights_(placements_, tree_, loader), sounds_(placements_), feed_(placements_, poseTracks_, time_),
       degradation_(tree_, placements_, instances_, time_), schedule_(tree_, placements_, degradation_),
-      impacts_(schedule_), publisher_(placements_, instances_, figures_, lights_, degradation_, feed_),
+      impacts_(schedule_),
+      publisher_(placements_, instances_, figures_, paints_, lights_, degradation_, feed_),
       workers_(threads) {}
 
 // No node leaves: the scene is no longer looked at, and if a file broke off while it was installed, some of

@@ -9,7 +9,7 @@
 ///     placements   where nodes are; pose tracks: how they moved within the frame
 ///     degradation  what nodes must do without to save time
 ///     feed         rig, head and trackers as nodes see them
-///     instances    what is drawn; figures, lights, sounds
+///     instances    what is drawn; figures, paints, lights, sounds
 ///     publisher    hands the changes of a frame to the later stages
 ///     impacts      what dynamics found out about touches
 ///     hashes       the nodes' part of the state hash
@@ -22,6 +22,7 @@
 /// Errors     those of a show's files go to the loader; lookups of nodes that are not loaded return null.
 
 #include "engine/base/worker_pool.h"
+#include "engine/published/paint_table.h"
 #include "engine/scene/degradation.h"
 #include "engine/scene/figure_records.h"
 #include "engine/scene/impact_watch.h"
@@ -111,6 +112,7 @@ public:
   Instances& instances() { return instances_; }
   const Instances& instances() const { return instances_; }
   FigureRecords& figures() { return figures_; }
+  PaintTable& paints() { return paints_; }
   Lights& lights() { return lights_; }
   const Lights& lights() const { return lights_; }
   SoundSources& sounds() { return sounds_; }
@@ -186,6 +188,7 @@ private:
   LoadRequests requests_;
   Instances instances_;
   FigureRecords figures_;
+  PaintTable paints_;
   Lights lights_;
   SoundSources sounds_;
   InputFeed feed_;

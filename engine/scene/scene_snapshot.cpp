@@ -19,8 +19,8 @@ constexpr Node::Missed lastOf(Node::Missed) {
 namespace {
 
 /// Of the format; snapshots of other versions mean something else.
-constexpr std::uint32_t kVersion = 7;
-constexpr std::uint32_t kWithPlugins = 8;                   ///< the same with the names of plugins
+constexpr std::uint32_t kVersion = 9;
+constexpr std::uint32_t kWithPlugins = 10;                  ///< the same with the names of plugins
 constexpr Nanoseconds kLatest = 1'000'000'000'000'000'000;  ///< thirty years of a show [ns]
 
 std::string pluginsOr(const std::string& plugins) {
@@ -135,6 +135,7 @@ void SceneSnapshot::visitRest(StateFields& f) {
   f("now", s.time_.now), f("frame", s.time_.frame), f("frame start", s.time_.start);
   s.instances_.state(f);
   s.figures_.state(f);
+  s.paints_.state(f);
   s.lights_.stateOfLights(f);
   s.sounds_.state(f);
   s.lights_.stateOfSkies(f);
@@ -235,6 +236,7 @@ bool SceneSnapshot::placementsAreDistinct() const {
 std::optional<std::string> SceneSnapshot::resume() {
   scene_.instances_.resume();
   scene_.figures_.resume();
+  if (!scene_.paints_.resume()) return "its paints cannot be";
   scene_.lights_.resume();
   for (const auto& [number, l] : scene_.tree_.loads())
     for (const std::uint32_t position : l->enterOrder)

@@ -1,8 +1,8 @@
 #include "engine/script/event_message_reader.h"
 
 #include "engine/base/diagnostic.h"
-#include "engine/script/attribute_text.h"
 #include "engine/plain_text/suggestion.h"
+#include "engine/script/attribute_text.h"
 #include "engine/text/text_mesh.h"
 #include "engine/unicode/characters.h"
 
@@ -111,12 +111,39 @@ Failure readWords(std::string_view& rest, std::size_t& offset, ReadMessage& mess
                                 message.words.text.size())};
 }
 
+/// So many numbers from 0 to 1, with blanks between them.
+Failure readShares(std::string_view& rest, std::size_t& offset, std::size_t count, ReadMessage& message) {
+  const std::string what = fmt::format("\"{}\"", message.spec->name);
+  const std::string form =
+      count == 3 ? "followed by red, green and blue, with blanks between them" : "followed by one number";
+  message.words = takeUntil('\0', rest, offset);
+  NumberList numbers;
+  auto failure = readNumbers(message.words.text, numbers, what, form);
+  if (failure) {
+    failure->offset += message.words.offset;
+    return failure;
+  }
+  if (numbers.count != count)
+    return ValueError{message.words.offset,
+                      fmt::format("{} must be {}, not by {}", what, form,
+                                  numbers.count == 0   ? "nothing"
+                                  : numbers.count == 1 ? "one number"
+                                                       : fmt::format("{} numbers", numbers.count))};
+  for (std::size_t i = 0; i < count; ++i)
+    if (numbers.value[i] < 0 || numbers.value[i] > 1)
+      return ValueError{message.words.offset + numbers.offset[i],
+                        fmt::format("{} takes numbers from 0 to 1, not {}", what, numbers.value[i])};
+  return std::nullopt;
+}
+
 Failure readArguments(std::string_view& rest, std::size_t& offset, ReadMessage& message) {
   switch (message.spec->argument) {
   case ArgumentKind::None: return std::nullopt;
   case ArgumentKind::Field: return readField(rest, offset, message);
   case ArgumentKind::Tracker: return readTracker(rest, offset, message);
   case ArgumentKind::Words: return readWords(rest, offset, message);
+  case ArgumentKind::Colour: return readShares(rest, offset, 3, message);
+  case ArgumentKind::Share: return readShares(rest, offset, 1, message);
   case ArgumentKind::PartAndTracker:
     if (auto failure = readPart(rest, offset, message)) return failure;
     return readTracker(rest, offset, message);

@@ -9,7 +9,8 @@ namespace stadion {
 namespace {
 
 /// What a part has from its object: how the file is read, drawn and stood in for.
-constexpr Attr kFromObject[] = {"file", "draw", "unit", "up", "shape", "tolerance", "levels"};
+constexpr Attr kFromObject[] = {"file",      "draw",   "unit", "up",   "shape",
+                                "tolerance", "levels", "tint", "emit", "opacity"};
 
 /// Each name with a "/", and the offset of its first use.
 using Paths = std::map<std::string, std::uint32_t, std::less<>>;
