@@ -48,6 +48,7 @@ DrawItem itemOf(const DrawnRecord& drawn, const Vec3& origin, const PixelScale& 
   item.pixels = scale.of(r.radius, drawn.distance);
   item.level = drawn.level;
   item.figure = r.figure();
+  item.paint = r.paint();
   item.views = drawn.views;
   return item;
 }
@@ -168,6 +169,7 @@ void WallCull::lookThrough(const SlotView& state, const VisibleSet& seen, DrawLi
   seen.placed.setUp(out);
   setLights(state, out);
   out.figures.assign(state.figures.begin(), state.figures.end());
+  out.paints.assign(state.paints.begin(), state.paints.end());
   setSky(*state.sky, out);
 }
 

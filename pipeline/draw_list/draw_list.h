@@ -31,6 +31,7 @@ struct DrawItem {
   float pixels = 0;
   std::uint32_t level = 0;   ///< 0 = all of the mesh; else Mesh::levels[level - 1]
   std::uint32_t figure = 0;  ///< number of the figure that it shows: DrawList::figures[figure - 1]; 0 = none
+  std::uint32_t paint = 0;   ///< number of its paint: DrawList::paints[paint - 1]; 0 = none
   std::uint32_t views = kAllViews;  ///< views that may see the object: bit v stands for DrawList::views[v]
 
   static constexpr std::uint32_t kAllViews = ~0U;
@@ -98,6 +99,7 @@ struct DrawList {
   DrawSky sky;
   std::vector<DrawLight> lights;      ///< at most kMaxLights
   std::vector<FigureRecord> figures;  ///< what each of the show's figures plays
+  std::vector<PaintRecord> paints;    ///< the paints of the show
   DrawShadows shadows;
   /// Sorted by mesh and level, then by the sum of the first and the last view that see them, then near to
   /// far. So what one of two views sees lies together.

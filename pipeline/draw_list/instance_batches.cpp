@@ -21,7 +21,7 @@ Handedness handednessOf(const InstanceMatrix& m) {
 }
 
 bool alike(const DrawItem& a, const DrawItem& b) {
-  return a.mesh == b.mesh && a.level == b.level && a.figure == b.figure;
+  return a.mesh == b.mesh && a.level == b.level && a.figure == b.figure && a.paint == b.paint;
 }
 
 }  // namespace
@@ -49,7 +49,8 @@ void InstanceBatches::add(const DrawItem& item) {
 void InstanceBatches::addRun(std::span<const DrawItem> run, bool mirrored) {
   const auto first = static_cast<std::uint32_t>(matrices_.size());
   const Handedness wanted = mirrored ? Handedness::Mirrored : Handedness::Kept;
-  InstanceBatch batch{run.front().mesh, run.front().level, run.front().figure, first, 0, mirrored, {}, {}};
+  const DrawItem& like = run.front();
+  InstanceBatch batch{like.mesh, like.level, like.figure, like.paint, first, 0, mirrored, {}, {}};
   for (const DrawItem& item : run) {
     if (handednessOf(item.model) != wanted) continue;
     add(item);
@@ -98,12 +99,13 @@ void InstanceBatches::addTransparent(std::span<const DrawItem> items) {
     const Handedness hand = handednessOf(item.model);
     if (hand == Handedness::NotFinite) continue;
     const bool mirrored = hand == Handedness::Mirrored;
-    if (transparent_.empty() || transparent_.back().mesh != item.mesh ||
-        transparent_.back().level != item.level || transparent_.back().figure != item.figure ||
-        transparent_.back().mirrored != mirrored)
+    const InstanceBatch* last = transparent_.empty() ? nullptr : &transparent_.back();
+    if (!last || last->mesh != item.mesh || last->level != item.level || last->figure != item.figure ||
+        last->paint != item.paint || last->mirrored != mirrored)
       transparent_.push_back({item.mesh,
                               item.level,
                               item.figure,
+                              item.paint,
                               static_cast<std::uint32_t>(matrices_.size()),
                               0,
                               mirrored,

@@ -12,11 +12,12 @@
 
 namespace stadion {
 
-/// Instances of one mesh, level and figure, next to each other in the instance array.
+/// Instances of one mesh, level, figure and paint, next to each other in the instance array.
 struct InstanceBatch {
   MeshId mesh = kNoMesh;
   std::uint32_t level = 0;
   std::uint32_t figure = 0;  ///< of all of them (DrawItem::figure)
+  std::uint32_t paint = 0;   ///< likewise (DrawItem::paint)
   std::uint32_t first = 0, count = 0;
   bool mirrored = false;  ///< the model matrices turn left into right: front faces run clockwise
   /// By view: all that it sees lies within these instances of the batch.

@@ -23,6 +23,7 @@ Field differenceOf(const DrawItem& a, const DrawItem& b) {
   if (!isSame(a.pixels, b.pixels)) return "pixels";
   if (!isSame(a.level, b.level)) return "level";
   if (!isSame(a.figure, b.figure)) return "figure";
+  if (!isSame(a.paint, b.paint)) return "paint";
   if (!isSame(a.views, b.views)) return "views";
   return {};
 }
@@ -69,6 +70,7 @@ std::optional<ListDifference> differenceOf(const DrawList& a, const DrawList& b)
   if (!isSame(a.sky, b.sky)) return named("sky");
   if (!std::ranges::equal(a.lights, b.lights, isSameLight)) return named("lights");
   if (!std::ranges::equal(a.figures, b.figures)) return named("figures");
+  if (!std::ranges::equal(a.paints, b.paints)) return named("paints");
   if (const auto opaque = differenceOf(a.opaque, b.opaque, "opaque")) return opaque;
   if (const auto transparent = differenceOf(a.transparent, b.transparent, "transparent")) return transparent;
   return differenceOf(a.shadows, b.shadows);

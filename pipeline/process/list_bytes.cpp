@@ -26,7 +26,7 @@ struct Head {
   std::int32_t shadowLight;
   std::array<float, 9> shadowAxes;
   std::array<RingHead, kShadowRings> rings;
-  std::uint64_t lights, figures, opaque, transparent, meshes, gone;
+  std::uint64_t lights, figures, paints, opaque, transparent, meshes, gone;
 };
 static_assert(std::is_trivially_copyable_v<Head> && std::is_trivially_copyable_v<DrawItem> &&
               std::is_trivially_copyable_v<DrawLight> && std::is_trivially_copyable_v<SharedMeshPlace>);
@@ -52,6 +52,7 @@ Head headOf(const DrawList& list, const ListNews& news) {
   h.shadowAxes = list.shadows.axes;
   h.lights = list.lights.size();
   h.figures = list.figures.size();
+  h.paints = list.paints.size();
   h.opaque = list.opaque.size();
   h.transparent = list.transparent.size();
   h.meshes = news.meshes.size();
@@ -137,6 +138,7 @@ std::size_t write(const DrawList& list, const ListNews& news, StillKeys& known, 
   out.put(head);
   out.put(list.lights);
   out.put(list.figures);
+  out.put(list.paints);
   out.put(list.opaque);
   out.put(list.transparent);
   for (std::size_t i = 0; shadows && i < kShadowRings; ++i) {
@@ -155,7 +157,8 @@ bool read(std::span<const std::byte> bytes, DrawList& list, ListNews& news) {
   if (!in.get(head) || head.viewCount > list.views.size()) return false;
   fill(list, head);
   if (!in.get(list.lights, head.lights) || !in.get(list.figures, head.figures) ||
-      !in.get(list.opaque, head.opaque) || !in.get(list.transparent, head.transparent))
+      !in.get(list.paints, head.paints) || !in.get(list.opaque, head.opaque) ||
+      !in.get(list.transparent, head.transparent))
     return false;
   for (std::size_t i = 0; i < kShadowRings; ++i)
     if (!readRing(in, head.rings[i], list.shadows.rings[i])) return false;

@@ -14,11 +14,12 @@ struct SceneState::Header {
   ShadowRecord shadows;
   std::uint64_t stillVersion;
   std::atomic<std::uint64_t> writes;
-  std::uint32_t lightCount, chunkCount, figureCount;
+  std::uint32_t lightCount, chunkCount, figureCount, paintCount;
   std::uint64_t instanceCount;
   LightRecord lights[kMaxLights];
   ChunkId chunks[kMaxChunks];
   FigureRecord figures[kMostFigures];
+  PaintRecord paints[kMostPaints];
 };
 
 namespace {
@@ -133,6 +134,8 @@ std::size_t SceneState::catchUp(std::size_t slot) {
     std::copy_n(from.lights, from.lightCount, to.lights);
     to.figureCount = from.figureCount;
     std::copy_n(from.figures, from.figureCount, to.figures);
+    to.paintCount = from.paintCount;
+    std::copy_n(from.paints, from.paintCount, to.paints);
     to.chunkCount = from.chunkCount;
     std::copy_n(from.chunks, from.chunkCount, to.chunks);
   }
@@ -194,6 +197,11 @@ void SceneState::apply(std::size_t slot, const ChangeSet& changes) {
     assert(changes.figures.size() <= kMostFigures);
     h.figureCount = static_cast<std::uint32_t>(std::min(changes.figures.size(), kMostFigures));
     std::copy_n(changes.figures.begin(), h.figureCount, h.figures);
+  }
+  if (changes.paintsChanged) {
+    assert(changes.paints.size() <= kMostPaints);
+    h.paintCount = static_cast<std::uint32_t>(std::min(changes.paints.size(), kMostPaints));
+    std::copy_n(changes.paints.begin(), h.paintCount, h.paints);
   }
   h.sky = changes.sky;
   h.viewer = changes.viewer;
@@ -292,6 +300,7 @@ SlotView SceneState::view(std::size_t slot) const {
   v.shadows = &h.shadows;
   v.lights = {h.lights, h.lightCount};
   v.figures = {h.figures, h.figureCount};
+  v.paints = {h.paints, h.paintCount};
   v.instances = {instances(slot), h.instanceCount};
   v.stamps = {stamps(slot), (h.instanceCount + kInstancesAStamp - 1) / kInstancesAStamp};
   v.chunks = {h.chunks, h.chunkCount};
@@ -342,6 +351,7 @@ PublishedPlace SceneState::placeIn(const Header& h, const std::byte* address) {
           : in(h.shadows) ? "shadows"
           : in(h.chunks)  ? "chunks"
           : in(h.figures) ? "figures"
+          : in(h.paints)  ? "paints"
                           : "header",
           {}};
 }

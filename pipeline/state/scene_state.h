@@ -36,6 +36,7 @@ struct SlotView {
   const ShadowRecord* shadows = nullptr;
   std::span<const LightRecord> lights;
   std::span<const FigureRecord> figures;      ///< what each plays, by InstanceRecord::figure() - 1
+  std::span<const PaintRecord> paints;        ///< by InstanceRecord::paint() - 1
   std::span<const InstanceRecord> instances;  ///< by InstanceId; radius < 0 = not there
   /// By block of kInstancesAStamp instances: a number that changes whenever an instance of the block changes
   /// in this slot.

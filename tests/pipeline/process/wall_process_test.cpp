@@ -89,6 +89,8 @@ TEST(WallProcessBytes, ListsArriveAsTheyWere) {
   list.figures[2].layerCount = 1;
   list.figures[2].layers[0] = {4, 0.5f, 1.25};
   list.opaque[0].figure = 3;
+  list.paints = {{}, {{1, 0, 0.5f}, 0.25f, {0, 0.125f, 1}}};
+  list.opaque[0].paint = 2;
   SharedSegment segment("test", kListReserve);
   StillKeys known;
   const ListNews news{{{5, 4096, 77}}, {9, 8}};
@@ -107,6 +109,7 @@ TEST(WallProcessBytes, ListsArriveAsTheyWere) {
   EXPECT_TRUE(same(got.transparent, list.transparent));
   EXPECT_EQ(got.lights.size(), list.lights.size());
   EXPECT_EQ(got.figures, list.figures);
+  EXPECT_EQ(got.paints, list.paints);
   EXPECT_TRUE(same(got.shadows.rings[2].moving, list.opaque));
   ASSERT_TRUE(got.shadows.rings[3].still);
   EXPECT_TRUE(same(*got.shadows.rings[3].still, list.opaque));
