@@ -36,7 +36,7 @@ GpuScene::GpuScene(const GlTable& gl, const MeshStore& store, RenderQuality qual
       drawsIndirectly_(isUsed(gl, quality.submission.indirect) && IndirectDraws::isSupported(gl) &&
                        calls_.basesInstances() && !cullsTriangles_ && quality.mostAtOnce > 1),
       meshes_(gl, store, quality.look, {cullsTriangles_, drawsIndirectly_}), figures_(meshes_, store),
-      surfaces_(gl, quality.look, drawsIndirectly_, calls_, problems),
+      painted_(meshes_, store), surfaces_(gl, quality.look, drawsIndirectly_, calls_, problems),
       instances_(gl, withRing(quality.submission.mapped), sortsObjects),
       scene_(gl, uploads(), GL_UNIFORM_BUFFER) {
   growTo(1);
@@ -45,6 +45,7 @@ GpuScene::GpuScene(const GlTable& gl, const MeshStore& store, RenderQuality qual
 void GpuScene::begin(const DrawList& list, FrameProbe* probe) {
   calls_.restoreState();
   if (uploads_) uploads_->beginFrame();
+  painted_.begin(list);
   figures_.begin(list);
   meshes_.freeUnused();
   if (list.lights.size() > DrawList::kMaxLights)

@@ -19,6 +19,7 @@
 #include "pipeline/gl_draw/gpu/frame_data.h"
 #include "pipeline/gl_draw/gpu/list_instances.h"
 #include "pipeline/gl_draw/gpu/mesh_cache.h"
+#include "pipeline/gl_draw/gpu/painted_meshes.h"
 #include "pipeline/gl_draw/gpu/surface_programs.h"
 #include "pipeline/gl_draw/gpu/upload_ring.h"
 #include "pipeline/shader/look.h"
@@ -75,7 +76,8 @@ public:
   /// The batch's mesh; null if no instance is seen or the mesh cannot be drawn.
   const GlMesh* meshOf(const InstanceBatch& seen) {
     if (seen.count == 0) return nullptr;
-    return seen.figure != 0 ? figures_.find(seen.mesh, seen.figure) : meshes_.find(seen.mesh);
+    const GlMesh* mesh = seen.figure != 0 ? figures_.find(seen.mesh, seen.figure) : meshes_.find(seen.mesh);
+    return mesh && seen.paint != 0 ? &painted_.find(*mesh, seen) : mesh;
   }
 
 private:
@@ -89,6 +91,7 @@ private:
   std::optional<UploadRing> uploads_;
   MeshCache meshes_;
   FigureMeshes figures_;
+  PaintedMeshes painted_;
   SurfacePrograms surfaces_;
   ListInstances instances_;
   FrameData scene_;

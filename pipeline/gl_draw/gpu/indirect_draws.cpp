@@ -36,7 +36,7 @@ void IndirectDraws::add(const State& state, const GlMesh& mesh, const GlSubmesh&
                         std::uint32_t count) {
   const auto firstIndex = static_cast<GLuint>(part.indexOffset / sizeof(std::uint32_t));
   runFor(state).commands.push_back(
-      {static_cast<GLuint>(part.indexCount), count, firstIndex, 0, first, mesh.materialInPage(part)});
+      {static_cast<GLuint>(part.indexCount), count, firstIndex, 0, first, mesh.packedMaterial(part)});
 }
 
 /// The commands of all runs, one after the other, as OpenGL's source of draws and as the shader's.
@@ -55,7 +55,7 @@ void IndirectDraws::upload() {
 void IndirectDraws::setState(const State& state, const FrameData& instances) const {
   gl_.BindVertexArray(state.page->vertexArray.name());
   pointAtInstances(gl_, instances, 0);
-  gl_.BindBufferBase(GL_SHADER_STORAGE_BUFFER, kMaterialsBinding, state.page->materials.name());
+  gl_.BindBufferBase(GL_SHADER_STORAGE_BUFFER, kMaterialsBinding, state.materials);
   gl_.UseProgram(state.program->name());
   bindMaps(gl_, state.maps);
   gl_.FrontFace(state.mirrored ? GL_CW : GL_CCW);

@@ -33,6 +33,7 @@ public:
   struct State {
     const GlProgram* program = nullptr;
     const MeshPage* page = nullptr;
+    GLuint materials = 0;  ///< the buffer that has them
     MapTextures maps{};
     bool bothSides = false;  ///< no faces are culled
     bool mirrored = false;   ///< front faces run clockwise

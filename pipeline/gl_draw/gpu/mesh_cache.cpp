@@ -3,9 +3,10 @@
 #include "engine/maths/srgb.h"
 #include "pipeline/gl/finite.h"
 #include "pipeline/gl/problem.h"
+#include "pipeline/shader/uniform_blocks.h"
 #include "pipeline/surface/mask_levels.h"
 #include "pipeline/surface/mesh_check.h"
-#include "pipeline/shader/uniform_blocks.h"
+#include "pipeline/surface/painted_material.h"
 
 #include <algorithm>
 #include <cmath>
@@ -195,7 +196,7 @@ std::optional<GlMesh> MeshCache::upload(const Mesh& mesh) {
   GlMesh out{{}, GlBuffer(gl_), {}, {}, {}, 0, {}, mesh.bounds, {}};
   uploadVertices(mesh, out);
   uploadTextures(mesh, out);
-  uploadMaterials(mesh, out);
+  uploadMaterials(mesh.materials, out);
   listParts(mesh, out.textures, out);
   if (const GLenum error = gl_.GetError(); error != GL_NO_ERROR) {
     report("\"" + mesh.name + "\" cannot be drawn: OpenGL says " + glErrorName(error));
@@ -207,7 +208,7 @@ std::optional<GlMesh> MeshCache::upload(const Mesh& mesh) {
 std::optional<GlMesh> MeshCache::copyOf(const Mesh& mesh, const GlMesh& original) {
   GlMesh out{{}, GlBuffer(gl_), {}, {}, {}, 0, {}, mesh.bounds, {}};
   uploadVertices(mesh, out);
-  uploadMaterials(mesh, out);
+  uploadMaterials(mesh.materials, out);
   listParts(mesh, original.textures, out);
   // They know the original's form.
   out.culler.reset();
@@ -217,6 +218,37 @@ std::optional<GlMesh> MeshCache::copyOf(const Mesh& mesh, const GlMesh& original
     return {};
   }
   return out;
+}
+
+/// Without a culler and without shading: few objects are painted.
+GlMesh MeshCache::paintedCopyOf(const Mesh& mesh, const GlMesh& original, const PaintRecord& paint) {
+  GlMesh out{MeshPages::shared(original.place),
+             GlBuffer(gl_),
+             {},
+             original.parts,
+             original.levels,
+             0,
+             {},
+             original.bounds,
+             {}};
+  if (pages_.areShared()) out.paintedMaterials.emplace(gl_);
+  setPaint(mesh, paint, out);
+  return out;
+}
+
+void MeshCache::setPaint(const Mesh& mesh, const PaintRecord& paint, GlMesh& copy) {
+  const SpanScope span(probe_, Span::Upload);
+  std::vector<Material> materials;
+  for (const Material& m : mesh.materials) materials.push_back(painted(m, paint));
+  uploadMaterials(materials, copy);
+  const auto setFlags = [&](GlSubmesh& part) {
+    part.transparent = materials[part.material].transparent() || paint.isSeeThrough();
+    part.masked = materials[part.material].masked();
+  };
+  std::ranges::for_each(copy.parts, setFlags);
+  for (auto& level : copy.levels) std::ranges::for_each(level, setFlags);
+  copy.transparentParts = static_cast<std::size_t>(
+      std::ranges::count_if(copy.parts, [](const GlSubmesh& part) { return part.transparent; }));
 }
 
 void MeshCache::setVertices(const Mesh& mesh, const MovedVertices& moved, const GlMesh& copy) {
@@ -299,21 +331,25 @@ std::size_t MeshCache::materialStride() const {
   return (sizeof(MaterialBlock) + alignment - 1) / alignment * alignment;
 }
 
-void MeshCache::uploadMaterials(const Mesh& mesh, GlMesh& out) {
+void MeshCache::uploadMaterials(std::span<const Material> materials, GlMesh& out) {
   const std::size_t stride = materialStride();
-  std::vector<std::byte> blocks(stride * mesh.materials.size());
-  std::vector<MaterialBlock> packed(mesh.materials.size());
-  for (std::size_t i = 0; i < mesh.materials.size(); ++i) {
-    packed[i] = fillMaterial(mesh.materials[i], look_);
+  std::vector<std::byte> blocks(stride * materials.size());
+  std::vector<MaterialBlock> packed(materials.size());
+  for (std::size_t i = 0; i < materials.size(); ++i) {
+    packed[i] = fillMaterial(materials[i], look_);
     std::memcpy(blocks.data() + i * stride, &packed[i], sizeof packed[i]);
   }
   gl_.BindBuffer(GL_UNIFORM_BUFFER, out.materials.name());
   gl_.BufferData(GL_UNIFORM_BUFFER, static_cast<GLsizeiptr>(blocks.size()), blocks.data(), GL_STATIC_DRAW);
   if (!pages_.areShared()) return;
-  gl_.BindBuffer(GL_SHADER_STORAGE_BUFFER, out.place.page->materials.name());
-  gl_.BufferSubData(GL_SHADER_STORAGE_BUFFER,
-                    static_cast<GLintptr>(out.place.first.materials * sizeof(MaterialBlock)),
-                    static_cast<GLsizeiptr>(packed.size() * sizeof(MaterialBlock)), packed.data());
+  const auto bytes = static_cast<GLsizeiptr>(packed.size() * sizeof(MaterialBlock));
+  gl_.BindBuffer(GL_SHADER_STORAGE_BUFFER, out.packedMaterials());
+  if (out.paintedMaterials)
+    gl_.BufferData(GL_SHADER_STORAGE_BUFFER, bytes, packed.data(), GL_STATIC_DRAW);
+  else
+    gl_.BufferSubData(GL_SHADER_STORAGE_BUFFER,
+                      static_cast<GLintptr>(out.place.first.materials * sizeof(MaterialBlock)), bytes,
+                      packed.data());
 }
 
 /// Lists the parts of all levels. Expects the textures.

@@ -10,6 +10,7 @@
 #include "engine/base/diagnostic.h"
 #include "engine/core/frame_probe.h"
 #include "engine/figure/skinning.h"
+#include "engine/published/paint.h"
 #include "pipeline/gl/gl_object.h"
 #include "pipeline/gl_draw/gpu/frame_data.h"
 #include "pipeline/gl_draw/gpu/mesh_pages.h"
@@ -77,12 +78,16 @@ struct GlMesh {
   Aabb bounds;                       ///< [m]
   std::optional<MeshShading>
       shading;  ///< there, if it has neither pictures nor holes nor anything to see through
+  std::optional<GlBuffer> paintedMaterials{};  ///< packed as those of a page; nothing: the page has them
 
   GLuint vertexArray() const { return place.page->vertexArray.name(); }
   GLuint indices() const { return place.page->indices.name(); }
-  /// Returns the number of a part's material among those of the page.
-  std::uint32_t materialInPage(const GlSubmesh& part) const {
-    return static_cast<std::uint32_t>(place.first.materials) + part.material;
+  /// Returns the buffer of packed materials, and the number of a part's material in it.
+  GLuint packedMaterials() const {
+    return paintedMaterials ? paintedMaterials->name() : place.page->materials.name();
+  }
+  std::uint32_t packedMaterial(const GlSubmesh& part) const {
+    return (paintedMaterials ? 0 : static_cast<std::uint32_t>(place.first.materials)) + part.material;
   }
   /// Returns the parts to draw at a level of detail. If the mesh has fewer levels, these are the parts of the
   /// coarsest one.
@@ -135,6 +140,11 @@ public:
   };
   /// Gives a copy other positions, normals and tangents.
   void setVertices(const Mesh& mesh, const MovedVertices& moved, const GlMesh& copy);
+  /// Returns another copy of a mesh, in a paint, with the vertices, indices and textures of `original`. These
+  /// textures must outlive it.
+  GlMesh paintedCopyOf(const Mesh& mesh, const GlMesh& original, const PaintRecord& paint);
+  /// Gives a painted copy another paint.
+  void setPaint(const Mesh& mesh, const PaintRecord& paint, GlMesh& copy);
   /// Returns true if find() has it already, and uploads nothing.
   bool holds(MeshId id) const;
   /// Reports uploads to this probe from now on; null = none.
@@ -153,7 +163,7 @@ private:
   void writeVertices(const Mesh& mesh, const MeshPlace& place, const MovedVertices& moved);
   void uploadTextures(const Mesh& mesh, GlMesh& out);
   void uploadIndices(const Mesh& mesh, std::span<const std::uint32_t> all, GlMesh& out);
-  void uploadMaterials(const Mesh& mesh, GlMesh& out);
+  void uploadMaterials(std::span<const Material> materials, GlMesh& out);
   void listParts(const Mesh& mesh, const std::vector<MapTexture>& textures, GlMesh& out) const;
   std::size_t materialStride() const;
   GlTexture uploadTexture(const Texture& texture, float alphaCutoff, const Sampler& sampler, bool colours);

@@ -38,6 +38,11 @@ MeshPlace MeshPages::placeFor(const MeshRoom& needed) {
   return {{&page, MeshPageRelease{this}}, first, isNew};
 }
 
+MeshPlace MeshPages::shared(const MeshPlace& place) {
+  ++place.page->meshes;
+  return {{place.page.get(), place.page.get_deleter()}, place.first, false};
+}
+
 MeshPage& MeshPages::add(const MeshRoom& room) {
   MeshPage& page = *pages_.emplace_back(std::make_unique<MeshPage>(gl_));
   page.room = room;

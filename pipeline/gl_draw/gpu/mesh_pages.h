@@ -44,6 +44,12 @@ struct MeshPlace {
   std::unique_ptr<MeshPage, MeshPageRelease> page;
   MeshRoom first;          ///< the mesh begins there in its page
   bool opensPage = false;  ///< the page is new: its vertex array has no attributes yet
+
+  /// Returns true if both have the same vertices and indices.
+  bool isSame(const MeshPlace& o) const {
+    return page.get() == o.page.get() && first.vertices == o.first.vertices &&
+           first.indices == o.first.indices;
+  }
 };
 
 class MeshPages {
@@ -55,6 +61,8 @@ public:
   bool areShared() const { return shared_; }
   /// Returns a place for a mesh. Its vertex array is bound, and its vertex buffer to GL_ARRAY_BUFFER.
   MeshPlace placeFor(const MeshRoom& needed);
+  /// Returns the same place once more: vertices and indices stay until the last one has gone.
+  static MeshPlace shared(const MeshPlace& place);
   void release(MeshPage& page);
 
 private:

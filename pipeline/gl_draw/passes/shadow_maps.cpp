@@ -158,8 +158,9 @@ void ShadowMaps::setView(const DrawShadows& shadows, std::size_t index) {
 void ShadowMaps::collect(const GlMesh& mesh, const InstanceBatch& batch) {
   for (const GlSubmesh& part : mesh.parts)
     if (!part.masked)
-      indirect_->add({&program_, mesh.place.page.get(), {}, part.bothSides, batch.mirrored}, mesh, part,
-                     batch.first, batch.count);
+      indirect_->add(
+          {&program_, mesh.place.page.get(), mesh.packedMaterials(), {}, part.bothSides, batch.mirrored},
+          mesh, part, batch.first, batch.count);
 }
 
 /// Draws the parts that are not drawn later.

@@ -40,10 +40,10 @@ bool SmallObjectPass::pays(std::uint32_t view) {
   return triangles >= enough;
 }
 
-/// `away`: the turn that was given away. It is taken again for meshes that must be uploaded. Figures are none
-/// of the small objects.
+/// `away`: the turn that was given away. It is taken again for meshes that must be uploaded. Figures and
+/// painted meshes are none of the small objects.
 const GlMesh* SmallObjectPass::meshOf(const InstanceBatch& seen, std::unique_lock<std::mutex>* away) {
-  if (seen.figure != 0) return nullptr;
+  if (seen.figure != 0 || seen.paint != 0) return nullptr;
   if (!away || seen.count == 0 || with_.scene.meshes().holds(seen.mesh)) return with_.scene.meshOf(seen);
   away->lock();
   const GlMesh* mesh = with_.scene.meshOf(seen);

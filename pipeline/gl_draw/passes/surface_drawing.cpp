@@ -61,7 +61,8 @@ void SurfaceDrawing::collectOpaque(const MeshParts& mesh, const InstanceBatch& s
     for (const GlSubmesh& part : mesh.parts) {
       if (opaqueOnly && part.transparent) continue;
       const GlProgram& program = with_.scene.surfaces().programFor(part, SurfaceWrites::Picture);
-      indirect_->add({&program, mesh.gl->place.page.get(), part.maps, part.bothSides, seen.mirrored},
+      indirect_->add({&program, mesh.gl->place.page.get(), mesh.gl->packedMaterials(), part.maps,
+                      part.bothSides, seen.mirrored},
                      *mesh.gl, part, first, count);
     }
   }
