@@ -41,7 +41,7 @@ ViewParameters viewParameters(const ViewBlock& block, std::uint32_t width, std::
 }  // namespace
 
 CpuRoom::CpuRoom(const MeshStore& store, Look look, DrawPool& pool, const DrawKernels& kernels)
-    : kernels_(kernels), pool_(pool), meshes_(store, look), shadows_(kernels) {}
+    : kernels_(kernels), pool_(pool), meshes_(store, look), paints_(look), shadows_(kernels) {}
 
 CpuRoom::CpuRoom(const MeshStore& store, Look look, DrawPool& pool)
     : CpuRoom(store, look, pool, bestDrawKernels()) {}
@@ -54,7 +54,7 @@ Result<std::unique_ptr<CpuRenderer>> CpuRenderer::create(CpuRoom& room, std::uin
 
 CpuRenderer::CpuRenderer(CpuRoom& room, std::uint32_t width, std::uint32_t height, PictureRung rung)
     : room_(room), width_(width), height_(height), rung_(rung),
-      costs_(room.meshes(), room.poses(), room.bands(), room.kernels()) {}
+      costs_(room.meshes(), room.poses(), room.paints(), room.bands(), room.kernels()) {}
 
 std::string CpuRenderer::description() const {
   return std::string("CPU renderer, ") + room_.kernels().name;
@@ -76,6 +76,7 @@ void CpuRenderer::drawWhole(const DrawList& list, const std::function<bool()>& g
     const SpanScope span(probe, Span::Prepare);
     room_.meshes().freeUnused();
     room_.poses().begin(list.ticket.signature.frame);
+    room_.paints().begin(list.ticket.signature.frame);
     prepare(list, giveUp);
   }
   const bool shadowed = list.shadows.light >= 0 && drawing_.look == Look::Full;
@@ -165,7 +166,8 @@ void CpuRenderer::begin(const DrawList& list, std::uint32_t view) {
       if (!(item.views >> view & 1)) continue;
       if (item.mesh != last || item.figure != 0 || !mesh) mesh = meshes.find(item);
       last = item.figure != 0 ? kNoMesh : item.mesh;
-      if (mesh && !picture.setup.add(mesh, item.level, item.model, which)) ++picture.refused;
+      const auto paint = item.paint != 0 ? meshes.paintOf(item) : nullptr;
+      if (mesh && !picture.setup.add(mesh, item.level, item.model, which, paint)) ++picture.refused;
     }
   };
   addAll(list.opaque, Transparency::Opaque);

@@ -13,6 +13,7 @@
 
 #include "pipeline/cpu_draw/mesh/cpu_mesh.h"
 #include "pipeline/cpu_draw/mesh/list_meshes.h"
+#include "pipeline/cpu_draw/mesh/mesh_paints.h"
 #include "pipeline/cpu_draw/mesh/posed_meshes.h"
 #include "pipeline/cpu_draw/picture_bands.h"
 #include "pipeline/cpu_draw/picture_rung.h"
@@ -41,6 +42,7 @@ public:
   DrawPool& pool() { return pool_; }
   CpuMeshCache& meshes() { return meshes_; }
   PosedMeshes& poses() { return poses_; }
+  MeshPaints& paints() { return paints_; }
   ShadowStore& shadows() { return shadows_; }
   BandMemory& bands() { return bands_; }
 
@@ -49,6 +51,7 @@ private:
   DrawPool& pool_;
   CpuMeshCache meshes_;
   PosedMeshes poses_;
+  MeshPaints paints_;
   ShadowStore shadows_;
   BandMemory bands_;
 };
@@ -87,7 +90,7 @@ private:
   void drawWhole(const DrawList& list, const std::function<bool()>& giveUp, FrameProbe* probe);
   void prepare(const DrawList& list, const std::function<bool()>& giveUp);
   void poseFigures(const DrawList& list);
-  ListMeshes meshesOf(const DrawList& list) { return {room_.meshes(), room_.poses(), list.figures}; }
+  ListMeshes meshesOf(const DrawList& list) { return {room_.meshes(), room_.poses(), room_.paints(), list}; }
   void begin(const DrawList& list, std::uint32_t view);
   void drawBands(const SceneParameters& scene, const ShadowParameters* shadow,
                  const std::function<bool()>& giveUp);

@@ -54,17 +54,20 @@ void PictureSetup::begin(const ViewGeometry& geometry, int samples, float slopeO
 }
 
 bool PictureSetup::add(const std::shared_ptr<const CpuMesh>& mesh, std::uint32_t level,
-                       const std::array<float, 12>& model, Transparency which) {
+                       const std::array<float, 12>& model, Transparency which,
+                       const std::shared_ptr<const MeshPaint>& paint) {
   if (!isFinite(model)) return false;
   const auto number = static_cast<std::uint32_t>(instances_.size());
   bool any = false;
   for (const CpuPart& part : mesh->partsAt(level)) {
-    if (part.transparent != (which == Transparency::Transparent) || part.triangles == 0) continue;
+    const bool transparent = part.transparent || (paint && paint->seeThrough);
+    if (transparent != (which == Transparency::Transparent) || part.triangles == 0) continue;
     if (!any)
-      instances_.push_back(
-          {mesh, model, normalsBy(model), geometry_.placing(model), vertices_, turnsLeftIntoRight(model)});
+      instances_.push_back({mesh, paint, model, normalsBy(model), geometry_.placing(model), vertices_,
+                            turnsLeftIntoRight(model)});
     any = true;
-    addPart(number, part, materialNumber(mesh->material(part.material)));
+    addPart(number, part,
+            materialNumber(paint ? paint->materials[part.material] : mesh->material(part.material)));
   }
   if (any) addPlacements(number);
   hasExtras_ |= any && mesh->extras();
@@ -74,6 +77,8 @@ bool PictureSetup::add(const std::shared_ptr<const CpuMesh>& mesh, std::uint32_t
 void PictureSetup::addPart(std::uint32_t instance, const CpuPart& part, std::uint32_t material) {
   const PixelMatrix& by = instances_[instance].matrix;
   const bool posed = instances_[instance].mesh->isPosed();
+  const MeshPaint* paint = instances_[instance].paint.get();
+  const bool seeThrough = paint && paint->seeThrough;
   const std::size_t before = stretches_.size();
   for (const MeshSection& s : part.sections) {
     if (!posed && !mayBeSeen(s, by, geometry_.parallel, geometry_.width, geometry_.height)) continue;
@@ -83,7 +88,8 @@ void PictureSetup::addPart(std::uint32_t instance, const CpuPart& part, std::uin
     if (last && last->first + last->count == s.firstTriangle && last->count + s.triangles <= kTrianglesAPiece)
       last->count += s.triangles;
     else
-      stretches_.push_back({instance, s.firstTriangle, s.triangles, &part, material});
+      stretches_.push_back({instance, s.firstTriangle, s.triangles, &part, material,
+                            part.transparent || seeThrough, part.masked && !seeThrough});
   }
   ++partsAdded_;
   trianglesAdded_ += part.triangles;
@@ -121,13 +127,13 @@ void PictureSetup::divide() {
   Chunk* chunk = nullptr;
   for (std::uint32_t i = 0; i < stretches_.size(); ++i) {
     const TriangleStretch& s = stretches_[i];
-    const Transparency which = s.part->transparent ? Transparency::Transparent : Transparency::Opaque;
-    if (!chunk || chunk->which != which || chunk->masked != s.part->masked ||
+    const Transparency which = s.transparent ? Transparency::Transparent : Transparency::Opaque;
+    if (!chunk || chunk->which != which || chunk->masked != s.masked ||
         chunk->triangles + s.count > kTrianglesAPiece) {
       if (chunksUsed_ == chunks_.size()) chunks_.emplace_back();
       chunk = &chunks_[chunksUsed_++];
       chunk->which = which;
-      chunk->masked = s.part->masked;
+      chunk->masked = s.masked;
       chunk->firstStretch = i;
       chunk->triangles = 0;
     }
@@ -187,7 +193,7 @@ void PictureSetup::finish(const TriangleRecord& record, const TriangleStretch& s
   std::array<std::array<float, 3>, 3> corners;
   std::ranges::transform(instance.mesh->triangle(record.triangle), corners.begin(),
                          [&](int v) { return instance.mesh->position(v); });
-  clipper.clip(corners, instance.matrix, record.triangle, !stretch.part->transparent, records);
+  clipper.clip(corners, instance.matrix, record.triangle, !stretch.transparent, records);
 }
 
 void PictureSetup::setUp(std::size_t piece) {

@@ -8,6 +8,7 @@
 
 #include "pipeline/cpu_draw/kernels/kernel_data.h"
 #include "pipeline/cpu_draw/mesh/cpu_mesh.h"
+#include "pipeline/cpu_draw/mesh/mesh_paints.h"
 #include "pipeline/cpu_draw/view_geometry.h"
 
 #include <array>
@@ -21,8 +22,9 @@ namespace stadion {
 /// A mesh somewhere.
 struct PictureInstance {
   std::shared_ptr<const CpuMesh> mesh;
-  std::array<float, 12> model;   ///< (3 x 4), row major: mesh coordinates to World axes
-  std::array<float, 9> normals;  ///< (3 x 3), row major: normals to World axes, of any length
+  std::shared_ptr<const MeshPaint> paint;  ///< null: the materials are the mesh's
+  std::array<float, 12> model;             ///< (3 x 4), row major: mesh coordinates to World axes
+  std::array<float, 9> normals;            ///< (3 x 3), row major: normals to World axes, of any length
   PixelMatrix matrix;
   std::size_t firstVertex;  ///< among all placed ones
   bool mirrored;            ///< the model matrix turns left into right
@@ -33,6 +35,7 @@ struct TriangleStretch {
   std::uint32_t instance, first, count;
   const CpuPart* part;
   std::uint32_t material;  ///< among PictureSetup::materials
+  bool transparent, masked;
 };
 
 /// Which part of a picture's triangles something is about.
@@ -47,10 +50,11 @@ public:
   /// Begins a picture with no instances. Depths are moved by a multiple of the slope and of the smallest
   /// step.
   void begin(const ViewGeometry& geometry, int samples, float slopeOffset = 0, float stepOffset = 0);
-  /// Adds the opaque or the transparent parts of a mesh. Returns false, and adds nothing, if the matrix is
+  /// Adds the opaque or the transparent parts of a mesh in its paint; null: it has none. Returns false, and adds nothing, if the matrix is
   /// not finite.
   bool add(const std::shared_ptr<const CpuMesh>& mesh, std::uint32_t level,
-           const std::array<float, 12>& model, Transparency which);
+           const std::array<float, 12>& model, Transparency which,
+           const std::shared_ptr<const MeshPaint>& paint = nullptr);
   /// After the last add().
   void divide();
 

@@ -84,10 +84,11 @@ std::span<const NodeShare> PieceCosts::sharesOf(const Piece& piece) {
 
 void PieceCosts::setUp(const View& view, const Piece& piece) {
   setup_.begin(view.shading.setup->geometry(), view.shading.setup->samples());
-  const ListMeshes meshes(meshes_, poses_, view.list.figures);
+  const ListMeshes meshes(meshes_, poses_, paints_, view.list);
   const auto add = [&](std::size_t i, Transparency which) {
     const DrawItem& item = *seen_[i];
-    if (const auto mesh = meshes.find(item)) setup_.add(mesh, item.level, item.model, which);
+    if (const auto mesh = meshes.find(item))
+      setup_.add(mesh, item.level, item.model, which, meshes.paintOf(item));
   };
   for (std::size_t i = piece.first; i < piece.first + piece.count; ++i) add(i, Transparency::Opaque);
   for (std::size_t i = std::max(piece.first, opaque_); i < piece.first + piece.count; ++i)

@@ -21,8 +21,9 @@ namespace stadion {
 
 class PieceCosts {
 public:
-  PieceCosts(CpuMeshCache& meshes, PosedMeshes& poses, BandMemory& bands, const DrawKernels& kernels)
-      : meshes_(meshes), poses_(poses), bands_(bands), setup_(kernels) {}
+  PieceCosts(CpuMeshCache& meshes, PosedMeshes& poses, MeshPaints& paints, BandMemory& bands,
+             const DrawKernels& kernels)
+      : meshes_(meshes), poses_(poses), paints_(paints), bands_(bands), setup_(kernels) {}
 
   /// A view that has been drawn.
   struct View {
@@ -56,6 +57,7 @@ private:
 
   CpuMeshCache& meshes_;
   PosedMeshes& poses_;
+  MeshPaints& paints_;
   BandMemory& bands_;
   PictureSetup setup_;
   std::vector<const DrawItem*> seen_;  ///< objects that the view sees, opaque ones first
