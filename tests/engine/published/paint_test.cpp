@@ -175,7 +175,9 @@ TEST(PaintedNode, WrongArgumentsChangeNothing) {
 
 TEST(PaintedNode, ASnapshotKeepsThePaint) {
   const std::vector<PaintShow::Told> told{{0.1, "tint", {"1", "0", "0.5"}}, {0.15, "opacity", {"0.5"}}};
-  PaintShow show(told), other(told, {}, false);
+  const std::vector<PaintShow::Told> later{{9, "tint", {}},
+                                           {9, "opacity", {}}};  // what is told is in the state
+  PaintShow show(told), other(later, {}, false);
   show.run(0.2);
   const auto state = SceneSnapshot(show.scene).save();
   ASSERT_EQ(SceneSnapshot(other.scene).restore(state, "show"), std::nullopt);
@@ -185,7 +187,7 @@ TEST(PaintedNode, ASnapshotKeepsThePaint) {
   EXPECT_EQ(other.seen(), show.seen());
   EXPECT_EQ(other.seen().opacity, 0.5f);
   EXPECT_TRUE(other.isSeeThrough());
-  EXPECT_EQ(SceneSnapshot(show.scene).save(), SceneSnapshot(other.scene).save());
+  EXPECT_FALSE(SceneSnapshot(other.scene).difference(SceneSnapshot(show.scene).save()));
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <string>
 #include <thread>
 
@@ -50,6 +51,7 @@ struct PaintScene {
     if (levels) mesh->levels.push_back({mesh->indices, mesh->submeshes, 0.1});
     auto baked = std::make_unique<Mesh>(*mesh);
     for (Material& m : baked->materials) m = painted(m, paint);
+    baked->materials.push_back(mesh->materials[1]);  // smaller levels of its picture are those of holes
     baked->hash ^= 4711;
     bare = meshes.add(std::move(mesh));
     const MeshId asPainted = meshes.add(std::move(baked));
@@ -73,6 +75,40 @@ struct PaintScene {
   MeshId bare = kNoMesh;
   DrawList withPaint, withMesh;
 };
+
+/// A wall that fills the picture, before a black one, seen in the middle.
+std::array<Picture, 2> fullWall(const Material& material, const PaintRecord& paint) {
+  MeshStore meshes;
+  Material dark = matt(0, 0, 0);
+  dark.unlit = true;
+  const auto wall = [&](const Material& m, double y) {
+    return meshes.add(MeshMaker(m).quad({-1, y, -1}, {1, y, -1}, {1, y, 1}, {-1, y, 1}).seal());
+  };
+  const MeshId behind = wall(dark, 0.2), before = wall(material, 0);
+  DrawList list = plainList();
+  list.views[0] = orthographic();
+  list.opaque.push_back(place(behind));
+  (paint.isSeeThrough() ? list.transparent : list.opaque).push_back(place(before));
+  (paint.isSeeThrough() ? list.transparent : list.opaque).back().paint = 1;
+  list.paints = {paint};
+  return {drawnByCpu(meshes, list, 8, 8), drawnByOpenGl(meshes, list, 8, 8)};
+}
+
+TEST(PaintDrawing, TintMultipliesEmissionAddsAndOpacityBlends) {
+  Material half = matt(0.5f, 0.5f, 0.5f), black = matt(0, 0, 0);
+  half.unlit = true;
+  black.roughness = 1;
+  for (const Picture& p : fullWall(half, {{1, 0.4f, 0}, 1, {0, 0, 0}}))
+    for (std::size_t k = 0; k < 3; ++k)
+      EXPECT_NEAR(p.at(4, 4)[k], sRgb(std::array{0.5, 0.2, 0.0}[k]), 1) << k;
+  for (const Picture& p : fullWall(half, {{1, 1, 1}, 0.4f, {0, 0, 0}}))
+    EXPECT_NEAR(p.at(4, 4)[1], sRgb(0.2), 1);
+  const auto unpainted = fullWall(black, {}), glowing = fullWall(black, {{1, 1, 1}, 1, {0, 0.5f, 0}});
+  for (std::size_t i = 0; i < 2; ++i) {
+    EXPECT_EQ(glowing[i].at(4, 4)[0], unpainted[i].at(4, 4)[0]);
+    EXPECT_NEAR(glowing[i].at(4, 4)[1], sRgb(0.5), 14) << "and what a matt surface reflects";
+  }
+}
 
 TEST(PaintDrawing, APaintedMeshIsDrawnAsOneWithTheseMaterials) {
   for (const PaintRecord& paint : {kReddened, kGlowing, kFaint, kAlmostGone})
@@ -200,6 +236,9 @@ TEST(MeshPaints, APaintIsMadeOnceAndForgottenWhenUnused) {
   EXPECT_EQ(paints.find(mesh, bare, kFaint), first);
   paints.begin(3);
   EXPECT_EQ(paints.size(), 1u);
+  paints.begin(300);
+  EXPECT_EQ(paints.size(), 0u);
+  paints.find(mesh, bare, kFaint);
   paints.begin(0);  // the show restarts
   EXPECT_EQ(paints.size(), 0u);
 }

@@ -52,6 +52,18 @@ TEST(StillCasters, AreFoundOnceForAllWallsAndAllFramesInWhichNothingOfThemChange
   EXPECT_NE(f.casters.at(ringAt(1), f.publish(c)).items, first) << "the ring has moved";
 }
 
+TEST(StillCasters, WhatIsSeenThroughFromNowOnCastsNoShadow) {
+  CasterFrames f;
+  ChangeSet c;
+  c.instances = {{0, thing(0)}, {1, thing(2)}};
+  EXPECT_EQ(f.casters.at(ringAt(0), f.publish(c)).items->size(), 2u);
+  c.instances = {{1, thing(2)}};
+  c.instances[0].record.flags |= 3U << InstanceRecord::kPaintAt;
+  EXPECT_EQ(f.casters.at(ringAt(0), f.publish(c)).items->size(), 2u) << "only its colour is another one";
+  c.instances[0].record.flags |= InstanceRecord::kTransparent;
+  EXPECT_EQ(f.casters.at(ringAt(0), f.publish(c)).items->size(), 1u);
+}
+
 TEST(StillCasters, AreWhatStandsStillInThatFrameWhateverComesGoesAndBeginsToMove) {
   CasterFrames f;
   std::mt19937 random(11);

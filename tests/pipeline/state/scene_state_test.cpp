@@ -66,6 +66,21 @@ TEST(SceneState, EverySlotHoldsWhatASingleCopyWouldHold) {
   }
 }
 
+TEST(SceneState, PaintsReachEverySlot) {
+  SceneState state;
+  ChangeSet c;
+  c.paintsChanged = true;
+  c.paints = {{{1, 0, 0}, 0.5f, {0, 0, 1}}, {}};
+  state.publish(0, c);
+  const ChangeSet none;
+  state.publish(1, none);
+  state.publish(2, none);
+  for (std::size_t slot = 0; slot < kSlots; ++slot) {
+    const auto paints = state.view(slot).paints;
+    EXPECT_EQ(std::vector(paints.begin(), paints.end()), c.paints) << slot;
+  }
+}
+
 TEST(SceneState, AReaderOfASlotThatIsWrittenFindsOutAlsoAfterAFrameThatWasGivenUp) {
   SceneState state;
   ChangeSet c;
