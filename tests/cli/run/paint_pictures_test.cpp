@@ -106,7 +106,7 @@ TEST(ProgramPaints, WrongColoursAreErrors) {
   const auto checked = [](const std::string& command) {
     return PaintedShow("timer( eventmessage=\"timesup, box, " + command + "\" )").checked();
   };
-  EXPECT_EQ(checked("tint 1 0.5 0, 0.5").find("error"), std::string::npos);
+  EXPECT_EQ(checked("tint 1 0.5 0, 0.5").find("error: "), std::string::npos);
   EXPECT_TRUE(
       has(checked("tint 1 0"),
           "error: \"tint\" must be followed by red, green and blue, with blanks between them, not by 2 "
