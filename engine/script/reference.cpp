@@ -112,6 +112,8 @@ std::string languageReference(const NodeRegistry& types, const RegisteredType& n
   std::string text = describeOwn(node, types);
   if (node.has(Trait::Placed))
     text.append("\n as every placed node\n").append(describeAttributes(kPlacedRows, types));
+  if (node.type().traits.meets(kPaintedTraits))
+    text.append("\n as every node with a model\n").append(describeAttributes(kPaintRows, types));
   text.append("\n as every node\n").append(describeAttributes(kCommonRows, types));
   if (!node.type().events.empty()) text.append("\n events\n").append(describeEvents(node));
   text += "\n commands\n";
@@ -125,6 +127,8 @@ std::string languageReference(const NodeRegistry& types) {
   text += fmt::format("\n{}\n",
                       wrapped(fmt::format("Every placed node: {}", describe(types, {{Trait::Placed}})), 0));
   text += describeAttributes(kPlacedRows, types);
+  text += fmt::format("\nEvery node with a model: {}\n", describe(types, {kPaintedTraits}));
+  text += describeAttributes(kPaintRows, types);
   for (const NodeRegistry::Index i : types.byName()) {
     const RegisteredType& node = types[i];
     text.append("\n").append(describeOwn(node, types));
