@@ -157,15 +157,20 @@ TEST(PaintDrawing, KernelsAndThreadsDoNotChangeThePicture) {
 /// One context draws list after list. A number gets another paint, and an opaque object becomes transparent and
 /// opaque again.
 TEST(PaintDrawing, OpenGlFollowsAPaintFromFrameToFrame) {
+  const std::array paints{kReddened, kFaint, kGlowing};
+  std::vector<Picture> expected;  // a context of their own, which goes before the next one is made
+  for (const PaintRecord& paint : paints) {
+    const PaintScene same(paint);
+    expected.push_back(drawnByOpenGl(same.meshes, same.withMesh, kPaintSide, kPaintSide));
+  }
   PaintScene scene(kReddened);
   Stage stage(scene.meshes, kPaintSide, kPaintSide);
   DrawList bare = scene.withPaint;
   bare.transparent.back().paint = 0;
   const Picture before = stage.draw(bare);
-  for (const PaintRecord& paint : {kReddened, kFaint, kGlowing}) {
-    const PaintScene same(paint);
-    scene.withPaint.paints[1] = paint;
-    EXPECT_EQ(stage.draw(scene.withPaint), drawnByOpenGl(same.meshes, same.withMesh, kPaintSide, kPaintSide));
+  for (std::size_t i = 0; i < paints.size(); ++i) {
+    scene.withPaint.paints[1] = paints[i];
+    EXPECT_EQ(stage.draw(scene.withPaint), expected[i]) << i;
     EXPECT_EQ(stage.draw(bare), before) << "the mesh of the file keeps its materials";
   }
 }
