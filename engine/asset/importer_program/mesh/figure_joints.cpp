@@ -156,7 +156,7 @@ VertexJoints FigureJoints::of(const SourcePrimitive& part, std::size_t vertex, s
   return v;
 }
 
-/// A channel for each weight, of the one that has the numbers of all.
+/// Splits a channel with the numbers of all weights into one for each.
 void FigureJoints::addWeightChannels(const SourceChannel& from, Clip& clip) const {
   if (firstWeight_[from.node] < 0) return;
   const auto first = static_cast<std::size_t>(firstWeight_[from.node]);

@@ -165,7 +165,7 @@ private:
       const Mat3 turn = scene_.toShow.linear();
       for (const Float3& d : target.positions) morph.positions.push_back(difference(d, turn));
       const bool normals = scene_.keepNormals && target.normals.size() == target.positions.size();
-      const double scale = std::cbrt(std::fabs(turn.determinant()));
+      const double scale = turn.col(0).norm();
       for (std::size_t i = 0; normals && i < target.normals.size(); ++i)
         morph.normals.push_back(difference(target.normals[i], turn / scale));
       flat.morphs.push_back(std::move(morph));
