@@ -118,8 +118,8 @@ constexpr double kTurn = 1.0, kStride = 0.46;  // [s]
 class Walk {
 public:
   Walk(const Performance& after, Point from, Point to)
-      : from_(from), to_(to), right_(stood(after.rightFoot, after.duration)),
-        left_(stood(after.leftFoot, after.duration)), endRight_(after.rightFoot), endLeft_(after.leftFoot) {
+      : right_(stood(after.rightFoot, after.duration)), left_(stood(after.leftFoot, after.duration)),
+        endRight_(after.rightFoot), endLeft_(after.leftFoot) {
     const Point way = to - from;
     heading_ = 180 / kPi * det::atan2(-way.x, way.y);
     if (heading_ < 0) heading_ += 360;
@@ -159,7 +159,6 @@ private:
     step(false, {t + 0.58, t + 0.84, at, b, 0.07}, 0.10);
   }
 
-  Point from_, to_;
   Foot right_, left_, endRight_, endLeft_;
   double heading_ = 0, end_ = 0;
   int strides_ = 0;
