@@ -17,11 +17,11 @@ namespace {
 namespace fs = std::filesystem;
 
 // The eye is 4 m in front of the model; the wall is 1.6 m wide, 2 m from the eye.
-constexpr const char* kWall = R"(unit m
+constexpr const char* kEyeWall = R"(unit m
 near 0.05
 wall view  lower-left -0.8 2 0.9  lower-right 0.8 2 0.9  upper-left -0.8 2 2.5
 )";
-constexpr const char* kScene = R"(rig( position="0, -4, -1.7" )
+constexpr const char* kEyeScene = R"(rig( position="0, -4, -1.7" )
 light( direction="-0.5, 1, -0.8", intensity=0.7, shadows=off )
 sky( zenith="0.8546,0.8546,0.8546", horizon="0.8546,0.8546,0.8546", ground="0.8546,0.8546,0.8546",
      ambient="0.5,0.5,0.5" )
@@ -35,13 +35,13 @@ constexpr const char* kThree =
 constexpr const char *kMirrored = "--env 0.21404,0.21404,0.21404",
                      *kScattered = "--ambient 0.21404,0.21404,0.21404";
 
-double linear(std::uint8_t byte) {
+double linearOf(std::uint8_t byte) {
   const double c = byte / 255.0;
   return c <= 0.04045 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4);
 }
 
 /// In linear light, of 255; where the reference changes by more than a step within 3 x 3 pixels is an edge.
-struct Difference {
+struct LightDifference {
   double mean = 0, worst = 0;
   std::size_t pixels = 0;  ///< that count
 };
@@ -71,9 +71,9 @@ LightPicture readPfm(const std::string& path) {
   return p;
 }
 
-Difference differenceOf(const Picture& ours, const LightPicture& theirs) {
+LightDifference lightDifferenceOf(const Picture& ours, const LightPicture& theirs) {
   constexpr double kEdge = 0.06;
-  Difference d;
+  LightDifference d;
   double sum = 0;
   for (std::uint32_t y = 1; y + 1 < theirs.height; ++y)
     for (std::uint32_t x = 1; x + 1 < theirs.width; ++x) {
@@ -85,7 +85,7 @@ Difference differenceOf(const Picture& ours, const LightPicture& theirs) {
           for (std::uint32_t i = x - 1; i <= x + 1; ++i)
             low = std::min(low, theirs.at(i, j, k)), high = std::max(high, theirs.at(i, j, k));
         edge = edge || high - low > kEdge;
-        error = std::max(error, std::fabs(linear(ours.at(x, y)[k]) - theirs.at(x, y, k)));
+        error = std::max(error, std::fabs(linearOf(ours.at(x, y)[k]) - theirs.at(x, y, k)));
       }
       if (edge) continue;
       ++d.pixels;
@@ -132,9 +132,9 @@ protected:
   }
 
   Picture draw(const test::FeatureModel& m) const {
-    std::ofstream(at("eye.walls")) << kWall;
+    std::ofstream(at("eye.walls")) << kEyeWall;
     std::ofstream show(at(m.name + ".evs"));
-    show << kScene;
+    show << kEyeScene;
     if (m.clip.empty())
       show << "object( file=" << m.name << ".glb )\n";
     else
@@ -165,7 +165,7 @@ TEST_F(ProgramFullThree, DrawsEachFeatureAlike) {
     const LightPicture theirs = readPfm(at(m.name + ".pfm"));
     const Picture ours = draw(m);
     ASSERT_TRUE(theirs.width > 0 && ours.width == theirs.width && ours.height == theirs.height) << m.name;
-    const Difference d = differenceOf(ours, theirs);
+    const LightDifference d = lightDifferenceOf(ours, theirs);
     EXPECT_GT(d.pixels, 8000U) << m.name;
     EXPECT_LT(d.mean, m.mean) << m.name;
     EXPECT_LT(d.worst, m.worst) << m.name;
