@@ -104,7 +104,7 @@ TEST(ProgramPaints, TheMaterialsOfTheFileComeBack) {
 
 TEST(ProgramPaints, WrongColoursAreErrors) {
   const auto checked = [](const std::string& command) {
-    return PaintedShow("timer( eventmessage=\"timesup, box, " + command + "\" )").checked();
+    return PaintedShow("timer( period=0.1, eventmessage=\"timesup, box, " + command + "\" )").checked();
   };
   EXPECT_EQ(checked("tint 1 0.5 0, 0.5").find("error: "), std::string::npos);
   EXPECT_TRUE(
