@@ -103,7 +103,9 @@ TEST(AssetShowModels, TheFootIsClosedAndPointsForward) {
 
 std::unique_ptr<Mesh> modelOf(const char* name) {
   Diagnostics notes;
-  auto loaded = importerOf(kAssets).load(name, {}, {}, &notes);
+  ImportOptions options;
+  options.form = ModelForm::Either;
+  auto loaded = importerOf(kAssets).load(name, options, {}, &notes);
   EXPECT_TRUE(loaded) << loaded.error().message;
   EXPECT_TRUE(notes.all().empty()) << format(notes.all()[0]);
   return loaded ? std::move(loaded.value()) : nullptr;
