@@ -7,6 +7,7 @@ namespace stadion {
 namespace {
 
 constexpr double kShortest = 1e-3;  ///< shortest pass of a loop [s]
+constexpr double kMostTurned = 64;  ///< a loop that passes more often between two times has no turns
 
 double seconds(Nanoseconds time) {
   return static_cast<double>(time) * 1e-9;
@@ -150,6 +151,7 @@ void ClipPlayer::addKeys(const Layer& layer, const Clip& clip, Nanoseconds from,
         addAt(begins + *key);
   };
   if (!layer.loop) return addPass(0);
+  if (last - first > kMostTurned * layer.length) return;
   for (double pass = std::floor(first / layer.length); pass * layer.length <= last; ++pass)
     addPass(pass * layer.length);
 }

@@ -49,7 +49,7 @@ public:
   void forget(Nanoseconds time);
   FigureRecord at(Nanoseconds time) const;
   /// Adds the times in (from, to] at which the motion may bend or jump: keys of the clips, ends of passes and
-  /// of fades.
+  /// of fades. Leaves those of a loop out that passes more than 64 times in between.
   void turns(const Skeleton& skeleton, Nanoseconds from, Nanoseconds to,
              std::vector<Nanoseconds>& times) const;
   /// Returns the number of ends up to `time` that takeEnd() has not returned.

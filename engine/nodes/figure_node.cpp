@@ -19,6 +19,9 @@ namespace {
 constexpr CommandId kPlay = commandNamed("play"), kPause = commandNamed("pause"),
                     kStop = commandNamed("stop"), kPose = commandNamed("pose");
 
+/// A figure whose clips turn more often in a frame is followed on the grid of chords alone.
+constexpr std::size_t kMostTurns = 512;
+
 /// As near as a motion of at most 1000 m/s and 1000 rad/s comes within a nanosecond.
 bool isNear(const Pose& a, const Pose& b) {
   return (a.p - b.p).norm() < 1e-6 && std::fabs(a.q.dot(b.q)) > 1 - 1e-12;
@@ -156,8 +159,8 @@ void FigureNode::traceCarried(FrameContext& frame) {
       watched.emplace_back(node, c.bone);
   if (watched.empty() || from >= to) return;
 
-  std::vector<Nanoseconds> times;
-  for (Nanoseconds t = (from / kChord + 1) * kChord; t < to; t += kChord) times.push_back(t);
+  std::vector<Nanoseconds> grid{to}, times;
+  for (Nanoseconds t = (from / kChord + 1) * kChord; t < to; t += kChord) grid.push_back(t);
   Nanoseconds since = from;
   for (const Past& past : past_) {
     past.player.turns(*skeleton_, since, past.until, times);
@@ -165,9 +168,14 @@ void FigureNode::traceCarried(FrameContext& frame) {
     since = past.until;
   }
   player_.turns(*skeleton_, since, to, times);
-  times.push_back(to);
-  std::ranges::sort(times);
-  times.erase(std::unique(times.begin(), times.end()), times.end());
+  const auto sort = [&] {
+    std::ranges::sort(times);
+    times.erase(std::unique(times.begin(), times.end()), times.end());
+  };
+  sort();
+  if (times.size() > kMostTurns) times.clear();
+  times.insert(times.end(), grid.begin(), grid.end());
+  sort();
 
   const Affine X_WN = placements.world(placement());
   const auto posesAt = [&](Nanoseconds t) {
