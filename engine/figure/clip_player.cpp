@@ -139,7 +139,9 @@ void ClipPlayer::addKeys(const Layer& layer, const Clip& clip, Nanoseconds from,
   const double first = std::min(unwrapped(from), unwrapped(to)),
                last = std::max(unwrapped(from), unwrapped(to));
   const auto addAt = [&](double clipTime) {
-    const Nanoseconds time = layer.since + std::llround((clipTime - layer.start) / layer.speed * 1e9);
+    const double lasts = (clipTime - layer.start) / layer.speed;
+    if (!(std::fabs(lasts) < 9e9)) return;
+    const Nanoseconds time = layer.since + std::llround(lasts * 1e9);
     if (time > from && time <= to) times.push_back(time);
   };
   const auto addPass = [&](double begins) {

@@ -96,6 +96,12 @@ void PathNode::trace(Nanoseconds to, FrameContext& frame) {
       passed.push_back(base + fromSeconds(key->time));
     if (!loop_) break;
   }
+  if (bends) {
+    std::vector<Nanoseconds> knots;
+    frame.scene.poseTracks().addKnots(up, placements, knots);
+    for (const Nanoseconds t : knots)
+      if (t > since_ && t - since_ < span) passed.push_back(t - since_);
+  }
   passed.push_back(span);
   std::ranges::sort(passed);
   passed.erase(std::unique(passed.begin(), passed.end()), passed.end());
@@ -105,7 +111,8 @@ void PathNode::trace(Nanoseconds to, FrameContext& frame) {
   };
   Nanoseconds before = 0;
   for (const Nanoseconds t : passed) {
-    way.push_back({since_ + t, after(t), false, bends ? poseBetween(before, t, after) : std::nullopt});
+    const bool curved = bends && !frame.scene.poseTracks().jumps(up, since_ + before, since_ + t, placements);
+    way.push_back({since_ + t, after(t), false, curved ? poseBetween(before, t, after) : std::nullopt});
     if (loop_ && inPass(t) == pass) way.push_back({since_ + t, at(since_ + t, 0), true});
     before = t;
   }

@@ -64,6 +64,19 @@ bool PoseTracks::bends(PlacementId id, const Placements& placements) const {
          std::ranges::any_of(carrier->track, [&](const PoseKnot& k) { return k.X.q.coeffs() != first; });
 }
 
+void PoseTracks::addKnots(PlacementId id, const Placements& placements,
+                          std::vector<Nanoseconds>& times) const {
+  if (const Known* carrier = above(id, placements))
+    for (const PoseKnot& knot : carrier->track) times.push_back(knot.time);
+}
+
+bool PoseTracks::jumps(PlacementId id, Nanoseconds from, Nanoseconds to, const Placements& placements) const {
+  const Known* carrier = above(id, placements);
+  return carrier && std::ranges::any_of(carrier->track, [&](const PoseKnot& knot) {
+           return knot.jump && knot.time > from && knot.time <= to;
+         });
+}
+
 PoseTrack PoseTracks::within(PlacementId id, const Pose& before, Nanoseconds start, Nanoseconds end,
                              const Placements& placements) const {
   const Pose now = poseOf(placements.world(id));

@@ -31,6 +31,10 @@ public:
   Pose startOf(PlacementId id, const Placements& placements) const;
   /// Returns true if what carries the placement turns or goes along a curve in this frame.
   bool bends(PlacementId id, const Placements& placements) const;
+  /// Adds the times of the knots of what carries the placement.
+  void addKnots(PlacementId id, const Placements& placements, std::vector<Nanoseconds>& times) const;
+  /// Returns true if what carries the placement jumps after `from`, up to `to`.
+  bool jumps(PlacementId id, Nanoseconds from, Nanoseconds to, const Placements& placements) const;
 
 private:
   struct Known {

@@ -157,19 +157,22 @@ VertexJoints FigureJoints::of(const SourcePrimitive& part, std::size_t vertex, s
 }
 
 /// Splits a channel with the numbers of all weights into one for each.
-void FigureJoints::addWeightChannels(const SourceChannel& from, Clip& clip) const {
-  if (firstWeight_[from.node] < 0) return;
+bool FigureJoints::addWeightChannels(const SourceChannel& from, Clip& clip) const {
+  if (firstWeight_[from.node] < 0) return false;
   const auto first = static_cast<std::size_t>(firstWeight_[from.node]);
+  std::size_t end = weights_.size();  // where those of another node begin
+  for (const std::int32_t other : firstWeight_)
+    if (other > firstWeight_[from.node]) end = std::min(end, static_cast<std::size_t>(other));
   const std::size_t rows = from.times.size() * (from.interpolation == Interpolation::Cubic ? 3 : 1);
-  const std::size_t width = from.values.size() / rows;
-  for (std::size_t k = 0; k < width && first + k < weights_.size(); ++k) {
-    if (k > 0 && std::ranges::find(firstWeight_, static_cast<std::int32_t>(first + k)) != firstWeight_.end())
-      break;  // that of another node
+  const std::size_t width = end - first;
+  if (from.values.size() != rows * width) return false;
+  for (std::size_t k = 0; k < width; ++k) {
     ClipChannel c{
         static_cast<std::uint32_t>(first + k), ChannelTarget::Weights, from.interpolation, from.times, {}};
     for (std::size_t row = 0; row < rows; ++row) c.values.push_back(from.values[row * width + k]);
     clip.channels.push_back(std::move(c));
   }
+  return true;
 }
 
 Clip FigureJoints::clipOf(const SourceClip& from, std::string name, std::size_t& leftOut) const {
@@ -182,7 +185,7 @@ Clip FigureJoints::clipOf(const SourceClip& from, std::string name, std::size_t&
     }
     clip.length = std::max(clip.length, double{c.times.back()});
     if (c.target == ChannelTarget::Weights) {
-      addWeightChannels(c, clip);
+      if (!addWeightChannels(c, clip)) ++leftOut;
       continue;
     }
     clip.channels.push_back(
@@ -204,9 +207,9 @@ Skeleton FigureJoints::skeleton(ModelInventory& inventory) const {
   if (keys > limits_.keys)
     throw Refusal("has clips with more than " + std::to_string(limits_.keys) + " numbers");
   if (leftOut > 0)
-    inventory.add(ContentUse::LeftOut,
-                  counted(leftOut, "channel", "channels") +
-                      " of clips with times that do not ascend or numbers that are not finite");
+    inventory.add(ContentUse::LeftOut, counted(leftOut, "channel", "channels") +
+                                           " of clips with times that do not ascend, numbers that are not "
+                                           "finite, or too few or many of them");
   return skeleton;
 }
 

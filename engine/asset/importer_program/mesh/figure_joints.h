@@ -33,7 +33,8 @@ private:
   void addJoints();
   void addWeights();
   VertexJoints carriedBy(std::uint32_t joint) const;
-  void addWeightChannels(const SourceChannel& from, Clip& clip) const;
+  /// False if it has not a number for each weight of its node.
+  bool addWeightChannels(const SourceChannel& from, Clip& clip) const;
   Clip clipOf(const SourceClip& from, std::string name, std::size_t& leftOut) const;
 
   const SourceScene& scene_;

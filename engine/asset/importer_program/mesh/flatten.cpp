@@ -160,11 +160,14 @@ private:
     for (std::size_t i = first; i < flat.vertices.size(); ++i) flat.vertices[i].morph = ++morphed_;
     for (std::size_t k = 0; k < part.targets.size(); ++k) {
       const MorphTarget& target = part.targets[k];
-      if (target.positions.size() != flat.vertices.size() - first) continue;
+      const std::size_t count = flat.vertices.size() - first;
+      if (target.positions.size() != count && target.normals.size() != count) continue;
       FlatMorph morph{static_cast<std::uint32_t>(weight) + static_cast<std::uint32_t>(k), number, {}, {}};
       const Mat3 turn = scene_.toShow.linear();
-      for (const Float3& d : target.positions) morph.positions.push_back(difference(d, turn));
-      const bool normals = scene_.keepNormals && target.normals.size() == target.positions.size();
+      morph.positions.resize(count);
+      for (std::size_t i = 0; i < target.positions.size() && i < count; ++i)
+        morph.positions[i] = difference(target.positions[i], turn);
+      const bool normals = scene_.keepNormals && target.normals.size() == count;
       const double scale = turn.col(0).norm();
       for (std::size_t i = 0; normals && i < target.normals.size(); ++i)
         morph.normals.push_back(difference(target.normals[i], turn / scale));
@@ -247,6 +250,9 @@ Fault faultOf(const Flat& flat, const FlatTriangle& t) {
   const auto& b = flat.vertices[t.corner[1]].position;
   const auto& c = flat.vertices[t.corner[2]].position;
   if (!usable(a) || !usable(b) || !usable(c)) return Fault::NotFinite;
+  // A morph target may open it.
+  if (std::ranges::any_of(t.corner, [&](std::uint32_t i) { return flat.vertices[i].morph != 0; }))
+    return Fault::None;
   if (a == b || b == c || c == a) return Fault::Collapsed;
   const Vec3 ab = vec(b) - vec(a), ac = vec(c) - vec(a);
   const double longest = std::max({ab.squaredNorm(), ac.squaredNorm(), (ab - ac).squaredNorm()});

@@ -9,6 +9,7 @@
 #include <bit>
 #include <cmath>
 #include <cstring>
+#include <map>
 
 namespace stadion::importer {
 namespace {
@@ -109,37 +110,52 @@ private:
   std::vector<std::uint32_t> slots_;
 };
 
-/// The differences of all primitives that belong to one weight. `numbers`: by vertex, FlatVertex::morph.
-Morph morphOf(const Flat& flat, std::uint32_t weight, const std::vector<std::uint32_t>& numbers) {
+/// Adds the differences of one primitive to those of its weight.
+void addMorph(const FlatMorph& from, const std::vector<std::vector<std::uint32_t>>& verticesOf, Morph& to) {
   constexpr std::array<float, 3> kNone{0, 0, 0};
-  Morph morph;
-  morph.weight = weight;
-  bool normals = false;
-  for (const FlatMorph& from : flat.morphs) normals |= from.weight == weight && !from.normals.empty();
-  for (std::uint32_t v = 0; v < numbers.size(); ++v)
-    for (const FlatMorph& from : flat.morphs) {
-      if (from.weight != weight || numbers[v] < from.first ||
-          numbers[v] - from.first >= from.positions.size())
-        continue;
-      const std::size_t at = numbers[v] - from.first;
-      const std::array<float, 3>& turn = from.normals.empty() ? kNone : from.normals[at];
-      if (from.positions[at] == kNone && turn == kNone) continue;
-      morph.vertices.push_back(v);
-      morph.positions.push_back(from.positions[at]);
-      if (normals) morph.normals.push_back(turn);
+  for (std::size_t i = 0; i < from.positions.size(); ++i) {
+    const std::array<float, 3>& turn = from.normals.empty() ? kNone : from.normals[i];
+    if (from.positions[i] == kNone && turn == kNone) continue;
+    for (const std::uint32_t v : verticesOf[from.first + i]) {
+      to.vertices.push_back(v);
+      to.positions.push_back(from.positions[i]);
+      to.normals.push_back(turn);
     }
-  return morph;
+  }
+}
+
+/// Brings the differences into the order of their vertices.
+void sortByVertex(Morph& morph) {
+  std::vector<std::uint32_t> order(morph.vertices.size());
+  for (std::uint32_t i = 0; i < order.size(); ++i) order[i] = i;
+  std::ranges::sort(order, {}, [&](std::uint32_t i) { return morph.vertices[i]; });
+  Morph sorted;
+  sorted.weight = morph.weight;
+  for (const std::uint32_t i : order) {
+    sorted.vertices.push_back(morph.vertices[i]);
+    sorted.positions.push_back(morph.positions[i]);
+    sorted.normals.push_back(morph.normals[i]);
+  }
+  morph = std::move(sorted);
 }
 
 void joinMorphs(const Flat& flat, const std::vector<FlatVertex>& vertices, Mesh& mesh) {
   if (flat.morphs.empty()) return;
-  std::vector<std::uint32_t> numbers;
-  for (const FlatVertex& v : vertices) numbers.push_back(v.morph);
-  std::uint32_t most = 0;
-  for (const FlatMorph& from : flat.morphs) most = std::max(most, from.weight);
-  for (std::uint32_t weight = 0; weight <= most; ++weight)
-    if (Morph morph = morphOf(flat, weight, numbers); !morph.vertices.empty())
-      mesh.morphs.push_back(std::move(morph));
+  std::size_t numbers = 1;
+  for (const FlatMorph& from : flat.morphs) numbers = std::max(numbers, from.first + from.positions.size());
+  std::vector<std::vector<std::uint32_t>> verticesOf(numbers);  // by FlatVertex::morph
+  for (std::uint32_t v = 0; v < vertices.size(); ++v)
+    if (vertices[v].morph != 0 && vertices[v].morph < numbers) verticesOf[vertices[v].morph].push_back(v);
+  std::map<std::uint32_t, Morph> morphs;  // by weight
+  for (const FlatMorph& from : flat.morphs) addMorph(from, verticesOf, morphs[from.weight]);
+  for (auto& [weight, morph] : morphs) {
+    if (morph.vertices.empty()) continue;
+    morph.weight = weight;
+    sortByVertex(morph);
+    constexpr std::array<float, 3> kNone{0, 0, 0};
+    if (std::ranges::all_of(morph.normals, [&](const auto& n) { return n == kNone; })) morph.normals.clear();
+    mesh.morphs.push_back(std::move(morph));
+  }
 }
 
 }  // namespace
