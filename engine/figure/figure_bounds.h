@@ -4,8 +4,8 @@
 /// Method   A bone whose rotation and scale no clip changes, and whose parents are such, keeps its axes: its
 ///          vertices move with its origin. Below any other bone everything is taken to turn freely: it stays
 ///          within its distance from that bone's origin. Morph targets widen what a bone carries by their
-///          differences times the greatest size of their weights, each on its own. So the sphere holds for each clip, each time and
-///          each blend. It is larger than each pose: culling needs no more.
+///          differences times the greatest size of their weights, each on its own. So the sphere holds for
+///          each clip, each time and each blend. It is larger than each pose: culling needs no more.
 /// Threads  pure.
 
 #include "engine/figure/morph.h"

@@ -1,7 +1,7 @@
 #pragma once
 /// A motion inside a frame: what lies between knots, and jumps.
 ///
-/// CurvePoses  two knots the motion is straight and turns evenly, or is a curve of fourth degree through three
+/// Between  two knots the motion is straight and turns evenly, or is a curve of fourth degree through three
 ///          more poses (PoseCurve). At 20 rad/s and 2 ms such a curve misses a true circle by 1e-9 of its
 ///          radius, and straight motion by 2e-4.
 /// Times    non-decreasing. Before the first knot it is at that knot's pose, after the last one likewise.

@@ -18,8 +18,8 @@ struct PictureSource {
 };
 
 /// Fills mesh.materials (one for each of the scene's) and mesh.textures. A picture that cannot be read is left
-/// out and named in `inventory`. `alphaOfVertices`: by material, whether vertices with it have colours
-/// with an alpha below 1.
+/// out and named in `inventory`. `alphaOfVertices`: by material, whether vertices with it have colours with
+/// an alpha below 1.
 void readMaterials(const SourceScene& scene, const PictureSource& pictures,
                    const std::vector<bool>& alphaOfVertices, Mesh& mesh, ModelInventory& inventory);
 
