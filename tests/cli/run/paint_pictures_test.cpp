@@ -1,6 +1,7 @@
 /// Painted objects look alike in every mode, cast shadows while they are opaque, and get the materials of their
 /// files back.
 
+#include "tests/cli/run/played_pictures.h"
 #include "tests/engine/asset/rigged_model.h"
 #include "tests/programs/program.h"
 
@@ -13,8 +14,6 @@
 
 namespace stadion {
 namespace {
-
-namespace fs = std::filesystem;
 
 /// An object and a figure before a ground. The timers' messages change their paint.
 class PaintedShow {
@@ -33,18 +32,7 @@ figure( name=tube, file=tube.glb, clip=bend, position="0.8, 4, 0" )
 
   /// Picture files by name.
   std::map<std::string, std::string> played(const std::vector<std::string>& how) const {
-    const TestFolder out;
-    std::vector<std::string> words{"run",     (folder_.path() / "show.evs").string(),
-                                   "--walls", "desktop",
-                                   "--size",  "80x60",
-                                   "--out",   out.path().string()};
-    words.insert(words.end(), how.begin(), how.end());
-    const ProgramResult r = stadionProgram(words);
-    EXPECT_EQ(r.status, 0) << r.err;
-    std::map<std::string, std::string> pictures;
-    for (const auto& entry : fs::directory_iterator(out.path()))
-      if (entry.path().extension() == ".png") pictures[entry.path().filename()] = fileContent(entry.path());
-    return pictures;
+    return playedPictures(folder_.path() / "show.evs", how);
   }
   std::string checked() const {
     const ProgramResult r = stadionProgram({"check", (folder_.path() / "show.evs").string()});
