@@ -15,7 +15,7 @@ namespace stadion {
 
 constexpr std::uint32_t kImportMagic = 0x51495453;  // "STIQ"
 constexpr std::uint32_t kAnswerMagic = 0x41495453;  // "STIA"
-constexpr std::uint32_t kImportVersion = 6;
+constexpr std::uint32_t kImportVersion = 7;
 constexpr std::uint32_t kLongestPath = 4096;
 constexpr std::uint32_t kLongestSelection = 1u << 20;
 constexpr std::uint32_t kLongestText = 65536;

@@ -31,6 +31,26 @@ struct MeshLevel {
   double error = 0;                ///< how far it is from the full surface where it is farthest [m]
 };
 
+/// A light that a model file holds, in the mesh's coordinates.
+struct ModelLight {
+  enum class Kind : std::uint32_t { Directional, Point, Spot };
+  std::string name;
+  Kind kind = Kind::Point;
+  std::array<float, 3> position{0, 0, 0};    ///< [m]
+  std::array<float, 3> direction{0, 0, -1};  ///< the way the light goes, unit
+  std::array<float, 3> colour{1, 1,
+                              1};  ///< linear, with the intensity: 1 lights a white surface fully, at 1 m
+  float range = 0;                 ///< how far it reaches [m], 0 = without an end
+  float innerAngle = 0, outerAngle = 0;  ///< half angles of a spot's cone [rad]
+};
+
+/// A camera that a model file holds, in the mesh's coordinates.
+struct ModelCamera {
+  std::string name;
+  std::array<float, 3> position{0, 0, 0};   ///< [m]
+  std::array<float, 3> direction{0, 1, 0};  ///< where it looks, unit
+};
+
 struct Mesh {
   std::vector<std::array<float, 3>> positions;  ///< [m], +Z up
   std::vector<std::array<float, 3>> normals;    ///< unit; same length as positions
@@ -55,10 +75,12 @@ struct Mesh {
   std::shared_ptr<const Skeleton> skeleton;
   /// Of a part of a model: from its coordinates N to those of the model. Without a scale.
   Affine place = Affine::Identity();
-  Aabb bounds;             ///< [m] of a figure: in every pose
-  Sphere sphere;           ///< [m] bounding sphere; of a figure: in every pose
-  std::uint64_t hash = 0;  ///< hash of the content, which identifies the mesh
-  std::string name;        ///< the file it came from
+  std::vector<ModelLight> lights;    ///< of a figure: where they are at rest
+  std::vector<ModelCamera> cameras;  ///< likewise
+  Aabb bounds;                       ///< [m] of a figure: in every pose
+  Sphere sphere;                     ///< [m] bounding sphere; of a figure: in every pose
+  std::uint64_t hash = 0;            ///< hash of the content, which identifies the mesh
+  std::string name;                  ///< the file it came from
   /// Simplified surfaces, each with fewer triangles and a greater error than the one before.
   std::vector<MeshLevel> levels;
   bool standIn = false;  ///< drawn in place of an asset that could not be loaded

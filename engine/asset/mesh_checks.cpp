@@ -98,7 +98,25 @@ void addFurther(const Material& m, Hash& hash) {
   if (m.unlit) hash.add(std::uint64_t{16} << 32);
 }
 
-// Names are left out: the same shape under two names is one mesh.
+/// With names, by which scripts find them.
+void addLightsAndCameras(const Mesh& mesh, Hash& hash) {
+  const auto addAll = [&](const auto& values) {
+    for (const float f : values) hash.add(f);
+  };
+  for (const ModelLight& light : mesh.lights) {
+    hash.add(std::uint64_t{20} << 32 | static_cast<std::uint64_t>(light.kind));
+    hash.add(light.name);
+    addAll(light.position), addAll(light.direction), addAll(light.colour);
+    addAll(std::array{light.range, light.innerAngle, light.outerAngle});
+  }
+  for (const ModelCamera& camera : mesh.cameras) {
+    hash.add(std::uint64_t{21} << 32);
+    hash.add(camera.name);
+    addAll(camera.position), addAll(camera.direction);
+  }
+}
+
+// Other names are left out: the same shape under two names is one mesh.
 std::uint64_t contentHash(const Mesh& mesh) {
   Hash hash;
   hash.add(mesh.positions);
@@ -134,6 +152,7 @@ std::uint64_t contentHash(const Mesh& mesh) {
   }
   hash.add(std::uint64_t{mesh.standIn});
   if (mesh.skeleton) addSkeleton(mesh, hash);
+  addLightsAndCameras(mesh, hash);
   if (mesh.place.matrix() != Affine::Identity().matrix()) addMatrix(mesh.place, hash);
   return hash.value();
 }

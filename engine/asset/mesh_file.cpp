@@ -13,12 +13,12 @@ namespace stadion {
 namespace {
 
 constexpr std::uint32_t kMagic = 0x4d445453;  // "STDM"
-constexpr std::uint32_t kVersion = 6;
+constexpr std::uint32_t kVersion = 7;
 
 struct Head {
   std::uint32_t magic, version;
   std::uint32_t vertices, indices, submeshes, materials, textures;
-  std::uint32_t hasUvs, hasSecondUvs, hasTangents, hasColours, hasSkeleton, morphs;
+  std::uint32_t hasUvs, hasSecondUvs, hasTangents, hasColours, hasSkeleton, morphs, lights, cameras, unused;
   double place[12];  ///< columns
 };
 
@@ -201,6 +201,79 @@ bool readFigure(ValueReader& in, const Head& head, const MeshLimits& limits, Mes
   return true;
 }
 
+struct LightRecord {
+  std::uint32_t kind;
+  float position[3], direction[3], colour[3], range, innerAngle, outerAngle;
+};
+
+struct CameraRecord {
+  float position[3], direction[3];
+};
+
+bool isPlace(const std::array<float, 3>& position, const std::array<float, 3>& direction) {
+  constexpr float kFarthest = 1e8f;  // [m]
+  const float square =
+      direction[0] * direction[0] + direction[1] * direction[1] + direction[2] * direction[2];
+  return within(square, 0.99f, 1.01f) &&
+         std::ranges::all_of(position, [](float c) { return within(c, -kFarthest, kFarthest); });
+}
+
+bool isLight(const ModelLight& light) {
+  constexpr float kMostAngle = 1.6f;  // a right angle, and rounding
+  return isPlace(light.position, light.direction) &&
+         std::ranges::all_of(light.colour, [](float c) { return within(c, 0, 1e9f); }) &&
+         within(light.range, 0, 1e9f) && within(light.outerAngle, 0, kMostAngle) &&
+         within(light.innerAngle, 0, light.outerAngle);
+}
+
+bool readLights(ValueReader& in, const Head& head, Mesh& mesh) {
+  for (std::uint32_t i = 0; i < head.lights; ++i) {
+    LightRecord r{};
+    ModelLight& light = mesh.lights.emplace_back();
+    if (!in.get(r) || !getName(in, light.name) || r.kind > static_cast<std::uint32_t>(ModelLight::Kind::Spot))
+      return false;
+    light.kind = static_cast<ModelLight::Kind>(r.kind);
+    std::ranges::copy(r.position, light.position.begin());
+    std::ranges::copy(r.direction, light.direction.begin());
+    std::ranges::copy(r.colour, light.colour.begin());
+    light.range = r.range, light.innerAngle = r.innerAngle, light.outerAngle = r.outerAngle;
+    if (!isLight(light)) return false;
+  }
+  return true;
+}
+
+bool readCameras(ValueReader& in, const Head& head, Mesh& mesh) {
+  for (std::uint32_t i = 0; i < head.cameras; ++i) {
+    CameraRecord r{};
+    ModelCamera& camera = mesh.cameras.emplace_back();
+    if (!in.get(r) || !getName(in, camera.name)) return false;
+    std::ranges::copy(r.position, camera.position.begin());
+    std::ranges::copy(r.direction, camera.direction.begin());
+    if (!isPlace(camera.position, camera.direction)) return false;
+  }
+  return true;
+}
+
+void putLightsAndCameras(const Mesh& mesh, ValueWriter& out) {
+  for (const ModelLight& light : mesh.lights) {
+    LightRecord r{};
+    r.kind = static_cast<std::uint32_t>(light.kind);
+    std::ranges::copy(light.position, r.position);
+    std::ranges::copy(light.direction, r.direction);
+    std::ranges::copy(light.colour, r.colour);
+    r.range = light.range, r.innerAngle = light.innerAngle, r.outerAngle = light.outerAngle;
+    out.put(r);
+    putName(out, light.name);
+  }
+  for (const ModelCamera& camera : mesh.cameras) {
+    CameraRecord r{};
+    std::ranges::copy(camera.position, r.position);
+    std::ranges::copy(camera.direction, r.direction);
+    out.put(r);
+    putName(out, camera.name);
+  }
+}
+
 // The submeshes cover the indices in order, without gap or overlap.
 const char* faultOf(const Mesh& mesh) {
   if (!finite(mesh.positions) || !finite(mesh.uvs) || !finite(mesh.secondUvs) || !finite(mesh.tangents))
@@ -241,6 +314,9 @@ Head headOf(const Mesh& mesh) {
             !mesh.colours.empty(),
             mesh.skeleton != nullptr,
             count(mesh.morphs),
+            count(mesh.lights),
+            count(mesh.cameras),
+            0,
             {}};
   std::copy_n(mesh.place.data(), 12, head.place);
   return head;
@@ -279,6 +355,7 @@ std::vector<std::uint8_t> encode(const Mesh& mesh) {
       out.put(m.normals);
     }
   }
+  putLightsAndCameras(mesh, out);
   return std::move(out.bytes);
 }
 
@@ -290,13 +367,15 @@ Result<std::unique_ptr<Mesh>> decode(std::span<const std::uint8_t> bytes, const 
     return Decoded::failure("not a mesh of this version");
   if (head.vertices > limits.vertices || head.indices / 3 > limits.triangles || head.indices % 3 != 0 ||
       head.materials > limits.materials || head.materials == 0 || head.textures > limits.textures ||
-      head.submeshes > limits.materials || head.morphs > limits.morphs || (head.morphs && !head.hasSkeleton))
+      head.submeshes > limits.materials || head.morphs > limits.morphs || head.lights > limits.lights ||
+      head.cameras > limits.cameras || (head.morphs && !head.hasSkeleton))
     return Decoded::failure("a mesh beyond the limits");
   auto mesh = std::make_unique<Mesh>();
   if (!readGeometry(in, head, *mesh) || !readMaterials(in, head, *mesh) ||
       !readTextures(in, head, limits, *mesh) || !readFigure(in, head, limits, *mesh) ||
-      !readPlace(head, *mesh) || !in.atEnd())
-    return Decoded::failure("a mesh that is cut short or has a bad material, texture, skeleton or place");
+      !readPlace(head, *mesh) || !readLights(in, head, *mesh) || !readCameras(in, head, *mesh) || !in.atEnd())
+    return Decoded::failure(
+        "a mesh that is cut short or has a bad material, texture, skeleton, place, light or camera");
   if (const char* fault = faultOf(*mesh)) return Decoded::failure(std::string("a mesh with ") + fault);
   return mesh;
 }

@@ -25,6 +25,7 @@ struct MeshLimits {
   std::uint64_t textureBytes = 512u * 1024 * 1024;  ///< all textures together
   std::uint32_t morphs = 4096;
   std::uint64_t morphedVertices = 50'000'000;  ///< of all morph targets together
+  std::uint32_t lights = 4096, cameras = 4096;
   SkeletonLimits skeleton;
 };
 

@@ -1,6 +1,7 @@
 #include "engine/nodes/light_node.h"
 
 #include "engine/build/lint.h"
+#include "engine/build/model_content.h"
 #include "engine/build/node_request.h"
 #include "engine/core/node_registry.h"
 #include "engine/core/shared_rows.h"
@@ -51,19 +52,58 @@ namespace {
 
 enum class LightType : std::uint8_t { Directional, Point, Spot };
 
-std::unique_ptr<Node> makeLight(const NodeRequest& r) {
-  const Declaration& d = r.declaration;
+enum class Falloff : std::uint8_t { Range, Square };
+
+void setCone(double inner, double outer, LightRecord& light) {
+  light.cosInner = static_cast<float>(det::cos(inner));
+  light.cosOuter = static_cast<float>(det::cos(outer));
+}
+
+void setRange(const Declaration& d, double range, LightRecord& light) {
+  light.range = static_cast<float>(range);
+  if (light.kind == static_cast<std::uint32_t>(LightType::Directional))
+    light.range = d.flag("shadows") ? 1 : 0;
+}
+
+/// What the script states.
+LightRecord statedLight(const Declaration& d) {
   LightRecord light;
   light.kind = static_cast<std::uint32_t>(d.choice<LightType>("type"));
   setColour(d.vec3("colour"), light.colour, d.number("intensity"));
   const Vec3 direction = d.vec3("direction").normalized();
   for (int i = 0; i < 3; ++i) light.direction[i] = direction[i];
-  light.range = static_cast<float>(d.optionalNumber("range").value_or(0));
-  if (d.choice<LightType>("type") == LightType::Directional) light.range = d.flag("shadows") ? 1 : 0;
+  light.fallsOff = d.choice<Falloff>("falloff") == Falloff::Square;
+  setRange(d, d.optionalNumber("range").value_or(0), light);
   const double half = 0.5 * d.number("angle") * kDegree;
-  light.cosOuter = static_cast<float>(det::cos(half));
-  light.cosInner = static_cast<float>(det::cos(0.8 * half));
-  return std::make_unique<LightNode>(r.self, r.name, r.place, light, d.flag("initstate"));
+  setCone(0.8 * half, half, light);
+  return light;
+}
+
+/// The light of a file; what the script states replaces what the file says.
+LightRecord lightOf(const ModelLight& source, const Declaration& d) {
+  LightRecord light = statedLight(d);
+  if (!d.has("type")) light.kind = static_cast<std::uint32_t>(source.kind);
+  if (!d.has("direction"))
+    for (int i = 0; i < 3; ++i) light.direction[i] = double{source.direction[static_cast<std::size_t>(i)]};
+  if (!d.has("colour"))
+    for (std::size_t i = 0; i < 3; ++i)
+      light.colour[i] = source.colour[i] * static_cast<float>(d.number("intensity"));
+  if (!d.has("falloff")) light.fallsOff = true;
+  setRange(d, d.has("range") ? d.number("range") : double{source.range}, light);
+  if (!d.has("angle")) setCone(double{source.innerAngle}, double{source.outerAngle}, light);
+  return light;
+}
+
+std::unique_ptr<Node> makeLight(const NodeRequest& r) {
+  const Declaration& d = r.declaration;
+  PlaceAttributes place = r.place;
+  LightRecord light = statedLight(d);
+  if (const auto model = d.has("source") ? modelFor(r, "source", "parent") : std::nullopt)
+    if (const ModelLight* source = findIn(model->mesh->lights, r, "source", "light")) {
+      light = lightOf(*source, d);
+      place.X_PN = Eigen::Translation3d(vectorOf(source->position)) * place.X_PN;
+    }
+  return std::make_unique<LightNode>(r.self, r.name, place, light, d.flag("initstate"));
 }
 
 std::unique_ptr<Node> makeSky(const NodeRequest& r) {
@@ -80,12 +120,14 @@ void lintLight(const Declaration& node, LintScope& scope) {
   const std::string_view type = node.text("type");
   if (node.has("intensity") && node.number("intensity") == 0)
     scope.warn(node, "intensity", "a light of intensity 0 lights nothing");
-  if (node.has("angle") && type != "spot")
+  if (node.has("angle") && type != "spot" && !node.has("source"))
     scope.warn(node, "angle", "angle has no effect: only a spot light has one");
-  if (node.has("range") && type == "directional")
+  if (node.has("range") && type == "directional" && !node.has("source"))
     scope.warn(node, "range", "range has no effect: a directional light reaches everywhere");
   if (node.has("shadows") && type != "directional")
     scope.warn(node, "shadows", "shadows has no effect: only a directional light casts them");
+  if (node.has("falloff") && type == "directional" && !node.has("source"))
+    scope.warn(node, "falloff", "falloff has no effect: a directional light is as bright everywhere");
   if (node.has("direction") && type == "point")
     scope.warn(node, "direction", "direction has no effect: a point light shines all around");
   scope.warnNeverOn(node);
@@ -101,6 +143,7 @@ void lintLight(const Declaration& node, LintScope& scope) {
   }
 }
 
+constexpr std::string_view kFalloffs[] = {"range", "square"};
 constexpr std::string_view kLightTypes[] = {"directional", "point", "spot"};
 constexpr AttributeSpec kLightRows[] = {
     {.name = "type",
@@ -129,6 +172,13 @@ constexpr AttributeSpec kLightRows[] = {
      .standard = "100",
      .unit = "m",
      .range = kLengthRange},
+    {.name = "falloff",
+     .kind = ValueKind::Choice,
+     .help =
+         "point and spot: how the light becomes weaker: evenly up to its range, or with the square of the "
+         "distance, too",
+     .standard = "range",
+     .choices = kFalloffs},
     {.name = "angle",
      .kind = ValueKind::Number,
      .help = "spot: full opening angle of the cone",
@@ -139,6 +189,11 @@ constexpr AttributeSpec kLightRows[] = {
      .kind = ValueKind::Flag,
      .help = "directional: whether things cast shadows; of several such lights, the first that is on",
      .standard = "on"},
+    {.name = "source",
+     .kind = ValueKind::Words,
+     .help = "the name of a light in the file of the parent, which is an object: this light has its place "
+             "and all "
+             "that is not stated; intensity multiplies the file's"},
     kInitStateRow,
 };
 constexpr AttributeSpec kSkyRows[] = {

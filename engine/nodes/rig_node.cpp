@@ -1,5 +1,7 @@
 #include "engine/nodes/rig_node.h"
 
+#include "engine/build/lint.h"
+#include "engine/build/model_content.h"
 #include "engine/build/node_request.h"
 #include "engine/core/node_registry.h"
 #include "engine/core/shared_rows.h"
@@ -8,6 +10,8 @@
 #include "engine/maths/angles.h"
 #include "engine/nodes/rig_drive.h"
 #include "engine/scene/scene.h"
+
+#include <fmt/format.h>
 
 #include <algorithm>
 
@@ -100,8 +104,37 @@ std::unique_ptr<Node> makeNavigator(const NodeRequest& r) {
   return std::make_unique<NavigatorNode>(r.self, r.name, a, d.flag("initstate"));
 }
 
+/// The eyes of a visitor without a tracker are at the camera and look where it looks, but level.
+Affine placeBehind(const Affine& X_WN, const ModelCamera& camera, double eyeHeight) {
+  Affine X = Affine::Identity();
+  X.translation() = X_WN * vectorOf(camera.position) - eyeHeight * Vec3::UnitZ();
+  Vec3 ahead = X_WN.linear() * vectorOf(camera.direction);
+  ahead.z() = 0;
+  const double length = ahead.norm();
+  if (!(length > 1e-6)) return X;  // straight up or down
+  ahead /= length;
+  X.linear().col(0) = Vec3(ahead.y(), -ahead.x(), 0);
+  X.linear().col(1) = ahead;
+  return X;
+}
+
 std::unique_ptr<Node> makeRig(const NodeRequest& r) {
-  return std::make_unique<RigNode>(r.self, r.name, r.place, r.declaration.number("eyeheight"));
+  const Declaration& d = r.declaration;
+  const double eyeHeight = d.number("eyeheight");
+  PlaceAttributes place = r.place;
+  if (const auto model = d.has("camera") ? modelFor(r, "camera", "model") : std::nullopt)
+    if (const ModelCamera* camera = findIn(model->mesh->cameras, r, "camera", "camera"))
+      place.X_PN = placeBehind(model->X_WN, *camera, eyeHeight);
+  return std::make_unique<RigNode>(r.self, r.name, place, eyeHeight);
+}
+
+void lintRig(const Declaration& node, LintScope& scope) {
+  for (const char* stated : {"position", "orientation"})
+    if (node.has("camera") && node.has(Attr::of(stated)))
+      scope.warn(node, Attr::of(stated),
+                 fmt::format("{} has no effect: the camera says where the rig starts", stated));
+  if (node.has("model") && !node.has("camera"))
+    scope.warn(node, "model", "model has no effect without camera=NAME, the name of a camera in its file");
 }
 
 constexpr std::string_view kNavigatorModes[] = {"walk", "fly"};
@@ -148,6 +181,14 @@ constexpr AttributeSpec kRigRows[] = {
      .standard = "1.7",
      .unit = "m",
      .range = {0, 10}},
+    {.name = "model",
+     .kind = ValueKind::Reference,
+     .help = "the object whose camera this rig starts at",
+     .targets = kModelTypes},
+    {.name = "camera",
+     .kind = ValueKind::Words,
+     .help = "the name of a camera in the file of the model: the head starts there and looks where it looks, "
+             "but level"},
 };
 
 }  // namespace
@@ -166,6 +207,7 @@ constinit const NodeType kRigType{
     .attributes = kRigRows,
     .traits = {Trait::Single, Trait::Parent, Trait::Moves},
     .make = makeRig,
+    .lint = lintRig,
 };
 
 namespace node_types {

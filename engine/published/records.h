@@ -78,7 +78,8 @@ struct LightRecord {
   double position[3] = {0, 0, 0};               ///< World [m]
   double direction[3] = {0, 0, -1};             ///< World, unit, the way the light goes
   float range = 0, cosInner = 1, cosOuter = 0;  ///< range [m]; directional: greater than 0 = casts shadows
-  NodeRef owner;                                ///< the light node; invalid: the sun of shows without lights
+  bool fallsOff = false;  ///< point, spot: with the square of the distance, beside its range
+  NodeRef owner;          ///< the light node; invalid: the sun of shows without lights
 };
 
 struct SkyRecord {

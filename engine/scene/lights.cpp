@@ -30,6 +30,7 @@ double brightnessAt(const Vec3& p_W, const LightRecord& light) {
   if (light.kind == 0) return colour;
   const double squared = (Vec3(light.position[0], light.position[1], light.position[2]) - p_W).squaredNorm();
   const double range = double{light.range};
+  if (light.fallsOff) return colour / std::max(squared, 0.01);
   return colour / (1 + (range > 0 ? squared / (range * range) : 0));
 }
 

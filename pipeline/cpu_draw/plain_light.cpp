@@ -20,6 +20,7 @@ float strengthOfLamp(const LightParameters& lamp, const Float3& placed, Float3& 
   for (float& x : to) x *= per;
   const float fading = std::max(1 - squared * lamp.perRangeSquared, 0.0f);
   float strength = fading * fading;
+  if (lamp.fallsOff) strength /= std::max(squared, 0.01f);
   if (lamp.kind == 2) {
     const float inside = std::clamp((dot(to, towards) - lamp.coneOuter) * lamp.perCone, 0.0f, 1.0f);
     strength *= inside * inside * (3 - 2 * inside);

@@ -74,6 +74,7 @@ void setLights(const SlotView& state, DrawList& out) {
     d.range = l.range;
     d.cosInner = l.cosInner;
     d.cosOuter = l.cosOuter;
+    d.fallsOff = l.fallsOff;
     d.shadows = d.kind == DrawLight::Kind::Directional && l.range > 0;
     out.lights.push_back(d);
   }

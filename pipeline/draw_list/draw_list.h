@@ -46,6 +46,7 @@ struct DrawLight {
   float range = 0;                   ///< distance at which the light has faded out [m]; 0 = it does not fade
   float cosInner = 1, cosOuter = 0;  ///< cosines of the spot's half angles
   bool shadows = false;              ///< directional: things stand in its way
+  bool fallsOff = false;             ///< point, spot: with the square of the distance, beside its range
 };
 
 struct DrawSky {

@@ -22,7 +22,7 @@ struct Light {
   vec4 position;   // w: 1 / range^2
   vec4 direction;  // towards the light; w: kind
   vec4 colour;
-  vec4 cone;
+  vec4 cone;       // z: 1 falls off with the square of the distance
 };
 layout(std140) uniform Scene {
   vec4 zenith;
@@ -210,6 +210,7 @@ void main() {
       to *= inversesqrt(squared);
       float fading = max(1.0 - squared * lights[i].position.w, 0.0);
       strength = fading * fading;
+      if (lights[i].cone.z > 0.5) strength /= max(squared, 0.01);
       if (lights[i].direction.w > 1.5) {
         float inside = clamp((dot(to, l) - lights[i].cone.x) * lights[i].cone.y, 0.0, 1.0);
         strength *= inside * inside * (3.0 - 2.0 * inside);

@@ -46,7 +46,8 @@ LightBlock fillLight(const DrawLight& light, Look look) {
   out.position = widen(light.position, light.range > 0 ? 1 / (light.range * light.range) : 0);
   out.direction = reversed(light.direction, static_cast<float>(light.kind));
   out.colour = colour(light.colour, 0, look);
-  out.cone = {finite(light.cosOuter), 1 / std::max(light.cosInner - light.cosOuter, kLeastConeWidth), 0, 0};
+  out.cone = {finite(light.cosOuter), 1 / std::max(light.cosInner - light.cosOuter, kLeastConeWidth),
+              light.fallsOff ? 1.0f : 0.0f, 0};
   return out;
 }
 

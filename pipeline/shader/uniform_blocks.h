@@ -28,7 +28,7 @@ struct LightBlock {
   Float4 position;   ///< relative to origin [m]; w: 1 / range^2, or 0
   Float4 direction;  ///< towards the light, unit; w: 0 directional, 1 point, 2 spot
   Float4 colour;     ///< linear; w unused
-  Float4 cone;       ///< spot: cosine of the outer half angle, 1 / (cosine inner - outer)
+  Float4 cone;       ///< spot: cosine of the outer half angle, 1 / (cosine inner - outer); then 1: falls off
 };
 
 /// Data that both eyes of a wall share.

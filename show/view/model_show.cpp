@@ -50,6 +50,23 @@ std::string clipsOf(const Skeleton& skeleton) {
   return all;
 }
 
+template <class Things>
+std::string namesOf(const Things& things) {
+  std::string all;
+  for (const auto& thing : things) all += fmt::format("{}\"{}\"", all.empty() ? "" : ", ", thing.name);
+  return all;
+}
+
+/// Tells what of the file a show can name.
+void noteContent(const Mesh& mesh, const SourcePosition& where, Diagnostics& findings) {
+  if (mesh.skeleton && !mesh.skeleton->clips.empty())
+    findings.note(where, "its clips, of which the first plays: " + clipsOf(*mesh.skeleton));
+  if (!mesh.lights.empty())
+    findings.note(where, "its lights, for light( parent=, source=NAME ): " + namesOf(mesh.lights));
+  if (!mesh.cameras.empty())
+    findings.note(where, "its cameras, for rig( model=, camera=NAME ): " + namesOf(mesh.cameras));
+}
+
 std::string scriptOf(const std::string& name, const Mesh& mesh) {
   const Sphere sphere = mesh.skeleton ? playedSphere(mesh) : mesh.sphere;
   const Vec3 eye = sphere.centre - std::max(kRadiiAway * sphere.radius, kLeastDistance) * Vec3::UnitY();
@@ -97,8 +114,7 @@ std::unique_ptr<ModelShow> ModelShow::make(const std::string& model,
     findings.add(*failure);
     return nullptr;
   }
-  if (const auto& skeleton = mesh.value()->skeleton; skeleton && !skeleton->clips.empty())
-    findings.note(where, "its clips, of which the first plays: " + clipsOf(*skeleton));
+  noteContent(*mesh.value(), where, findings);
   return show;
 }
 

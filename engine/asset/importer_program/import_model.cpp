@@ -4,7 +4,9 @@
 #include "engine/asset/importer_program/gltf/gltf_reader.h"
 #include "engine/asset/importer_program/mesh/figure_joints.h"
 #include "engine/asset/importer_program/mesh/geometry.h"
+#include "engine/asset/importer_program/mesh/lights_and_cameras.h"
 #include "engine/asset/importer_program/mesh/materials.h"
+#include "engine/asset/importer_program/mesh/tangents.h"
 #include "engine/asset/importer_program/source/contents.h"
 #include "engine/asset/importer_program/source/model_files.h"
 #include "engine/asset/importer_program/source/name_list.h"
@@ -75,6 +77,7 @@ ImportedModel importModel(const Request& request) {
   const NodeChoice choice(scene, figure ? NodeSelection{} : request.nodes);
   Flat flat = figure ? flattenFigure(scene, limits, result) : flatten(scene, choice, limits);
   result.mesh.place = choice.place();
+  readLightsAndCameras(scene, choice, limits.mesh, result.mesh);
   const DroppedTriangles dropped = dropBadTriangles(flat);
   addDropped(dropped, result.inventory);
   if (flat.triangles.empty() && !choice.hasGaps())
@@ -82,6 +85,7 @@ ImportedModel importModel(const Request& request) {
   readMaterials(scene, picturesOf(request), alphaOfVertices(flat, scene.materials.size()), result.mesh,
                 result.inventory);
   makeNormals(flat);
+  makeTangents(result.mesh.materials, flat);
   turnMirrored(flat);
   joinInto(flat, result.mesh);
   return result;

@@ -210,6 +210,7 @@ struct LightParameters {
   int kind;          ///< 0 directional, 1 point, 2 spot
   float colour[3];
   float coneOuter, perCone;
+  int fallsOff;  ///< 1: with the square of the distance
 };
 
 /// Light and air of a frame.
@@ -221,6 +222,7 @@ struct SceneParameters {
   float sunShare;  ///< 1 if there is a sun, else 0
   int lights;
   int shadowed;  ///< the light that casts shadows, or -1
+  int steep;     ///< 1: a light falls off with the square of the distance
   LightParameters light[kMostLights];
 };
 

@@ -58,6 +58,7 @@ struct LightModel : DrawLanes<By> {
     to = to * L::perRoot(squared);
     const F fading = L::most(1.0f - squared * light.perRangeSquared, F{});
     F strength = fading * fading;
+    if (light.fallsOff) strength = strength / L::most(squared, L::all(0.01f));
     if (light.kind == 2) {
       const F inside = L::clamp((T::dot(to, towards) - light.coneOuter) * light.perCone);
       strength *= inside * inside * (3.0f - 2.0f * inside);

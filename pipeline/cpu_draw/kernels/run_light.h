@@ -2,7 +2,7 @@
 /// Light along runs: it is computed at both ends of a run and interpolated between them, where it changes
 /// evenly.
 ///
-/// Evenly   the distance changes by at most an eighth, the normal by at most 0.06 rad, highlights are wide,
+/// Evenly   no light falls off steeply, the distance changes by at most an eighth, the normal by at most 0.06 rad, highlights are wide,
 ///          and both ends lie in light, or both in shadow. A pixel between them is shaded by itself if a border of
 ///          the shadow may be there. No result depends on the other runs that are computed at the same time.
 ///
@@ -28,7 +28,8 @@ struct RunLight : DrawLanes<By> {
   /// Whether runs of this material may be interpolated.
   static bool serves(const FragmentJob& job) {
     constexpr float kNarrowestLobe = 0.35f;
-    return job.runs != 0 && job.material->roughness >= kNarrowestLobe && !job.material->glow.texels;
+    return job.runs != 0 && job.material->roughness >= kNarrowestLobe && !job.material->glow.texels &&
+           job.scene->steep == 0;
   }
 
   RunLight(const FragmentJob& job, unsigned first) {

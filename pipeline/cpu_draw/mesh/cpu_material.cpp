@@ -21,6 +21,7 @@ LightParameters lightParameters(const LightBlock& from) {
   to.kind = static_cast<int>(from.direction[3]);
   to.coneOuter = from.cone[0];
   to.perCone = from.cone[1];
+  to.fallsOff = from.cone[2] > 0.5f;
   return to;
 }
 
@@ -70,6 +71,8 @@ SceneParameters sceneParameters(const SceneBlock& block) {
   to.lights = block.lightCount[0];
   to.shadowed = block.lightCount[1];
   std::ranges::transform(block.lights, to.light, lightParameters);
+  to.steep =
+      std::any_of(to.light, to.light + to.lights, [](const LightParameters& l) { return l.fallsOff != 0; });
   return to;
 }
 

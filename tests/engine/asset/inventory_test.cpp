@@ -94,17 +94,20 @@ TEST(ModelInventory, NamesWhatAFileHolds) {
         "normal map of 1 material (\"skin\")", "occlusion map of 1 material (\"skin\")",
         "metallic-roughness map of 1 material (\"skin\")", "tangents of 1 mesh (\"body\")",
         "unlit surface of 1 material (\"sign\")", "wrap mode \"clamp\" of 1 material (\"skin\")",
-        "wrap mode \"mirror\" of 1 material (\"skin\")", "filter \"nearest\" of 1 material (\"skin\")"})
+        "wrap mode \"mirror\" of 1 material (\"skin\")",
+        "1 light (\"sun\"): light( parent=, source=NAME ) lights the show with one",
+        "1 camera (\"front\"): rig( model=, camera=NAME ) starts at one",
+        "filter \"nearest\" of 1 material (\"skin\")"})
     EXPECT_TRUE(full.used(text)) << text << "\n" << full.all();
   for (const char* text :
-       {"2 lights (\"sun\", \"lamp\")", "1 camera (\"front\")",
+       {"1 light (\"lamp\"): no node holds it",
         "2 clips (\"walk\", \"wave\"): an object plays none, use figure( )",
         "1 skin (\"rig\") of 1 bone: an object stands as its meshes are stored, use figure( )",
         "1 morph target (\"smile\"): an object keeps the shape of their weights at rest, use figure( )",
         "1 line", "2 points", "further texture coordinates of 1 mesh (\"body\")",
-        "1 further vertex attribute (\"COLOR_1\")", "1 further scene (\"night\")",
-        "map \"clearcoatTexture\" of 1 material (\"skin\")", "glTF extension \"KHR_materials_clearcoat\"",
-        "unknown glTF extension \"ACME_smell\""})
+        "1 further vertex attribute (\"COLOR_1\")",
+        "1 further scene (\"night\"): part=NODE of an object shows a node of one",
+        "map \"clearcoatTexture\" of 1 material (\"skin\")", "unknown glTF extension \"ACME_smell\""})
     EXPECT_TRUE(full.leftOut(text)) << text << "\n" << full.all();
   EXPECT_EQ(full.losses.all().size(), full.inventory.texts(ContentUse::LeftOut).size() +
                                           full.inventory.texts(ContentUse::Approximated).size());
@@ -120,7 +123,7 @@ TEST(ModelInventory, ShowsThreeNamesAndCountsTheOthers) {
     b.json["cameras"].push_back({{"name", name}, {"perspective", {{"yfov", 1}, {"znear", 1}}}});
   folder.write("m.glb", b.glb());
   const Imported m = importOf(folder.path(), "m.glb");
-  EXPECT_TRUE(m.leftOut("5 cameras (\"a\", \"b\", \"c\" and 2 more)")) << m.all();
+  EXPECT_TRUE(m.leftOut("5 cameras (\"a\", \"b\", \"c\" and 2 more): no node holds them")) << m.all();
 }
 
 TEST(ModelInventory, OfThousandsOfExtensionsIsNotCutInSilence) {

@@ -86,6 +86,7 @@ TEST_F(MaterialImport, OfMapsThatAgreeKeepsTheHashOfTheBaseColourAlone) {
   EXPECT_NE(both.mesh->hash, base.mesh->hash);
   Mesh& plain = *both.mesh;
   plain.materials[0].maps[kNormalMap] = {};
+  plain.tangents.clear();
   finish(plain);
   EXPECT_EQ(plain.hash, base.mesh->hash);
 }
@@ -209,6 +210,33 @@ TEST(MeshHash, DiffersWithEachPartOfAMap) {
   with([](Mesh& mesh, Material&) { mesh.tangents.assign(mesh.positions.size(), {1, 0, 0, 1}); });
   std::ranges::sort(hashes);
   EXPECT_EQ(std::unique(hashes.begin(), hashes.end()), hashes.end());
+}
+
+TEST_F(MaterialImport, ApproximatesACoatByItsRoughnessWhereThereIsNoMetal) {
+  const auto roughness = [&](const std::string& metallic, const std::string& coat) {
+    const Imported m =
+        load(R"({"pbrMetallicRoughness": {"roughnessFactor": 0.8, "metallicFactor": )" + metallic +
+             R"(}, "extensions": {"KHR_materials_clearcoat": {"clearcoatRoughnessFactor": 0.2,
+                            "clearcoatFactor": )" +
+             coat + "}}}");
+    return std::pair{m.mesh->materials[0].roughness, m.all()};
+  };
+  EXPECT_FLOAT_EQ(roughness("0", "1").first, 0.2f);
+  EXPECT_FLOAT_EQ(roughness("0", "0.5").first, 0.5f);
+  EXPECT_FLOAT_EQ(roughness("1", "1").first, 0.8f);
+  EXPECT_FLOAT_EQ(roughness("0", "0").first, 0.8f);
+  EXPECT_TRUE(contains(roughness("0", "1").second, "clearcoat of 1 material")) << roughness("0", "1").second;
+}
+
+TEST_F(MaterialImport, ApproximatesTransmissionByAlpha) {
+  const auto material = [&](const std::string& metallic) {
+    return load(R"({"pbrMetallicRoughness": {"metallicFactor": )" + metallic +
+                R"(}, "extensions": {"KHR_materials_transmission": {"transmissionFactor": 1}}})")
+        .mesh->materials[0];
+  };
+  EXPECT_NEAR(material("0").baseColour[3], 0.1f, 1e-6f);
+  EXPECT_TRUE(material("0").transparent());
+  EXPECT_FALSE(material("1").transparent()) << "metal lets nothing through";
 }
 
 }  // namespace

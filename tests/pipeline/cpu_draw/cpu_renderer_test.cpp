@@ -74,6 +74,20 @@ TEST(CpuRenderer, DrawsARichListAsOpenGlDoes) {
                 drawnByOpenGl(meshes, list, kCpuWidth, kCpuHeight, {}, view), "rich" + std::to_string(view));
 }
 
+/// Lamps and spots whose light falls off with the square of the distance.
+TEST(CpuRenderer, DrawsLightsThatFallOffAsOpenGlDoes) {
+  MeshStore meshes;
+  DrawList list = test::richList(meshes, kCpuAspect);
+  const Picture before = drawnByCpu(meshes, list, kCpuWidth, kCpuHeight);
+  for (DrawLight& light : list.lights) light.fallsOff = light.kind != DrawLight::Kind::Directional;
+  const Picture cpu = drawnByCpu(meshes, list, kCpuWidth, kCpuHeight);
+  EXPECT_GT(difference(cpu, before).mean, 0.2);
+  expectAlike(cpu, drawnByOpenGl(meshes, list, kCpuWidth, kCpuHeight), "falling-off");
+  expectAlike(drawnByCpu(meshes, list, kCpuWidth, kCpuHeight, PictureRung::of(RenderQuality::plain())),
+              drawnByOpenGl(meshes, list, kCpuWidth, kCpuHeight, RenderQuality::plain()), "plain falling-off",
+              0.5, 0.985);
+}
+
 TEST(CpuRenderer, DrawsThePlainLookAsOpenGlDoes) {
   MeshStore meshes;
   const DrawList list = test::richList(meshes, kCpuAspect);

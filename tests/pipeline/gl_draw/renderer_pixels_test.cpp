@@ -271,6 +271,23 @@ TEST(PicturePixels, ALampFadesToNothingAtItsRange) {
   EXPECT_TRUE(shows(picture.at(60, 32), 0, 0, 0, 0));
 }
 
+TEST(PicturePixels, ALampThatFallsOffIsAQuarterAsBrightAtTwiceTheDistance) {
+  const auto brightness = [](float distance) {
+    MeshStore meshes;
+    DrawList list = test::plainList();
+    list.sky.ambient = {0, 0, 0};
+    DrawLight lamp;
+    lamp.kind = DrawLight::Kind::Point;
+    lamp.position = {0, -distance, 0};
+    lamp.colour = {2, 2, 2};
+    lamp.fallsOff = true;
+    list.lights = {lamp};
+    list.opaque = {place(meshes.add(sheet(matt(0.8f, 0.8f, 0.8f), -2, 2, -2, 2)))};
+    return linearFromSrgb(Stage(meshes, kSide, kSide).draw(list).at(32, 32)[0] / 255.0);
+  };
+  EXPECT_NEAR(brightness(4) / brightness(2), 0.25, 0.03);
+}
+
 TEST(PicturePixels, ASpotLightsItsConeOnly) {
   MeshStore meshes;
   DrawList list = test::plainList();

@@ -30,9 +30,6 @@ constexpr std::pair<aiTextureType, const char*> kOtherMaps[]{
     {aiTextureType_DISPLACEMENT, "displacement map"},
     {aiTextureType_LIGHTMAP, "light map"},
     {aiTextureType_REFLECTION, "reflection map"},
-    {aiTextureType_METALNESS, "metallic map"},
-    {aiTextureType_DIFFUSE_ROUGHNESS, "roughness map"},
-    {aiTextureType_AMBIENT_OCCLUSION, "occlusion map"},
     {aiTextureType_SHEEN, "sheen map"},
     {aiTextureType_CLEARCOAT, "clearcoat map"},
     {aiTextureType_TRANSMISSION, "transmission map"},
@@ -122,10 +119,21 @@ private:
   }
 
   void readRoughness() {
-    float shininess = 0;
+    float shininess = 0, value = 0;
+    if (from_.Get(AI_MATKEY_METALLIC_FACTOR, value) == aiReturn_SUCCESS)
+      to_.metallic = bounded(value, 0, 1, 0);
+    if (from_.Get(AI_MATKEY_ROUGHNESS_FACTOR, value) == aiReturn_SUCCESS) {
+      to_.roughness = bounded(value, 0, 1, 0.7f);
+      return;
+    }
     if (from_.Get(AI_MATKEY_SHININESS, shininess) != aiReturn_SUCCESS || !(shininess > 0)) return;
     // the Blinn-Phong lobe of the same width
     to_.roughness = bounded(std::sqrt(2.0f / (shininess + 2.0f)), 0, 1, 0.7f);
+  }
+
+  bool states(const char* key, unsigned type, unsigned index) const {
+    float value = 0;
+    return from_.Get(key, type, index, value) == aiReturn_SUCCESS;
   }
 
   SourceTexture texture(aiTextureType type) {
@@ -152,6 +160,11 @@ private:
     if (to_.emissiveMap.given() && to_.emissive == Float3{0, 0, 0}) to_.emissive = {1, 1, 1};
     to_.normalMap = texture(aiTextureType_NORMALS);
     if (!to_.normalMap.given()) to_.normalMap = texture(aiTextureType_NORMAL_CAMERA);
+    to_.occlusionMap = texture(aiTextureType_AMBIENT_OCCLUSION);
+    to_.roughnessMap = texture(aiTextureType_DIFFUSE_ROUGHNESS);
+    to_.metallicMap = texture(aiTextureType_METALNESS);
+    if (to_.roughnessMap.given() && !states(AI_MATKEY_ROUGHNESS_FACTOR)) to_.roughness = 1;
+    if (to_.metallicMap.given() && !states(AI_MATKEY_METALLIC_FACTOR)) to_.metallic = 1;
     const SourceTexture opacity = texture(aiTextureType_OPACITY);
     if (format_.format == ModelFormat::Obj)
       to_.opacityMap = opacity;

@@ -1,8 +1,10 @@
 #include "engine/asset/importer_program/assimp/assimp_scene.h"
 
+#include "engine/asset/importer_program/source/name_list.h"
 #include "engine/maths/functions.h"
 
 #include <algorithm>
+#include <map>
 #include <string>
 
 namespace stadion::importer {
@@ -128,17 +130,38 @@ double verticalAngle(const aiCamera& camera) {
   return 2 * det::atan2(half.sin, half.cos * aspect);
 }
 
+SourceLight lightOf(const aiLight& from) {
+  SourceLight to;
+  to.name = from.mName.C_Str();
+  to.kind = kindOf(from.mType);
+  to.colour = {from.mColorDiffuse.r, from.mColorDiffuse.g, from.mColorDiffuse.b};
+  to.outerAngle = 0.5 * double{from.mAngleOuterCone};
+  to.innerAngle = 0.5 * double{from.mAngleInnerCone};
+  to.position = float3(from.mPosition);
+  to.direction = float3(from.mDirection);
+  return to;
+}
+
+/// assimp's cameras and lights have the names of their nodes.
 void addCamerasAndLights(const aiScene& scene, SourceScene& to) {
+  std::map<std::string, std::size_t> nodes;
+  for (std::size_t i = 0; i < to.nodes.size(); ++i) nodes.try_emplace(to.nodes[i].name, i);
   for (unsigned i = 0; i < scene.mNumCameras; ++i) {
     const aiCamera& c = *scene.mCameras[i];
-    to.cameras.push_back(
-        {c.mName.C_Str(), verticalAngle(c), double{c.mClipPlaneNear}, double{c.mClipPlaneFar}});
+    if (const auto at = nodes.find(c.mName.C_Str()); at != nodes.end())
+      to.nodes[at->second].camera = static_cast<std::int32_t>(i);
+    to.cameras.push_back({c.mName.C_Str(), verticalAngle(c), double{c.mClipPlaneNear},
+                          double{c.mClipPlaneFar}, float3(c.mPosition), float3(c.mLookAt)});
   }
   for (unsigned i = 0; i < scene.mNumLights; ++i) {
-    const aiLight& l = *scene.mLights[i];
-    to.lights.push_back(
-        {l.mName.C_Str(), kindOf(l.mType), {l.mColorDiffuse.r, l.mColorDiffuse.g, l.mColorDiffuse.b}, 1});
+    to.lights.push_back(lightOf(*scene.mLights[i]));
+    if (const auto at = nodes.find(to.lights.back().name); at != nodes.end())
+      to.nodes[at->second].light = static_cast<std::int32_t>(i);
   }
+  if (!to.lights.empty())
+    to.notes.push_back({ContentUse::Approximated,
+                        "brightness of " + counted(to.lights.size(), "light") +
+                            ": the format has no unit for it, so the file's number counts as Stadion's"});
 }
 
 }  // namespace

@@ -134,6 +134,7 @@ private:
     to.occlusionMap = texture(from, "occlusionTexture");
     to.doubleSided = from.flag("doubleSided", false);
     to.unlit = from.hasExtension("KHR_materials_unlit");
+    readLayers(from, to);
     readOtherMaps(from, to);
     return to;
   }
@@ -156,6 +157,14 @@ private:
     to.baseMap = texture(from, "diffuseTexture");
     if (const SourceTexture map = texture(from, "specularGlossinessTexture"); map.given())
       to.otherMaps.push_back({"specular-glossiness map", map});
+  }
+
+  void readLayers(const GltfValue& from, SourceMaterial& to) {
+    const GltfValue coat = from.extension("KHR_materials_clearcoat");
+    to.clearcoat = factor(coat.real("clearcoatFactor", 0), 0);
+    to.clearcoatRoughness = factor(coat.real("clearcoatRoughnessFactor", 0), 0);
+    const GltfValue glass = from.extension("KHR_materials_transmission");
+    to.transmission = factor(glass.real("transmissionFactor", 0), 0);
   }
 
   void readEmission(const GltfValue& from, SourceMaterial& to) {

@@ -43,15 +43,33 @@ private:
   void readCameras() {
     for (const GltfValue& camera : root_.objects("cameras", "camera")) {
       const GltfValue lens = camera.object("perspective");
-      to_.cameras.push_back(
-          {nameOf(camera), lens.number("yfov", 0), lens.number("znear", 0), lens.number("zfar", 0)});
+      to_.cameras.push_back({nameOf(camera),
+                             lens.number("yfov", 0),
+                             lens.number("znear", 0),
+                             lens.number("zfar", 0),
+                             {},
+                             {0, 0, -1}});
     }
   }
 
   void readLights() {
     for (const GltfValue& light : root_.extension("KHR_lights_punctual").objects("lights", "light"))
-      to_.lights.push_back({nameOf(light), light.text("type"), light.reals<3>("color", {1, 1, 1}),
-                            light.real("intensity", 1)});
+      to_.lights.push_back(lightOf(light));
+  }
+
+  /// A light of pi candela, or of pi lux if directional, gives a white surface the radiance 1.
+  static SourceLight lightOf(const GltfValue& from) {
+    constexpr double kPi = 3.14159265358979323846, kQuarter = kPi / 4, kHalf = kPi / 2;
+    SourceLight to;
+    to.name = nameOf(from);
+    to.kind = from.text("type");
+    to.colour = from.reals<3>("color", {1, 1, 1});
+    to.intensity = from.real("intensity", 1) / static_cast<float>(kPi);
+    to.range = from.real("range", 0);
+    const GltfValue cone = from.object("spot");
+    to.outerAngle = std::clamp(cone.number("outerConeAngle", kQuarter), 0.0, kHalf);
+    to.innerAngle = std::clamp(cone.number("innerConeAngle", 0), 0.0, to.outerAngle);
+    return to;
   }
 
   SourceNode nodeOf(const GltfValue& from, std::size_t nodes, std::size_t skins) const {

@@ -162,6 +162,9 @@ private:
       const MorphTarget& target = part.targets[k];
       const std::size_t count = flat.vertices.size() - first;
       if (target.positions.size() != count && target.normals.size() != count) continue;
+      if ((morphs_ += count) > limits_.mesh.morphedVertices)
+        throw Refusal("has morph targets of more than " + std::to_string(limits_.mesh.morphedVertices) +
+                      " vertices together");
       FlatMorph morph{static_cast<std::uint32_t>(weight) + static_cast<std::uint32_t>(k), number, {}, {}};
       const Mat3 turn = scene_.toShow.linear();
       morph.positions.resize(count);
@@ -236,6 +239,7 @@ private:
   const NodeChoice* choice_;    ///< null: of a figure, all nodes
   const FlattenLimits& limits_;
   std::uint32_t morphed_ = 0;                ///< vertices that morph targets move
+  std::uint64_t morphs_ = 0;                 ///< the same, once for each target
   std::vector<Float3> positions_, normals_;  ///< restOf()'s answer
 };
 

@@ -51,11 +51,19 @@ void readUse(const SourceTexture& from, bool own, MaterialMap& to) {
   if (source.transform != UvTransform{}) to.uvTransform = matrixOf(source.transform);
 }
 
+/// Roughness and metallic maps of their own become one.
+std::int32_t furtherMap(const SourceMaterial& from, std::size_t kind, const SourceTexture& map,
+                        Pictures& pictures) {
+  if (kind == kMetallicRoughnessMap && !from.metallicRoughnessMap.given())
+    return pictures.getMetallicRoughness(from.roughnessMap.image, from.metallicMap.image);
+  return pictures.get(map.image, AlphaUse::Ignored);
+}
+
 /// All but the base colour. A surface with a missing emissive texture does not emit.
 void readFurtherMaps(const SourceMaterial& from, Pictures& pictures, Material& to) {
   const auto maps = drawnMaps(from);
   for (std::size_t kind = kBaseMap + 1; kind < kMapKinds; ++kind)
-    if (maps[kind]) to.maps[kind].texture = pictures.get(maps[kind]->image, AlphaUse::Ignored);
+    if (maps[kind]) to.maps[kind].texture = furtherMap(from, kind, *maps[kind], pictures);
   const bool own = !commonUvSource(from);
   for (std::size_t kind = 0; kind < kMapKinds; ++kind)
     if (maps[kind] && to.maps[kind].given()) readUse(*maps[kind], own, to.maps[kind]);
@@ -72,13 +80,27 @@ std::int32_t readBase(const SourceMaterial& from, Pictures& pictures) {
   return pictures.get(from.baseMap.image, opaque ? AlphaUse::Ignored : AlphaUse::Kept);
 }
 
+/// A dielectric under a coat reflects as much as the coat does, but more widely: it gets the coat's roughness. A
+/// metal keeps its own.
+float roughnessUnderCoat(const SourceMaterial& from) {
+  const float part = from.clearcoat * (1 - from.metallic);
+  return from.roughness + part * (from.clearcoatRoughness - from.roughness);
+}
+
+/// Part of the alpha that glass keeps: some of it stays visible.
+float alphaOfGlass(const SourceMaterial& from) {
+  constexpr float kClearest = 0.9f;
+  return 1 - kClearest * from.transmission * (1 - from.metallic);
+}
+
 Material readMaterial(const SourceMaterial& from, bool alphaOfVertices, Pictures& pictures, Mesh& mesh) {
   Material to;
   to.name = from.name;
   to.baseColour = from.baseColour;
-  to.roughness = from.roughness;
+  to.roughness = roughnessUnderCoat(from);
   to.metallic = from.metallic;
   if (from.alphaMode == AlphaMode::Opaque) to.baseColour[3] = 1;
+  if (from.alphaMode != AlphaMode::Mask) to.baseColour[3] *= alphaOfGlass(from);
   to.unlit = from.unlit;
   const std::int32_t base = to.maps[kBaseMap].texture = readBase(from, pictures);
   const std::uint8_t least = base >= 0 ? leastAlpha(mesh.textures[static_cast<std::size_t>(base)]) : 255;

@@ -32,11 +32,23 @@ std::optional<std::uint32_t> nodeBelow(const SourceScene& scene, const std::vect
   return std::nullopt;
 }
 
+/// Those of scenes that are not shown.
+std::vector<std::uint32_t> otherRootsOf(const SourceScene& scene) {
+  std::vector<std::uint32_t> roots;
+  for (std::uint32_t i = 0; i < scene.nodes.size(); ++i)
+    if (scene.nodes[i].parent < 0 && std::ranges::find(scene.roots, i) == scene.roots.end())
+      roots.push_back(i);
+  return roots;
+}
+
 std::optional<std::uint32_t> nodeAt(const SourceScene& scene, std::string_view path) {
   std::optional<std::uint32_t> node;
   for (;;) {
     const std::size_t end = std::min(path.find('/'), path.size());
-    node = nodeBelow(scene, node ? scene.nodes[*node].children : scene.roots, path.substr(0, end));
+    const std::string_view word = path.substr(0, end);
+    const bool first = !node;
+    node = nodeBelow(scene, first ? scene.roots : scene.nodes[*node].children, word);
+    if (!node && first) node = nodeBelow(scene, otherRootsOf(scene), word);
     if (!node || end == path.size()) return node;
     path.remove_prefix(end + 1);
   }

@@ -1,12 +1,10 @@
 #include "engine/asset/importer_program/mesh/geometry.h"
 
+#include "engine/asset/importer_program/mesh/vertex_set.h"
 #include "engine/asset/mesh_checks.h"
 #include "engine/maths/functions.h"
 
-#include <xxhash.h>
-
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <cstring>
 #include <map>
@@ -80,35 +78,6 @@ Vec3 cornerNormal(const std::vector<Face>& faces, const CornerTable& meeting, st
   if (sum.norm() > 1e-9) return sum.normalized();
   return own.normal.isZero() ? Vec3::UnitZ() : own.normal;
 }
-
-bool same(const FlatVertex& a, const FlatVertex& b) {
-  return a.position == b.position && a.normal == b.normal && a.uv == b.uv && a.secondUv == b.secondUv &&
-         a.tangent == b.tangent && a.colour == b.colour && a.joints == b.joints && a.morph == b.morph;
-}
-
-// Finds equal vertices: open addressing over the numbers of those already in the mesh.
-class VertexSet {
-public:
-  explicit VertexSet(std::size_t most) : slots_(std::bit_ceil(2 * most + 16), kEmpty) {}
-
-  std::uint32_t add(const FlatVertex& v) {
-    const std::size_t mask = slots_.size() - 1;
-    std::size_t at = XXH3_64bits(&v, sizeof v) & mask;
-    while (slots_[at] != kEmpty && !same(vertices[slots_[at]], v)) at = (at + 1) & mask;
-    if (slots_[at] == kEmpty) {
-      slots_[at] = static_cast<std::uint32_t>(vertices.size());
-      vertices.push_back(v);
-    }
-    return slots_[at];
-  }
-
-  std::vector<FlatVertex> vertices;
-
-private:
-  static_assert(sizeof(FlatVertex) == 88, "hashed as bytes: no padding");
-  static constexpr std::uint32_t kEmpty = 0xffffffff;
-  std::vector<std::uint32_t> slots_;
-};
 
 /// Adds the differences of one primitive to those of its weight.
 void addMorph(const FlatMorph& from, const std::vector<std::vector<std::uint32_t>>& verticesOf, Morph& to) {

@@ -21,6 +21,11 @@ std::uint8_t opacityAt(const Texture& from, std::size_t pixel, bool alpha) {
   return alpha ? p[3] : static_cast<std::uint8_t>((p[0] + p[1] + p[2]) / 3);
 }
 
+/// Red of the pixel of `from` that lies nearest to a pixel of `to`.
+std::uint8_t redAt(const Texture& from, std::size_t x, std::size_t y, const Texture& to) {
+  return from.rgba[4 * (y * from.height / to.height * from.width + x * from.width / to.width)];
+}
+
 /// The nearest pixel of `opacity` gives the alpha of each pixel of `to`.
 void setAlpha(const Texture& opacity, Texture& to) {
   const bool alpha = hasAlpha(opacity);
@@ -34,7 +39,7 @@ void setAlpha(const Texture& opacity, Texture& to) {
 }  // namespace
 
 std::int32_t Pictures::get(std::int32_t image, AlphaUse alpha) {
-  const Key key{image, -1, alpha};
+  const Key key{image, -1, alpha, Use::Alone};
   if (const auto known = known_.find(key); known != known_.end()) return known->second;
   Texture texture;
   if (!read(image, texture)) return known_[key] = -1;
@@ -44,7 +49,7 @@ std::int32_t Pictures::get(std::int32_t image, AlphaUse alpha) {
 }
 
 std::int32_t Pictures::getWithOpacity(std::int32_t image, std::int32_t opacity) {
-  const Key key{image, opacity, AlphaUse::Kept};
+  const Key key{image, opacity, AlphaUse::Kept, Use::Opacity};
   if (const auto known = known_.find(key); known != known_.end()) return known->second;
   Texture mask, texture;
   if (!read(opacity, mask)) return known_[key] = image < 0 ? -1 : get(image, AlphaUse::Kept);
@@ -59,6 +64,27 @@ std::int32_t Pictures::getWithOpacity(std::int32_t image, std::int32_t opacity) 
   }
   setAlpha(mask, texture);
   return known_[key] = add(std::move(texture));
+}
+
+std::int32_t Pictures::getMetallicRoughness(std::int32_t roughness, std::int32_t metallic) {
+  const Key key{roughness, metallic, AlphaUse::Ignored, Use::MetallicRoughness};
+  if (const auto known = known_.find(key); known != known_.end()) return known->second;
+  Texture rough, metal;
+  const bool hasRough = roughness >= 0 && read(roughness, rough),
+             hasMetal = metallic >= 0 && read(metallic, metal);
+  if (!hasRough && !hasMetal) return known_[key] = -1;
+  if (hasRough && hasMetal && (rough.width != metal.width || rough.height != metal.height))
+    inventory_.add(ContentUse::Approximated, "the metallic map " + inQuotes(metal.name) +
+                                                 ": its size is that of " + inQuotes(rough.name));
+  Texture both = hasRough ? rough : metal;
+  for (std::size_t y = 0; y < both.height; ++y)
+    for (std::size_t x = 0; x < both.width; ++x) {
+      std::uint8_t* to = both.rgba.data() + 4 * (y * both.width + x);
+      const std::uint8_t green = hasRough ? redAt(rough, x, y, both) : 255;
+      const std::uint8_t blue = hasMetal ? redAt(metal, x, y, both) : 255;
+      to[0] = 255, to[1] = green, to[2] = blue, to[3] = 255;
+    }
+  return known_[key] = add(std::move(both));
 }
 
 std::int32_t Pictures::add(Texture texture) {

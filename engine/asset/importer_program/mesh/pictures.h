@@ -24,10 +24,15 @@ public:
   /// The picture `image` (white if -1) with its alpha from the picture `opacity`.
   std::int32_t getWithOpacity(std::int32_t image, std::int32_t opacity);
 
+  /// Roughness in green and metallic in blue, each from the red of its picture; white where the number is -1.
+  std::int32_t getMetallicRoughness(std::int32_t roughness, std::int32_t metallic);
+
 private:
+  enum class Use : std::uint8_t { Alone, Opacity, MetallicRoughness };
   struct Key {
-    std::int32_t image, opacity;
+    std::int32_t image, second;
     AlphaUse alpha;
+    Use use;
     auto operator<=>(const Key&) const = default;
   };
   bool read(std::int32_t image, Texture& texture);

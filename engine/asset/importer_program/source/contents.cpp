@@ -1,5 +1,6 @@
 #include "engine/asset/importer_program/source/contents.h"
 
+#include "engine/asset/importer_program/source/light_kind.h"
 #include "engine/asset/importer_program/source/name_list.h"
 
 #include <algorithm>
@@ -29,18 +30,49 @@ public:
     takeTextureUses();
     takeNodes();
     takeMotion();
-    leaveOut(scene_.cameras, "camera");
-    leaveOut(scene_.lights, "light");
-    if (!scene_.otherScenes.empty()) add(ContentUse::LeftOut, listed(scene_.otherScenes, "further scene"));
+    takeCamerasAndLights();
+    if (!scene_.otherScenes.empty())
+      add(ContentUse::LeftOut,
+          listed(scene_.otherScenes, "further scene") + ": part=NODE of an object shows a node of one");
     for (const ContentItem& note : scene_.notes) to_.add(note.use, note.text);
   }
 
 private:
   void add(ContentUse use, std::string text) { to_.add(use, std::move(text)); }
 
+  void takeCamerasAndLights() {
+    std::vector<std::string> cameras, lights, others;
+    std::vector<bool> heldCameras(scene_.cameras.size()), heldLights(scene_.lights.size());
+    for (const SourceNode& node : scene_.nodes) {
+      if (const auto at = static_cast<std::size_t>(node.camera); node.camera >= 0) {
+        heldCameras[at] = true;
+        cameras.push_back(nameOf(node, scene_.cameras[at].name));
+      }
+      if (node.light < 0) continue;
+      const auto at = static_cast<std::size_t>(node.light);
+      heldLights[at] = true;
+      (lightKind(scene_.lights[at].kind) ? lights : others).push_back(nameOf(node, scene_.lights[at].name));
+    }
+    leaveOutUnheld(scene_.cameras, heldCameras, "camera");
+    leaveOutUnheld(scene_.lights, heldLights, "light");
+    if (!cameras.empty())
+      add(ContentUse::Used, listed(cameras, "camera") + ": rig( model=, camera=NAME ) starts at one");
+    if (!lights.empty())
+      add(ContentUse::Used,
+          listed(lights, "light") + ": light( parent=, source=NAME ) lights the show with one");
+    if (!others.empty()) add(ContentUse::LeftOut, listed(others, "light") + ": shows have none of this kind");
+  }
   template <class Things>
-  void leaveOut(const Things& things, const char* what) {
-    if (!things.empty()) add(ContentUse::LeftOut, listed(namesOf(things), what));
+  void leaveOutUnheld(const Things& things, const std::vector<bool>& held, const char* what) {
+    std::vector<std::string> names;
+    for (std::size_t i = 0; i < things.size(); ++i)
+      if (!held[i]) names.push_back(things[i].name);
+    if (!names.empty())
+      add(ContentUse::LeftOut,
+          listed(names, what) + (names.size() > 1 ? ": no node holds them" : ": no node holds it"));
+  }
+  static std::string nameOf(const SourceNode& node, const std::string& otherwise) {
+    return node.name.empty() ? otherwise : node.name;
   }
 
   void takeGeometry() {
@@ -131,7 +163,16 @@ private:
     addMaterials(
         ContentUse::Approximated, "specular-glossiness model", [](M m) { return m.specularGlossiness; },
         ": its diffuse part is drawn");
-    addMaterials(ContentUse::Used, "metallic-roughness map", draws(kMetallicRoughnessMap));
+    addMaterials(
+        ContentUse::Approximated, "clearcoat", [](M m) { return m.clearcoat > 0; },
+        ": the surface itself is as smooth as its coat, where it is no metal");
+    addMaterials(
+        ContentUse::Approximated, "transmission", [](M m) { return m.transmission > 0; },
+        ": what lies behind is blended in, without refraction and tint");
+    addMaterials(ContentUse::Used, "metallic-roughness map",
+                 [](M m) { return !m.unlit && m.metallicRoughnessMap.given(); });
+    addMaterials(ContentUse::Used, "roughness map", [](M m) { return !m.unlit && m.roughnessMap.given(); });
+    addMaterials(ContentUse::Used, "metallic map", [](M m) { return !m.unlit && m.metallicMap.given(); });
     addMaterials(ContentUse::Used, "normal map", draws(kNormalMap));
     addMaterials(ContentUse::Used, "occlusion map", draws(kOcclusionMap));
     addMaterials(ContentUse::Used, "unlit surface", [](M m) { return m.unlit; });

@@ -10,7 +10,8 @@ std::array<const SourceTexture*, kMapKinds> drawnMaps(const SourceMaterial& m) {
   set(kBaseMap, m.baseMap);
   if (m.unlit) return maps;
   if (m.emissive != Float3{0, 0, 0}) set(kEmissiveMap, m.emissiveMap);
-  set(kMetallicRoughnessMap, m.metallicRoughnessMap);
+  for (const SourceTexture* map : {&m.metallicMap, &m.roughnessMap, &m.metallicRoughnessMap})
+    set(kMetallicRoughnessMap, *map);
   set(kNormalMap, m.normalMap);
   set(kOcclusionMap, m.occlusionMap);
   return maps;

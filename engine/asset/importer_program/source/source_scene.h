@@ -77,7 +77,9 @@ struct SourceMaterial {
   std::optional<bool> doubleSided;  ///< unset if the format does not say
   bool unlit = false;
   bool specularGlossiness = false;  ///< the base colour is the diffuse part of this older model
+  float clearcoat = 0, clearcoatRoughness = 0, transmission = 0;  ///< 0 .. 1
   SourceTexture baseMap, emissiveMap, opacityMap, metallicRoughnessMap, normalMap, occlusionMap;
+  SourceTexture roughnessMap, metallicMap;  ///< instead of metallicRoughnessMap: red counts
   std::vector<NamedTexture> otherMaps;
 };
 
@@ -145,17 +147,22 @@ struct SourceClip {
   std::vector<SourceChannel> channels;
 };
 
+/// In the coordinates of its node. glTF's cameras and lights look down the node's -Z.
 struct SourceCamera {
   std::string name;
   double verticalAngle = 0;  ///< [rad] 0: orthographic, or unknown
   double near = 0, far = 0;  ///< in the file's unit; 0: unknown
+  Float3 position{0, 0, 0}, direction{0, 0, -1};
 };
 
 struct SourceLight {
   std::string name;
   std::string kind;  ///< "point", "spot", "directional", ...
   Float3 colour{1, 1, 1};
-  float intensity = 1;
+  float intensity = 1;                    ///< of colour 1: lights a white surface fully, at a distance of 1 m
+  float range = 0;                        ///< in the file's unit; 0: without an end
+  double innerAngle = 0, outerAngle = 0;  ///< half angles of the cone [rad]
+  Float3 position{0, 0, 0}, direction{0, 0, -1};
 };
 
 struct SourceScene {
