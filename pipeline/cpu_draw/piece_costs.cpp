@@ -111,30 +111,31 @@ void PieceCosts::measureEmpty(const View& view) {
   double at = threadMilliseconds();
   setUp(view, {0, 0});
   emptySetUpMs_ = threadMilliseconds() - at;
-  emptyMs_.resize(setup_.bands());
-  for (std::size_t band = 0; band < emptyMs_.size(); ++band) {
-    at = threadMilliseconds();
-    drawBand(view, band, true);
-    emptyMs_[band] = threadMilliseconds() - at;
-  }
+  emptyRowMs_ = rowOf(view, true);
 }
 
-double PieceCosts::emptyOf(std::span<const std::size_t> bands) const {
-  return std::accumulate(bands.begin(), bands.end(), emptySetUpMs_,
-                         [&](double sum, std::size_t band) { return sum + emptyMs_[band]; });
+double PieceCosts::emptyOf(const View& view, std::span<const std::size_t> bands) const {
+  return std::accumulate(bands.begin(), bands.end(), emptySetUpMs_, [&](double sum, std::size_t band) {
+    return sum + emptyRowMs_ * (view.shading.end(band) - view.shading.low(band));
+  });
 }
 
-/// Expects that nothing is set up. Each row of the sky costs about the same.
-double PieceCosts::skyOf(const View& view) {
-  constexpr std::size_t kEvery = 4;
-  const std::size_t bands = setup_.bands(), first = std::min(kEvery / 2, bands - 1);
+/// The cost of a row without objects. Expects that nothing is set up. All rows cost about the same, so some bands are
+/// drawn, others each time: recording must cost little.
+double PieceCosts::rowOf(const View& view, bool surfacesOnly) {
+  constexpr std::size_t kEvery = 8;
+  const std::size_t bands = setup_.bands();
   int rows = 0;
   const double began = threadMilliseconds();
-  for (std::size_t band = first; band < bands; band += kEvery) {
-    drawBand(view, band, false);
+  for (std::size_t band = turn_++ % std::min(kEvery, bands); band < bands; band += kEvery) {
+    drawBand(view, band, surfacesOnly);
     rows += view.shading.end(band) - view.shading.low(band);
   }
-  return (threadMilliseconds() - began) * view.shading.setup->geometry().height / std::max(rows, 1);
+  return (threadMilliseconds() - began) / std::max(rows, 1);
+}
+
+double PieceCosts::skyOf(const View& view) {
+  return rowOf(view, false) * view.shading.setup->geometry().height;
 }
 
 /// Draws only bands that the piece touches.
@@ -150,7 +151,7 @@ double PieceCosts::costOf(const View& view, const Piece& piece) {
     if (touches) touched_.push_back(band);
   }
   for (const std::size_t band : touched_) drawBand(view, band, true);
-  return threadMilliseconds() - began - emptyOf(touched_);
+  return threadMilliseconds() - began - emptyOf(view, touched_);
 }
 
 void PieceCosts::sampleSome(const View& view, FrameProbe& probe) {
