@@ -254,7 +254,7 @@ constexpr OptionRow kRows[] = {
 
     {"--osc", whole("PORT", 0, 65535), "UDP port for the operator's commands", Operator},
 
-    {"--tracker", text("DEVICE"), "live trackers: osc:PORT (Open Sound Control over UDP) or vrpn:DEVICE@HOST",
+    {"--tracker", text("DEVICE"), "live trackers: osc:PORT (Open Sound Control over UDP), dtrack:PORT, freed:PORT or vrpn:DEVICE@HOST",
      Trackers},
     {"--rig", file(), "rig file: names of the trackers and the room in their coordinates", Trackers},
     {"--late-latch", flag(),

@@ -30,7 +30,7 @@ public:
 
 private:
   static const Statement<RigParser> kStatements[9];
-  static const StatementField<RigParser> kFields[3];
+  static const StatementField<RigParser> kFields[4];
 
   std::optional<Vec3> vector(std::string_view what, double most) {
     Vec3 v;
@@ -92,6 +92,19 @@ private:
     return tracker_.safe.has_value();
   }
 
+  bool sentAs() {
+    const auto device = in_.name("the device's name", "a device");
+    if (!device) return false;
+    const auto other = std::ranges::find(rig_.trackers, *device, &RigTracker::sentAs);
+    if (other != rig_.trackers.end()) {
+      in_.error(in_.last(), fmt::format("tracker \"{}\" is \"{}\" already; a device is one tracker",
+                                        other->name, *device));
+      return false;
+    }
+    tracker_.sentAs = *device;
+    return true;
+  }
+
   void tracker() {
     const auto name = in_.name("the tracker's name", "a tracker");
     if (!name) return;
@@ -101,7 +114,7 @@ private:
     if (rig_.trackers.size() == RigFile::kMostTrackers)
       return in_.error(in_.last(), fmt::format("a rig has at most {} trackers; leave this one out",
                                                RigFile::kMostTrackers));
-    tracker_ = {*name, {}, {}};
+    tracker_ = {*name, {}, {}, {}};
     if (in_.fields(*this, kFields, "a tracker")) rig_.trackers.push_back(std::move(tracker_));
   }
 
@@ -115,8 +128,10 @@ constexpr Statement<RigParser> RigParser::kStatements[9] = {
     {"yaw", &RigParser::yaw},   {"filter", &RigParser::filter},   {"hold", &RigParser::hold},
     {"ease", &RigParser::ease}, {"predict", &RigParser::predict}, {"tracker", &RigParser::tracker, true}};
 
-constexpr StatementField<RigParser> RigParser::kFields[3] = {
-    {"offset", &RigParser::offset}, {"turn", &RigParser::turn}, {"safe", &RigParser::safe}};
+constexpr StatementField<RigParser> RigParser::kFields[4] = {{"offset", &RigParser::offset},
+                                                             {"turn", &RigParser::turn},
+                                                             {"safe", &RigParser::safe},
+                                                             {"sent-as", &RigParser::sentAs}};
 
 /// roll, pitch, yaw about fixed axes, as fromEuler takes them [degrees].
 Vec3 eulerOf(const Quat& q) {
@@ -182,7 +197,9 @@ std::string formatRigFile(const RigFile& rig) {
   for (const RigTracker& t : rig.trackers) {
     text +=
         fmt::format("tracker {}  offset {}  turn {}", t.name, vector(t.X_DT.p), vector(eulerOf(t.X_DT.q)));
-    text += t.safe ? fmt::format("  safe {}\n", vector(*t.safe)) : "\n";
+    if (t.safe) text += fmt::format("  safe {}", vector(*t.safe));
+    if (!t.sentAs.empty()) text += "  sent-as " + t.sentAs;
+    text += '\n';
   }
   return text;
 }

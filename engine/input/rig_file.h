@@ -19,10 +19,11 @@
 ///     hold SECONDS           how long a silent tracker stays where it was
 ///     ease SECONDS           how long it then takes to its safe pose, and back when it is heard of again
 ///     predict SECONDS        how far at most a pose is carried on beyond its last measurement
-///     tracker NAME [offset X Y Z] [turn ROLL PITCH YAW] [safe X Y Z]
+///     tracker NAME [offset X Y Z] [turn ROLL PITCH YAW] [safe X Y Z] [sent-as DEVICE]
 ///         a device. offset and turn: where the eyes (of a head) or the tip (of a wand) are in the sensor's
 ///         coordinates; safe: where it is, looking forward, while it sends nothing. Without `safe` it is
-///         lost then. A file without trackers has a head (safe 0 0 1.7) and a wand.
+///         lost then. sent-as: how DTrack or FreeD calls it. A file without trackers has a head (safe 0 0 1.7) and a
+///         wand.
 ///
 /// Frames   S is the tracking system, R the rig, D the sensor on a device, T the device as the show knows it.
 /// Units    metres, radians, seconds.
@@ -43,6 +44,7 @@ struct RigTracker {
   std::string name;
   Pose X_DT;  ///< from the sensor to what it stands for
   std::optional<Vec3> safe{};
+  std::string sentAs{};  ///< how DTrack or FreeD calls it, such as body0; empty: like itself
 };
 
 struct RigFile {

@@ -62,6 +62,14 @@ void LiveTrackers::clockWasSet(std::string_view tracker, Nanoseconds by) {
                     tracker, by < 0 ? "back" : "forward", std::abs(toSeconds(by))));
 }
 
+std::string_view LiveTrackers::nameOf(std::string_view device, std::string_view standard) const {
+  for (const RigTracker& t : feed_.rig().trackers)
+    if (t.sentAs == device) return t.name;
+  if (knows(device)) return device;
+  const RigTracker* const usual = feed_.rig().find(standard);
+  return usual && usual->sentAs.empty() ? std::string_view(usual->name) : device;
+}
+
 void LiveTrackers::misunderstood(const std::string& what) {
   const std::lock_guard lock(mutex_);
   tellOnce(what);

@@ -34,6 +34,11 @@ public:
   void clockWasSet(std::string_view tracker, Nanoseconds by);
   /// Returns true if the rig file has this tracker.
   bool knows(std::string_view tracker) const { return feed_.rig().find(tracker) != nullptr; }
+  /// The name of the tracker that a device is: the one that the rig file has as `sent-as device`, else the one that
+  /// is called like the device, else `standard` if that one states no other device. Without any, the device's own.
+  std::string_view nameOf(std::string_view device, std::string_view standard) const;
+  /// Unit of the lengths in pose() [m].
+  double unit() const { return feed_.rig().unit; }
   /// Reports a message that is no measurement.
   void misunderstood(const std::string& what);
 

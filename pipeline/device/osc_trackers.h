@@ -14,10 +14,7 @@
 
 #include "pipeline/device/live_trackers.h"
 #include "pipeline/device/osc_server.h"
-#include "pipeline/device/sender_clock.h"
-
-#include <array>
-#include <vector>
+#include "pipeline/device/sender_streams.h"
 
 namespace stadion {
 
@@ -25,7 +22,7 @@ class OscTrackers {
 public:
   /// Makes an instance without a network, which receives only what take() is given. The trackers must outlive
   /// it.
-  explicit OscTrackers(LiveTrackers& trackers) : trackers_(trackers) {}
+  explicit OscTrackers(LiveTrackers& trackers) : trackers_(trackers), streams_(trackers) {}
   /// Makes an instance that listens. Fails if the port is taken.
   static Result<std::unique_ptr<OscTrackers>> open(std::uint16_t port, LiveTrackers& trackers);
 
@@ -36,26 +33,10 @@ public:
   std::uint64_t misunderstood() const { return misunderstood_ + (server_ ? server_->malformed() : 0); }
 
 private:
-  enum class Kind { Pose, Button, Axis };
-  struct Measurement {
-    Kind kind;
-    std::array<double, 7> numbers;
-  };
-  /// One sender's data for one tracker: its poses, or its buttons and axes.
-  struct Stream {
-    std::string host, tracker;
-    bool poses;
-    SenderClock clock;
-    std::vector<Measurement> late{};  ///< buttons and axes since the last one that was not late
-  };
-
   static std::optional<Measurement> measurementOf(std::string_view what, std::span<const double> numbers);
-  void takeStamped(std::string_view tracker, const Measurement& m, std::string_view host, Nanoseconds sent);
-  void post(std::string_view tracker, Nanoseconds clock, const Measurement& m);
-  Stream& streamOf(std::string_view host, std::string_view tracker, bool poses);
 
   LiveTrackers& trackers_;
-  std::vector<Stream> streams_;
+  SenderStreams streams_;
   std::atomic<std::uint64_t> misunderstood_ = 0;
   std::unique_ptr<OscServer> server_;  ///< declared last: its thread uses the others
 };

@@ -33,14 +33,27 @@ bool TrackerDevice::listen(const std::string& device, Diagnostics& findings) {
   const std::size_t colon = std::min(device.find(':'), device.size());
   const std::string kind = device.substr(0, colon), where = device.substr(std::min(colon + 1, device.size()));
   if (kind == "vrpn" && !where.empty()) return keep(VrpnTrackers::open(where, trackers_), vrpn_);
-  if (const auto port = portOf(where); kind == "osc" && port)
-    return keep(OscTrackers::open(*port, trackers_), osc_);
-  findings.error({}, "--tracker: \"" + device + "\" is not osc:PORT (such as osc:7000) or vrpn:DEVICE@HOST");
+  if (const auto port = portOf(where)) {
+    if (kind == "osc") return keep(OscTrackers::open(*port, trackers_), osc_);
+    if (kind == "dtrack") return keep(DTrackTrackers::open(*port, trackers_), dtrack_);
+    if (kind == "freed") return keep(FreeDTrackers::open(*port, trackers_), freed_);
+  }
+  findings.error({},
+                 "--tracker: \"" + device +
+                     "\" is not osc:PORT (such as osc:7000), dtrack:PORT, freed:PORT or vrpn:DEVICE@HOST");
   return false;
 }
 
 std::string TrackerDevice::description() const {
-  return osc_ ? "OSC on UDP port " + std::to_string(osc_->port()) : "VRPN";
+  if (osc_) return "OSC on UDP port " + std::to_string(osc_->port());
+  if (dtrack_) return "DTrack on UDP port " + std::to_string(dtrack_->port());
+  return freed_ ? "FreeD on UDP port " + std::to_string(freed_->port()) : "VRPN";
+}
+
+std::uint64_t TrackerDevice::misunderstood() const {
+  if (osc_) return osc_->misunderstood();
+  if (dtrack_) return dtrack_->misunderstood();
+  return freed_ ? freed_->misunderstood() : 0;
 }
 
 }  // namespace stadion

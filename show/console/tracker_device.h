@@ -1,8 +1,11 @@
 #pragma once
-/// The trackers that were asked for on the command line: `--tracker osc:PORT|vrpn:DEVICE@HOST`, `--rig FILE`.
+/// The trackers that were asked for on the command line: `--tracker
+/// osc:PORT|dtrack:PORT|freed:PORT|vrpn:DEVICE@HOST`, `--rig FILE`.
 ///
 /// Ownership  owns the device and its threads.
 
+#include "pipeline/device/dtrack_trackers.h"
+#include "pipeline/device/freed_trackers.h"
 #include "pipeline/device/osc_trackers.h"
 #include "pipeline/device/vrpn_trackers.h"
 
@@ -25,7 +28,7 @@ public:
   const RigFile& rig() const { return rig_; }
   /// Where it listens, for people.
   std::string description() const;
-  std::uint64_t misunderstood() const { return osc_ ? osc_->misunderstood() : 0; }
+  std::uint64_t misunderstood() const;
 
 private:
   TrackerDevice(RigFile rig, LiveTrackers::Tell tell)
@@ -35,6 +38,8 @@ private:
   RigFile rig_;
   LiveTrackers trackers_;
   std::unique_ptr<OscTrackers> osc_;
+  std::unique_ptr<DTrackTrackers> dtrack_;
+  std::unique_ptr<FreeDTrackers> freed_;
   std::unique_ptr<VrpnTrackers> vrpn_;
 };
 

@@ -15,16 +15,17 @@ namespace stadion::fuzz {
 
 using Bytes = std::span<const std::uint8_t>;
 
-void script(Bytes bytes);         ///< a script: checked, linted, built with stand-ins for its models
-void walls(Bytes bytes);          ///< a wall file
-void input_log(Bytes bytes);      ///< an input log, and what it says in frames
-void rig_file(Bytes bytes);       ///< a rig file, and measurements that go through it
-void cluster_file(Bytes bytes);   ///< a cluster file
-void suite(Bytes bytes);          ///< a suite file
-void osc(Bytes bytes);            ///< packets on the OSC ports of trackers and operator
-void cluster_wire(Bytes bytes);   ///< what the machines of a cluster hear from each other
-void scene_state(Bytes bytes);    ///< a scene's state, as the leader of a cluster sends it
-void imported_mesh(Bytes bytes);  ///< what the importer program answers
+void script(Bytes bytes);           ///< a script: checked, linted, built with stand-ins for its models
+void walls(Bytes bytes);            ///< a wall file
+void input_log(Bytes bytes);        ///< an input log, and what it says in frames
+void rig_file(Bytes bytes);         ///< a rig file, and measurements that go through it
+void cluster_file(Bytes bytes);     ///< a cluster file
+void suite(Bytes bytes);            ///< a suite file
+void osc(Bytes bytes);              ///< packets on the OSC ports of trackers and operator
+void tracker_packets(Bytes bytes);  ///< packets on the ports of DTrack and FreeD
+void cluster_wire(Bytes bytes);     ///< what the machines of a cluster hear from each other
+void scene_state(Bytes bytes);      ///< a scene's state, as the leader of a cluster sends it
+void imported_mesh(Bytes bytes);    ///< what the importer program answers
 
 struct Target {
   std::string_view name;
@@ -38,6 +39,7 @@ inline constexpr Target kTargets[] = {{"script", script},
                                       {"cluster_file", cluster_file},
                                       {"suite", suite},
                                       {"osc", osc},
+                                      {"tracker_packets", tracker_packets},
                                       {"cluster_wire", cluster_wire},
                                       {"scene_state", scene_state},
                                       {"imported_mesh", imported_mesh}};
