@@ -6,6 +6,7 @@
 #include "engine/text/text_mesh.h"
 
 #include <algorithm>
+#include <cstdlib>
 
 namespace stadion {
 namespace {
@@ -159,6 +160,7 @@ public:
       else
         addNode(d);
     }
+    for (const Declaration d : input_.document) noteFading(d);
     for (const std::uint32_t i : layout_.enterOrder())
       if (load.nodes[i]) load.enterOrder.push_back(i);
     for (const StaticObject& s : load.statics)
@@ -192,6 +194,25 @@ private:
     a.shape = std::string(d.text("shape"));
     a.tolerance = d.number("tolerance");
     return a;
+  }
+
+  /// Notes the models that the declaration makes transparent: its own, and targets of its messages in this file.
+  void noteFading(const Declaration& d) {
+    const auto note = [&](const Declaration& model, double opacity) {
+      if (!(opacity > 0 && opacity < double{PaintRecord::kOpaque})) return;
+      const MeshId mesh = appearanceOf(model).mesh;
+      if (mesh != kNoMesh && std::ranges::find(built_.fading, mesh) == built_.fading.end())
+        built_.fading.push_back(mesh);
+    };
+    if (d.has("opacity")) note(d, d.number("opacity"));
+    for (const EventMessage& m : d.eventMessages()) {
+      if (m.commandId != commandNamed("opacity") || !m.target.resolved() || m.target.level != 0 ||
+          !m.target.inner().empty())
+        continue;
+      const std::vector<std::string> words = wordsOf(m.words);
+      if (words.size() == 1)
+        note(input_.document[m.target.declaration], std::strtod(words[0].c_str(), nullptr));
+    }
   }
 
   Nanoseconds soundLengthOf(const Declaration& d) const { return d.is(Trait::Sound) ? input_.sounds(d) : 0; }

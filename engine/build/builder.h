@@ -36,6 +36,7 @@ struct BuildInput {
 struct Built {
   std::unique_ptr<LoadedScene> load;          ///< without its chunk and its list of meshes
   std::vector<InstanceRecord> staticRecords;  ///< parallel to load->statics
+  std::vector<MeshId> fading;                 ///< that attributes or messages of the file make transparent
 };
 
 Built buildLoad(const BuildInput& input, Diagnostics& findings);

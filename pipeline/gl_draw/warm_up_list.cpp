@@ -35,9 +35,23 @@ DrawItem itemOf(MeshId id, const Mesh& mesh, const Vec3& place) {
   return item;
 }
 
+/// Items with a paint that is seen through. An opaque part needs other programs then.
+void addFading(const MeshStore& meshes, std::span<const MeshId> fading, const Vec3& place, DrawList& list) {
+  if (list.paints.size() >= kMostPaints) return;
+  const std::set<MeshId> ids(fading.begin(), fading.end());
+  std::size_t added = 0;
+  for (const MeshId id : ids) {
+    const Mesh* mesh = meshes.find(id);
+    if (!mesh || mesh->indices.empty() || ++added > kMostMeshes) continue;
+    if (added == 1) list.paints.push_back({.opacity = 0.5f});
+    list.transparent.push_back(itemOf(id, *mesh, place));
+    list.transparent.back().paint = static_cast<std::uint32_t>(list.paints.size());
+  }
+}
+
 }  // namespace
 
-DrawList warmUpList(const DrawList& first, const MeshStore& meshes) {
+DrawList warmUpList(const DrawList& first, const MeshStore& meshes, std::span<const MeshId> fading) {
   DrawList list = first;
   list.filling = nullptr;
   std::set<MeshId> seen;
@@ -50,6 +64,7 @@ DrawList warmUpList(const DrawList& first, const MeshStore& meshes) {
     if (!mesh || mesh->indices.empty() || ++added > kMostMeshes) continue;
     (mesh->transparent() ? list.transparent : list.opaque).push_back(itemOf(id, *mesh, place));
   }
+  addFading(meshes, fading, place, list);
   std::ranges::stable_sort(list.opaque, [](const DrawItem& a, const DrawItem& b) {
     return std::pair(a.mesh, a.level) < std::pair(b.mesh, b.level);
   });

@@ -5,10 +5,12 @@
 
 #include "pipeline/draw_list/draw_list.h"
 
+#include <span>
+
 namespace stadion {
 
 /// A complete list, and one of each mesh in the store that it does not show: those are drawn before the
-/// viewer at their coarsest level.
-DrawList warmUpList(const DrawList& first, const MeshStore& meshes);
+/// viewer at their coarsest level. One more of each that scripts make transparent (`fading`) has such a paint.
+DrawList warmUpList(const DrawList& first, const MeshStore& meshes, std::span<const MeshId> fading = {});
 
 }  // namespace stadion

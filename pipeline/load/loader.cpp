@@ -242,6 +242,10 @@ std::unique_ptr<LoadedScene> Loader::build(const Job& job, std::unique_ptr<Docum
     for (const MeshId mesh : load->meshes) parts_.meshes.release(mesh, 0);
     return nullptr;
   }
+  {
+    const std::lock_guard lock(mutex_);
+    fading_.insert(fading_.end(), built.fading.begin(), built.fading.end());
+  }
   if (!built.staticRecords.empty()) {
     load->chunk = parts_.arena.add(built.staticRecords);
     load->chunkRecords = parts_.arena.find(load->chunk, 0).records;
@@ -252,6 +256,11 @@ std::unique_ptr<LoadedScene> Loader::build(const Job& job, std::unique_ptr<Docum
       break;
     }
   return load;
+}
+
+std::vector<MeshId> Loader::fadingMeshes() {
+  const std::lock_guard lock(mutex_);
+  return fading_;
 }
 
 // A hundred thousand objects with the same file cause one import, and one message about it.

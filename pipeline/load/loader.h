@@ -73,6 +73,8 @@ public:
   void report(const Diagnostic& finding) override;
   std::string plugins() const override { return parts_.types.pluginsInWords(); }
 
+  /// Models that scripts loaded so far make transparent. Any thread. Ids of models that are gone may be among them.
+  std::vector<MeshId> fadingMeshes();
   /// Reports that all walls have shown `frame`: objects disposed of up to it may be freed.
   void shown(std::uint64_t frame);
 
@@ -132,6 +134,7 @@ private:
   std::exception_ptr thrown_;                         ///< outside a preparation
   std::deque<Garbage> waiting_;                       ///< until their last frame is shown
   std::deque<std::unique_ptr<LoadedScene>> garbage_;  ///< may be freed
+  std::vector<MeshId> fading_;
   bool ending_ = false;
   std::map<std::uint32_t, Around> around_;  ///< the loader thread's own
   bool live_ = false;                       ///< from here to `decided_`: used by App only

@@ -175,7 +175,9 @@ Failure ShowStages::openWall(std::size_t wall) {
 }
 
 Failure ShowStages::warmUp(std::size_t wall, const DrawList& list) {
-  return wallRenderer_ ? wallRenderer_->warmUp(wall, warmUpList(list, parts_.meshes)) : std::nullopt;
+  if (!wallRenderer_) return kNoFailure;
+  const std::vector<MeshId> fading = parts_.fading ? parts_.fading() : std::vector<MeshId>();
+  return wallRenderer_->warmUp(wall, warmUpList(list, parts_.meshes, fading));
 }
 
 bool ShowStages::wantsDrawn(const FrameTicket& ticket) const {

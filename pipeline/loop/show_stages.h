@@ -73,6 +73,8 @@ struct ShowParts {
   /// Called in each App stage with the newest frame that all walls have shown. It frees what no later frame
   /// draws.
   std::function<void(std::uint64_t)> freeUnshown{};
+  /// Returns the models that scripts make transparent, for the warm-up; on Draw threads.
+  std::function<std::vector<MeshId>()> fading{};
   FrameProbe* probe = nullptr;
   /// Once it returns true, Draw stops and the run ends. Any thread; null = never.
   std::function<bool()> giveUp{};

@@ -208,7 +208,8 @@ ShowParts Player::parts(StereoLayout stereo, InputDevice* instead) {
                   .input = instead ? *instead : input(),
                   .walls = {},
                   .observer = {},
-                  .freeUnshown = [this](std::uint64_t frame) { loader_->shown(frame); }};
+                  .freeUnshown = [this](std::uint64_t frame) { loader_->shown(frame); },
+                  .fading = [this] { return loader_->fadingMeshes(); }};
   if (options_.look == Look::Plain) parts.quality = RenderQuality::plain();
   if (options_.samples > 0) parts.quality.samples = options_.samples;
   for (const WallEntry& entry : walls_.walls) {

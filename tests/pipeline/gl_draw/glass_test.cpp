@@ -3,12 +3,14 @@
 
 #include "engine/asset/mesh_checks.h"
 #include "engine/maths/srgb.h"
+#include "pipeline/gl_draw/warm_up_list.h"
 #include "tests/pipeline/gl_draw/renderer_scene.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <random>
+#include <utility>
 
 namespace stadion {
 namespace {
@@ -362,6 +364,35 @@ TEST(GlassOrder, WhatIsKeptIsLitAsAnOpaqueSurfaceIs) {
               << x << " " << y;
         }
   }
+}
+
+/// The name of a new program: OpenGL counts them, so another one between two tells that it was compiled.
+GLuint nextProgram(const GlTable& gl) {
+  return gl.CreateProgram();
+}
+
+/// Objects that a script fades need other programs than opaque ones. The warm-up compiles them.
+TEST(Glass, AfterTheWarmUpNoProgramIsCompiledWhenAnObjectFades) {
+  for (const bool isTold : {true, false})
+    for (const Look look : {Look::Full, Look::Plain}) {
+      MeshStore meshes;
+      const GlassScene scene{{square({0, 0, 0}, {2, 0, 0}, {0, 0, 2}, {0.9f, 0.2f, 0.1f}, 1)}};
+      DrawList opaque = scene.list(meshes);
+      const MeshId id = opaque.opaque[0].mesh;
+      RenderQuality quality;
+      quality.look = look;
+      Stage stage(meshes, kWide, kHigh, GlProviderKind::OsMesa, quality);
+      const std::vector<MeshId> fading = isTold ? std::vector<MeshId>{id} : std::vector<MeshId>();
+      ASSERT_FALSE(stage.renderer().warmUp(warmUpList(opaque, meshes, fading), {}));
+      (void)stage.draw(opaque);
+      const GLuint before = nextProgram(stage.gl());
+      DrawList faded = opaque;
+      faded.paints.push_back({.opacity = 0.5f});
+      faded.opaque[0].paint = 1;
+      faded.transparent = std::exchange(faded.opaque, {});
+      EXPECT_NE(stage.draw(faded).rgba, stage.draw(opaque).rgba);
+      EXPECT_EQ(nextProgram(stage.gl()) == before + 1, isTold);
+    }
 }
 
 }  // namespace

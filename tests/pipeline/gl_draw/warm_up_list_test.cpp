@@ -47,5 +47,23 @@ TEST(WarmUpList, HasOneOfEachMeshThatTheFirstFrameDoesNotShow) {
   EXPECT_EQ(first.opaque.size(), 2u) << "what is shown stays as it is";
 }
 
+TEST(WarmUpList, HasATransparentOneOfEachMeshThatScriptsFade) {
+  MeshStore meshes;
+  const MeshId shown = meshes.add(triangle(1, 1)), other = meshes.add(triangle(2, 1)), gone = other + 1;
+  DrawList first;
+  DrawItem item;
+  item.mesh = shown;
+  first.opaque = {item};
+  first.paints.resize(3);
+  const DrawList list = warmUpList(first, meshes, std::vector<MeshId>{shown, gone, shown});
+  EXPECT_EQ(list.opaque.size(), 2u);
+  ASSERT_EQ(list.transparent.size(), 1u);
+  EXPECT_EQ(list.transparent[0].mesh, shown);
+  ASSERT_EQ(list.transparent[0].paint, 4u);
+  ASSERT_EQ(list.paints.size(), 4u);
+  EXPECT_TRUE(list.paints[3].isSeeThrough());
+  EXPECT_TRUE(warmUpList(first, meshes).transparent.empty());
+}
+
 }  // namespace
 }  // namespace stadion
