@@ -40,6 +40,7 @@ struct PartShow {
       parts.input.sampleFrame(now.time - now.step, now.time, input);
       player->scene().advance(now, input, changes, nullptr);
       for (const ChangeSet::Instance& i : changes.instances) seen[i.record.owner] = i.record;
+      if (changes.paintsChanged) paints = changes.paints;
     }
   }
   NodeRef named(const std::string& name) const { return player->scene().tree().resolve(name, {1, 0}); }
@@ -56,6 +57,7 @@ struct PartShow {
   InputSample input;
   ChangeSet changes;
   std::map<NodeRef, InstanceRecord> seen;
+  std::vector<PaintRecord> paints;
   std::uint64_t next = 0;
 };
 
@@ -71,6 +73,32 @@ TEST(ObjectParts, APartHidesByItselfAndTheRestStays) {
   show.play(20);
   EXPECT_TRUE(show.isShown("hall"));
   EXPECT_FALSE(show.isShown("hall/roof"));
+}
+
+/// Of the part alone: neither of its object nor of a part below it that the script names.
+TEST(ObjectParts, APartTakesPaintOfItsOwn) {
+  PartShow show(
+      "object( name=hall, file=pavilion.glb )\n" + std::string(kTimer) +
+      "hall/roof, tint 1 0.2 0.2\", eventmessage=\"timesup, hall/roof, opacity 0.5\", "
+      "eventmessage=\"timesup, hall/roof/lamp, show\", eventmessage=\"timesup, hall/roof, reset, 0.2\" )\n");
+  ASSERT_TRUE(show.player);
+  show.play(20);
+  const auto record = [&](const char* name) { return show.seen.at(show.named(name)); };
+  EXPECT_EQ(record("hall/roof").paint(), 0u);
+  show.play(15);
+  ASSERT_EQ(record("hall/roof").paint(), 1u);
+  EXPECT_NE(record("hall/roof").flags & InstanceRecord::kTransparent, 0u);
+  ASSERT_EQ(show.paints.size(), 1u);
+  EXPECT_EQ(show.paints[0].opacity, 0.5f);
+  EXPECT_EQ(show.paints[0].tint[0], 1);
+  EXPECT_LT(show.paints[0].tint[1], 0.1f);
+  for (const char* other : {"hall", "hall/roof/lamp"}) {
+    EXPECT_EQ(record(other).paint(), 0u) << other;
+    EXPECT_EQ(record(other).flags & InstanceRecord::kTransparent, 0u) << other;
+  }
+  show.play(15);
+  EXPECT_EQ(record("hall/roof").paint(), 0u);
+  EXPECT_EQ(record("hall/roof").flags & InstanceRecord::kTransparent, 0u);
 }
 
 TEST(ObjectParts, APartGoesWithItsObjectAndAPartOfAPartWithThePart) {
