@@ -1,6 +1,7 @@
 #include "engine/asset/mesh_checks.h"
 
 #include "engine/figure/figure_bounds.h"
+#include "engine/figure/figure_record.h"
 
 #include <xxhash.h>
 
@@ -161,6 +162,8 @@ std::uint64_t contentHash(const Mesh& mesh) {
 void boundFigure(Mesh& mesh) {
   auto skeleton = std::make_shared<Skeleton>(*mesh.skeleton);
   skeleton->reach = figureReach(*skeleton, mesh.positions, mesh.joints, mesh.morphs);
+  skeleton->addedReach =
+      figureReach(*skeleton, mesh.positions, mesh.joints, mesh.morphs, {.added = FigureRecord::kMostAdded});
   mesh.sphere = skeleton->reach;
   mesh.bounds = {};
   mesh.bounds.include(Vec3(mesh.sphere.centre - Vec3::Constant(mesh.sphere.radius)));

@@ -102,6 +102,10 @@ void lintTargets(const Declaration& node, LintScope& scope) {
       scope.warnAt(target.where,
                    fmt::format("\"{}\" is moved by a dynamics node, never by this {}; make it an object",
                                target.name, node.type().name()));
+    if (use && scope.document()[target.declaration].has("root"))
+      scope.warnAt(
+          target.where,
+          fmt::format("\"{}\" is moved by its root bone, too; move a node that is its parent", target.name));
   }
 }
 

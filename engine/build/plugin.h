@@ -25,7 +25,7 @@ inline constexpr std::uint32_t kPluginFormat = 1;
 constexpr std::uint32_t pluginLayout() {
   std::uint32_t hash = 2166136261U;
   for (const std::size_t size :
-       {sizeof(NodeType), sizeof(AttributeSpec), sizeof(CommandSpec), sizeof(NodeRequest),
+       {sizeof(NodeType), sizeof(AttributeSpec), sizeof(CommandSpec), sizeof(EventSpec), sizeof(NodeRequest),
         sizeof(Declaration), sizeof(Node), sizeof(PlacedNode), sizeof(ObjectNode), sizeof(Scene),
         sizeof(Placements), sizeof(FrameContext), sizeof(Message), sizeof(StateHash), std::size_t{__GNUC__},
         std::size_t{_GLIBCXX_USE_CXX11_ABI}})

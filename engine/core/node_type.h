@@ -127,7 +127,8 @@ struct AttributeSpec {
 
 struct EventSpec {
   Event event;
-  std::string_view help;  ///< one line
+  std::string_view help;       ///< one line
+  std::string_view word = {};  ///< what stands after the name: `NAME` for `marker NAME`; empty: nothing
 };
 
 /// The arguments that a command takes.

@@ -98,6 +98,11 @@ void sampleClip(const Clip& clip, double time, std::span<BonePlace> places) {
   }
 }
 
+double scaleGrowth(double begin, double now) {
+  constexpr double kLeast = 1e-6;  // nothing grows from less
+  return std::fabs(begin) < kLeast ? 1 : now / begin;
+}
+
 void sampleWeights(const Clip& clip, double time, std::span<double> weights) {
   for (const ClipChannel& channel : clip.channels)
     if (channel.target == ChannelTarget::Weights) weights[channel.bone] = sampleChannel(channel, time)[0];

@@ -19,6 +19,9 @@ std::array<double, 4> sampleChannel(const ClipChannel& channel, double time);
 /// Puts the bones that the clip moves where they are at `time`. Expects a place for each bone.
 void sampleClip(const Clip& clip, double time, std::span<BonePlace> places);
 
+/// What a scale has become since the beginning of its clip, as a factor; 1 if it was nothing there.
+double scaleGrowth(double begin, double now);
+
 /// Sets the weights that the clip moves to what they are at `time`. Expects one for each of the skeleton.
 void sampleWeights(const Clip& clip, double time, std::span<double> weights);
 

@@ -1,5 +1,6 @@
 #include "engine/figure/figure_bounds.h"
 
+#include "engine/figure/clip_sampler.h"
 #include "engine/maths/eigen.h"
 
 #include <Eigen/Eigenvalues>
@@ -30,16 +31,20 @@ double widening(const Mat3& m) {
       std::max(0.0, (m.transpose() * m).selfadjointView<Eigen::Lower>().eigenvalues().maxCoeff()));
 }
 
-/// A cubic segment lies in the hull of its Bézier points, p and p ± interval · m / 3.
-void includeKeys(const ClipChannel& c, Range& range) {
+/// What an added layer may make of it.
+struct Difference {
+  Aabb translation;
+  double scale = 1;  ///< factor
+};
+
+/// Visits values whose hull contains those of the channel. A cubic segment lies in the hull of its Bézier points,
+/// p and p ± interval · m / 3.
+template <class Take>
+void visitHull(const ClipChannel& c, const Take& take) {
   const bool cubic = c.interpolation == Interpolation::Cubic;
   const std::size_t width = c.width(), step = width * (cubic ? 3 : 1);
   const auto vec = [&](std::size_t at) {
     return Vec3(double{c.values[at]}, double{c.values[at + 1]}, double{c.values[at + 2]});
-  };
-  const auto take = [&](const Vec3& v) {
-    if (c.target == ChannelTarget::Translation) range.translation.include(v);
-    if (c.target == ChannelTarget::Scale) range.scale = std::max(range.scale, v.cwiseAbs().maxCoeff());
   };
   for (std::size_t key = 0; key < c.times.size(); ++key) {
     const std::size_t at = key * step;
@@ -55,31 +60,51 @@ void includeKeys(const ClipChannel& c, Range& range) {
   }
 }
 
-/// The numbers of a cubic weight lie between its Bézier points, too.
-void includeWeights(const ClipChannel& c, double& most) {
+void includeKeys(const ClipChannel& c, Range& range) {
+  visitHull(c, [&](const Vec3& v) {
+    if (c.target == ChannelTarget::Translation) range.translation.include(v);
+    if (c.target == ChannelTarget::Scale) range.scale = std::max(range.scale, v.cwiseAbs().maxCoeff());
+  });
+}
+
+void includeDifferences(const ClipChannel& c, Difference& difference) {
+  const auto at0 = sampleChannel(c, 0);
+  const Vec3 begin(at0[0], at0[1], at0[2]);
+  visitHull(c, [&](const Vec3& v) {
+    if (c.target == ChannelTarget::Translation) difference.translation.include(Vec3(v - begin));
+    if (c.target == ChannelTarget::Scale)
+      for (int k = 0; k < 3; ++k)
+        difference.scale = std::max(difference.scale, std::fabs(scaleGrowth(begin[k], v[k])));
+  });
+}
+
+/// The numbers of a cubic weight lie between its Bézier points, too. `from`: what they are compared with.
+void includeWeights(const ClipChannel& c, double from, double& most) {
   const bool cubic = c.interpolation == Interpolation::Cubic;
+  const auto take = [&](double value) { most = std::max(most, std::fabs(value - from)); };
   for (std::size_t key = 0; key < c.times.size(); ++key) {
     const auto number = [&](std::size_t which) { return double{c.values[cubic ? 3 * key + which : key]}; };
     const double value = number(cubic ? 1 : 0);
-    most = std::max(most, std::fabs(value));
+    take(value);
     if (!cubic) continue;
-    if (key > 0)
-      most = std::max(most,
-                      std::fabs(value - (double{c.times[key]} - double{c.times[key - 1]}) / 3 * number(0)));
+    if (key > 0) take(value - (double{c.times[key]} - double{c.times[key - 1]}) / 3 * number(0));
     if (key + 1 < c.times.size())
-      most = std::max(most,
-                      std::fabs(value + (double{c.times[key + 1]} - double{c.times[key]}) / 3 * number(2)));
+      take(value + (double{c.times[key + 1]} - double{c.times[key]}) / 3 * number(2));
   }
 }
 
 /// How far morph targets may move each vertex [m].
-std::vector<double> morphReach(const Skeleton& skeleton, std::size_t vertices,
-                               std::span<const Morph> morphs) {
-  std::vector<double> most;
+std::vector<double> morphReach(const Skeleton& skeleton, std::size_t vertices, std::span<const Morph> morphs,
+                               std::size_t added) {
+  std::vector<double> most, further(skeleton.weights.size(), 0);
   for (const MorphWeight& w : skeleton.weights) most.push_back(std::fabs(double{w.rest}));
   for (const Clip& clip : skeleton.clips)
     for (const ClipChannel& channel : clip.channels)
-      if (channel.target == ChannelTarget::Weights) includeWeights(channel, most[channel.bone]);
+      if (channel.target == ChannelTarget::Weights) {
+        includeWeights(channel, 0, most[channel.bone]);
+        includeWeights(channel, sampleChannel(channel, 0)[0], further[channel.bone]);
+      }
+  for (std::size_t i = 0; i < most.size(); ++i) most[i] += static_cast<double>(added) * further[i];
   std::vector<double> reach(vertices, 0);
   for (const Morph& m : morphs)
     for (std::size_t i = 0; i < m.vertices.size(); ++i) {
@@ -87,6 +112,22 @@ std::vector<double> morphReach(const Skeleton& skeleton, std::size_t vertices,
       reach[m.vertices[i]] += most[m.weight] * Vec3(double{d[0]}, double{d[1]}, double{d[2]}).norm();
     }
   return reach;
+}
+
+/// Widens the ranges by so many added layers.
+void addDifferences(const Skeleton& skeleton, std::size_t added, std::vector<Range>& ranges) {
+  std::vector<Difference> differences(ranges.size());
+  for (Difference& d : differences) d.translation.include(Vec3(Vec3::Zero()));
+  for (const Clip& clip : skeleton.clips)
+    for (const ClipChannel& channel : clip.channels)
+      if (channel.target == ChannelTarget::Translation || channel.target == ChannelTarget::Scale)
+        includeDifferences(channel, differences[channel.bone]);
+  for (std::size_t i = 0; i < ranges.size(); ++i)
+    for (std::size_t layer = 0; layer < added; ++layer) {
+      ranges[i].translation.lo += differences[i].translation.lo;
+      ranges[i].translation.hi += differences[i].translation.hi;
+      ranges[i].scale *= differences[i].scale;
+    }
 }
 
 std::vector<Range> rangesOf(const Skeleton& skeleton) {
@@ -127,6 +168,30 @@ Region regionOf(const Bone& bone, const Range& range, const std::vector<Region>&
   return region;
 }
 
+/// Of a root bone: at rest on the ground, at any of its heights. An added layer moves it from there by as much as it
+/// does elsewhere.
+Region rootRegion(const Skeleton& skeleton, std::size_t root, Region region, bool added) {
+  Affine X_NB = Affine::Identity();
+  for (auto i = static_cast<std::int32_t>(root); i >= 0;
+       i = skeleton.bones[static_cast<std::size_t>(i)].parent)
+    X_NB = skeleton.bones[static_cast<std::size_t>(i)].X_PB * X_NB;
+  region.origin.centre.head<2>() = X_NB.translation().head<2>();
+  if (added) region.origin.radius *= 3;
+  region.turns = true;
+  return region;
+}
+
+std::vector<Region> regionsOf(const Skeleton& skeleton, const ReachOptions& options) {
+  std::vector<Range> ranges = rangesOf(skeleton);
+  addDifferences(skeleton, options.added, ranges);
+  std::vector<Region> regions;
+  for (std::size_t i = 0; i < skeleton.bones.size(); ++i) {
+    regions.push_back(regionOf(skeleton.bones[i], ranges[i], regions));
+    if (options.root == i) regions.back() = rootRegion(skeleton, i, regions.back(), options.added > 0);
+  }
+  return regions;
+}
+
 /// The part of a mesh that a joint carries, in its bone's coordinates.
 std::vector<Aabb> carriedBoxes(const Skeleton& skeleton, std::span<const std::array<float, 3>> positions,
                                std::span<const VertexJoints> joints, const std::vector<double>& further) {
@@ -149,15 +214,13 @@ std::vector<Aabb> carriedBoxes(const Skeleton& skeleton, std::span<const std::ar
 }  // namespace
 
 Sphere figureReach(const Skeleton& skeleton, std::span<const std::array<float, 3>> positions,
-                   std::span<const VertexJoints> joints, std::span<const Morph> morphs) {
-  const std::vector<Range> ranges = rangesOf(skeleton);
-  std::vector<Region> regions;
-  for (std::size_t i = 0; i < skeleton.bones.size(); ++i)
-    regions.push_back(regionOf(skeleton.bones[i], ranges[i], regions));
+                   std::span<const VertexJoints> joints, std::span<const Morph> morphs,
+                   const ReachOptions& options) {
+  const std::vector<Region> regions = regionsOf(skeleton, options);
   std::vector<Sphere> spheres;
   for (const Region& region : regions) spheres.push_back(region.origin);
-  const std::vector<Aabb> boxes =
-      carriedBoxes(skeleton, positions, joints, morphReach(skeleton, positions.size(), morphs));
+  const std::vector<Aabb> boxes = carriedBoxes(skeleton, positions, joints,
+                                               morphReach(skeleton, positions.size(), morphs, options.added));
   for (std::size_t j = 0; j < boxes.size(); ++j)
     if (!boxes[j].empty())
       spheres.push_back(carried(regions[skeleton.joints[j].bone], boxes[j].centre(),

@@ -1,6 +1,7 @@
 #include "engine/figure/figure_pose.h"
 
 #include "engine/figure/clip_sampler.h"
+#include "engine/figure/ground_move.h"
 #include "engine/maths/functions.h"
 
 #include <algorithm>
@@ -22,7 +23,12 @@ void FigurePose::set(const Skeleton& skeleton, const FigureRecord& playing) {
   const std::size_t layers = std::min<std::size_t>(playing.layerCount, FigureRecord::kMostLayers);
   for (std::size_t i = 0; i < layers; ++i)
     if (playing.layers[i].clip < skeleton.clips.size()) blend(skeleton, playing.layers[i]);
-  placeBones(skeleton);
+  const std::size_t root = playing.root - std::size_t{1};  // 0 becomes a bone that no skeleton has
+  const Affine undone = root < skeleton.bones.size() ? undoneMove(skeleton, root) : Affine::Identity();
+  const std::size_t added = std::min<std::size_t>(playing.addedCount, FigureRecord::kMostAdded);
+  for (std::size_t i = 0; i < added; ++i)
+    if (playing.added[i].clip < skeleton.clips.size()) add(skeleton, playing.added[i]);
+  placeBones(skeleton, root, undone);
   makePalette(skeleton);
   setWeights(skeleton, playing);
 }
@@ -44,6 +50,32 @@ void FigurePose::blend(const Skeleton& skeleton, const ClipLayer& layer) {
     if (moved_[i]) mix(places_[i], layer_[i], weight);
 }
 
+void FigurePose::add(const Skeleton& skeleton, const ClipLayer& layer) {
+  const double weight = std::clamp(double{layer.weight}, 0.0, 1.0);
+  if (weight == 0) return;
+  const Clip& clip = skeleton.clips[layer.clip];
+  takeRest(skeleton, layer_);
+  takeRest(skeleton, begin_);
+  sampleClip(clip, layer.time, layer_);
+  sampleClip(clip, 0, begin_);
+  for (const ClipChannel& channel : clip.channels) {
+    if (channel.target == ChannelTarget::Weights) continue;
+    const std::size_t i = channel.bone;
+    const BonePlace &begin = begin_[i], &now = layer_[i];
+    BonePlace& place = places_[i];
+    moved_[i] = 1;
+    if (channel.target == ChannelTarget::Translation)
+      place.translation += weight * (now.translation - begin.translation);
+    if (channel.target == ChannelTarget::Rotation)
+      place.rotation =
+          (place.rotation * det::slerp(Quat::Identity(), begin.rotation.conjugate() * now.rotation, weight))
+              .normalized();
+    if (channel.target == ChannelTarget::Scale)
+      for (int k = 0; k < 3; ++k)
+        place.scale[k] *= 1 + weight * (scaleGrowth(begin.scale[k], now.scale[k]) - 1);
+  }
+}
+
 void FigurePose::setWeights(const Skeleton& skeleton, const FigureRecord& playing) {
   weights_.clear();
   if (skeleton.weights.empty()) return;
@@ -59,16 +91,42 @@ void FigurePose::setWeights(const Skeleton& skeleton, const FigureRecord& playin
     const double share = std::clamp(double{layer.weight}, 0.0, 1.0);
     for (std::size_t k = 0; k < under.size(); ++k) under[k] += share * (over[k] - under[k]);
   }
+  const std::size_t added = std::min<std::size_t>(playing.addedCount, FigureRecord::kMostAdded);
+  for (std::size_t i = 0; i < added; ++i) {
+    const ClipLayer& layer = playing.added[i];
+    if (layer.clip >= skeleton.clips.size()) continue;
+    std::vector<double> begin = rest, now = rest;
+    sampleWeights(skeleton.clips[layer.clip], 0, begin);
+    sampleWeights(skeleton.clips[layer.clip], layer.time, now);
+    const double share = std::clamp(double{layer.weight}, 0.0, 1.0);
+    for (std::size_t k = 0; k < under.size(); ++k) under[k] += share * (now[k] - begin[k]);
+  }
   weights_.assign(under.begin(), under.end());
 }
 
-/// A bone that no clip moves keeps its matrix, which may shear.
-void FigurePose::placeBones(const Skeleton& skeleton) {
+/// In its parent. A bone that no clip moves keeps its matrix, which may shear.
+Affine FigurePose::placeOf(const Skeleton& skeleton, std::size_t bone) const {
+  return moved_[bone] ? places_[bone].matrix() : skeleton.bones[bone].X_PB;
+}
+
+/// Takes the root bone back to where it is at rest on the ground.
+Affine FigurePose::undoneMove(const Skeleton& skeleton, std::size_t root) const {
+  Affine X_NB = Affine::Identity(), atRest = Affine::Identity();
+  for (auto i = static_cast<std::int32_t>(root); i >= 0;
+       i = skeleton.bones[static_cast<std::size_t>(i)].parent) {
+    X_NB = placeOf(skeleton, static_cast<std::size_t>(i)) * X_NB;
+    atRest = skeleton.bones[static_cast<std::size_t>(i)].X_PB * atRest;
+  }
+  return toAffine(groundMoveOf(X_NB, atRest).inverse().pose());
+}
+
+void FigurePose::placeBones(const Skeleton& skeleton, std::size_t root, const Affine& undone) {
   bones_.clear();
   for (std::size_t i = 0; i < skeleton.bones.size(); ++i) {
-    const Bone& bone = skeleton.bones[i];
-    const Affine X_PB = moved_[i] ? places_[i].matrix() : bone.X_PB;
-    bones_.push_back(bone.parent < 0 ? X_PB : bones_[static_cast<std::size_t>(bone.parent)] * X_PB);
+    const std::int32_t parent = skeleton.bones[i].parent;
+    const Affine X_PB = placeOf(skeleton, i);
+    bones_.push_back(parent < 0 ? X_PB : bones_[static_cast<std::size_t>(parent)] * X_PB);
+    if (i == root) bones_.back() = undone * bones_.back();
   }
 }
 

@@ -91,6 +91,7 @@ struct Skeleton {
   std::vector<MorphWeight> weights;
   /// Holds the origins and the carried vertices of all bones in N, whatever clips are played and blended. [m]
   Sphere reach;
+  Sphere addedReach;  ///< the same with added layers
 };
 
 /// The most that a skeleton may hold.

@@ -2,6 +2,7 @@
 
 #include "engine/build/node_request.h"
 #include "engine/core/node_registry.h"
+#include "engine/nodes/clip_words.h"
 #include "engine/nodes/figure_node.h"
 #include "engine/scene/scene.h"
 
@@ -45,22 +46,6 @@ void BoneNode::receive(const Message& m, FrameContext& frame) {
 }
 
 namespace {
-
-std::string boneNames(const Skeleton& skeleton) {
-  constexpr std::size_t kMost = 20;
-  std::string names;
-  std::size_t told = 0, left = 0;
-  for (const Bone& bone : skeleton.bones) {
-    if (bone.name.empty()) continue;
-    if (told == kMost) {
-      ++left;
-      continue;
-    }
-    names += fmt::format("{}\"{}\"", names.empty() ? "" : ", ", bone.name);
-    ++told;
-  }
-  return left > 0 ? fmt::format("{} and {} more", names, left) : names;
-}
 
 std::unique_ptr<Node> makeBone(const NodeRequest& r) {
   const Declaration& d = r.declaration;

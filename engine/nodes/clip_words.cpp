@@ -62,32 +62,65 @@ ClipPlayer::Start startOf(std::uint32_t clip, const Skeleton& skeleton, ClipPlay
   return start;
 }
 
+/// An option with a number, and where it goes.
+struct Option {
+  std::string_view word;
+  double least, most;
+  void (*put)(double number, ClipPlayer::Start& start);
+  bool ofLayers = false;  ///< alone
+};
+constexpr Option kOptions[] = {
+    {"fade", 0, kMostSeconds,
+     [](double number, ClipPlayer::Start& start) { start.fade = std::llround(number * 1e9); }},
+    {"speed", -kMostSpeed, kMostSpeed, [](double number, ClipPlayer::Start& start) { start.speed = number; }},
+    {"from", 0, kMostSeconds, [](double number, ClipPlayer::Start& start) { start.at = number; }},
+    {"weight", 0, 1, [](double number, ClipPlayer::Start& start) { start.weight = number; }, true},
+};
+
 /// Reads one option. Returns how many words it has; 0 if there is a fault.
-std::size_t readOption(std::span<const std::string_view> words, ClipPlayer::Start& start,
+std::size_t readOption(std::span<const std::string_view> words, bool layer, ClipPlayer::Start& start,
                        std::string& fault) {
   if (words[0] == "once" || words[0] == "loop") {
     start.loop = words[0] == "loop";
     return 1;
   }
-  const bool isSpeed = words[0] == "speed";
-  if (!isSpeed && words[0] != "fade" && words[0] != "from") {
-    fault = fmt::format("\"{}\" is no option; use fade SECONDS, speed FACTOR, from SECONDS, once or loop",
-                        words[0]);
+  const auto option = std::ranges::find(kOptions, words[0], &Option::word);
+  if (option == std::end(kOptions) || (option->ofLayers && !layer)) {
+    fault = fmt::format("\"{}\" is no option; use fade SECONDS, speed FACTOR, from SECONDS, {}once or loop",
+                        words[0], layer ? "weight SHARE, " : "");
     return 0;
   }
-  const double least = isSpeed ? -kMostSpeed : 0, most = isSpeed ? kMostSpeed : kMostSeconds;
-  const auto number = words.size() > 1 ? numberIn(words[1], least, most) : std::nullopt;
+  const auto number = words.size() > 1 ? numberIn(words[1], option->least, option->most) : std::nullopt;
   if (!number) {
-    fault = fmt::format("\"{}\" needs a number from {} to {} after it", words[0], least, most);
+    fault =
+        fmt::format("\"{}\" needs a number from {} to {} after it", words[0], option->least, option->most);
     return 0;
   }
-  if (isSpeed)
-    start.speed = *number;
-  else if (words[0] == "fade")
-    start.fade = std::llround(*number * 1e9);
-  else
-    start.at = *number;
+  option->put(*number, start);
   return 2;
+}
+
+ClipWords readStart(std::string_view text, const Skeleton& skeleton, const ClipPlayer::Start& standard,
+                    bool layer) {
+  const Words words = split(text);
+  const auto found = clipIn(words, skeleton);
+  if (!found) return {{}, noSuchClip(text, skeleton)};
+  ClipPlayer::Start start = startOf(found->clip, skeleton, standard);
+  for (std::size_t at = found->words; at < words.size();) {
+    std::string fault;
+    const std::size_t taken = readOption(std::span(words).subspan(at), layer, start, fault);
+    if (taken == 0) return {{}, fault};
+    at += taken;
+  }
+  if (start.at > start.length)
+    return {{}, fmt::format("the clip is {} s long, so it cannot begin at {} s", start.length, start.at)};
+  return {start, {}};
+}
+
+std::string_view trimmed(std::string_view text) {
+  const std::size_t first = text.find_first_not_of(" \t");
+  if (first == text.npos) return {};
+  return text.substr(first, text.find_last_not_of(" \t") - first + 1);
 }
 
 }  // namespace
@@ -107,20 +140,51 @@ std::string clipNames(const Skeleton& skeleton) {
   return names;
 }
 
-ClipWords readPlay(std::string_view text, const Skeleton& skeleton, const ClipPlayer::Start& standard) {
-  const Words words = split(text);
-  const auto found = clipIn(words, skeleton);
-  if (!found) return {{}, noSuchClip(text, skeleton)};
-  ClipPlayer::Start start = startOf(found->clip, skeleton, standard);
-  for (std::size_t at = found->words; at < words.size();) {
-    std::string fault;
-    const std::size_t taken = readOption(std::span(words).subspan(at), start, fault);
-    if (taken == 0) return {{}, fault};
-    at += taken;
+std::string boneNames(const Skeleton& skeleton) {
+  constexpr std::size_t kMost = 20;
+  std::string names;
+  std::size_t told = 0, left = 0;
+  for (const Bone& bone : skeleton.bones) {
+    if (bone.name.empty()) continue;
+    if (told == kMost) {
+      ++left;
+      continue;
+    }
+    names += fmt::format("{}\"{}\"", names.empty() ? "" : ", ", bone.name);
+    ++told;
   }
-  if (start.at > start.length)
-    return {{}, fmt::format("the clip is {} s long, so it cannot begin at {} s", start.length, start.at)};
-  return {start, {}};
+  return left > 0 ? fmt::format("{} and {} more", names, left) : names;
+}
+
+ClipWords readPlay(std::string_view text, const Skeleton& skeleton, const ClipPlayer::Start& standard) {
+  return readStart(text, skeleton, standard, false);
+}
+
+ClipWords readLayer(std::string_view text, const Skeleton& skeleton, const ClipPlayer::Start& standard) {
+  return readStart(text, skeleton, standard, true);
+}
+
+LayerWords readUnlayer(std::string_view text, const Skeleton& skeleton, const ClipPlayer::Start& standard) {
+  const Words words = split(text);
+  LayerWords read{{}, standard.fade, {}};
+  const auto found = clipIn(words, skeleton);
+  if (found) read.clip = found->clip;
+  const std::size_t left = words.size() - (found ? found->words : 0);
+  if (left == 0) return read;
+  const std::string_view option = words[words.size() - left];
+  if (!found && option != "fade") return {{}, 0, noSuchClip(text, skeleton)};
+  const auto seconds = left == 2 ? numberIn(words.back(), 0, kMostSeconds) : std::nullopt;
+  if (option != "fade" || !seconds) return {{}, 0, "after the clip comes nothing, or fade SECONDS"};
+  read.fade = std::llround(*seconds * 1e9);
+  return read;
+}
+
+MarkerWords readMarker(std::string_view text) {
+  const std::size_t last = text.rfind(',');
+  const std::size_t first = last == text.npos || last == 0 ? text.npos : text.rfind(',', last - 1);
+  if (first == text.npos) return {};
+  return {trimmed(text.substr(0, first)), trimmed(text.substr(last + 1)),
+          numberIn(trimmed(text.substr(first + 1, last - first - 1)), 0, kMostSeconds)};
 }
 
 ClipWords readPose(std::string_view text, const Skeleton& skeleton) {

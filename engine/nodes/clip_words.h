@@ -1,5 +1,5 @@
 #pragma once
-/// The words of a figure's commands: which clip, and how it is played.
+/// The words of a figure's commands and markers: which clip, and how it is played.
 ///
 /// Threads  pure.
 
@@ -16,6 +16,8 @@ namespace stadion {
 std::optional<std::uint32_t> clipNamed(const Skeleton& skeleton, std::string_view name);
 /// `"run", "throw"`: the clips that there are.
 std::string clipNames(const Skeleton& skeleton);
+/// Likewise the bones with names.
+std::string boneNames(const Skeleton& skeleton);
 
 /// The start that a command asks for, or a sentence about its fault.
 struct ClipWords {
@@ -25,6 +27,21 @@ struct ClipWords {
 
 /// `CLIP [fade SECONDS] [speed FACTOR] [from SECONDS] [once|loop]`. `standard` has what is not stated.
 ClipWords readPlay(std::string_view words, const Skeleton& skeleton, const ClipPlayer::Start& standard);
+/// Likewise with [weight SHARE]: a layer.
+ClipWords readLayer(std::string_view words, const Skeleton& skeleton, const ClipPlayer::Start& standard);
+/// `[CLIP] [fade SECONDS]`: which layers go; without a clip, all.
+struct LayerWords {
+  std::optional<std::uint32_t> clip{};
+  Nanoseconds fade = 0;
+  std::string fault{};
+};
+LayerWords readUnlayer(std::string_view words, const Skeleton& skeleton, const ClipPlayer::Start& standard);
+/// `CLIP, SECONDS, NAME`: a marker. The parts may be empty; `seconds`: nothing if it is no time.
+struct MarkerWords {
+  std::string_view clip{}, name{};
+  std::optional<double> seconds{};
+};
+MarkerWords readMarker(std::string_view words);
 /// `CLIP SECONDS`: stands still at a time of the clip.
 ClipWords readPose(std::string_view words, const Skeleton& skeleton);
 

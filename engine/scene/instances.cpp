@@ -22,7 +22,7 @@ InstanceId Instances::add(PlacementId placement, MeshId mesh, bool drawn, NodeRe
   i.placement = placement;
   i.owner = owner;
   i.figure = i.paint = 0;
-  i.seeThrough = i.vanished = false;
+  i.seeThrough = i.vanished = i.ownReach = false;
   i.drawn = drawn;
   i.live = true;
   if (first_.size() <= placement) first_.resize(placement + std::size_t{1}, kNone);
@@ -37,6 +37,7 @@ void Instances::remove(InstanceId id) {
   while (*at != id) at = &all_[*at].next;
   *at = i.next;
   i.live = false;
+  reaches_.erase(id);
   mark(id);
   free_.push_back(id);
 }
@@ -56,6 +57,15 @@ void Instances::setPaint(InstanceId id, std::uint16_t number, double opacity) {
   all_[id].paint = number & kMostPaints;
   all_[id].seeThrough = number != 0 && static_cast<float>(opacity) < PaintRecord::kOpaque;
   all_[id].vanished = number != 0 && opacity == 0;
+  mark(id);
+}
+
+void Instances::setReach(InstanceId id, const std::optional<Sphere>& reach) {
+  all_[id].ownReach = reach.has_value();
+  if (reach)
+    reaches_[id] = *reach;
+  else
+    reaches_.erase(id);
   mark(id);
 }
 
@@ -117,7 +127,7 @@ void Instances::publishFleet(std::span<const PlacementId> ids, std::span<const M
       const Instance& i = all_[id];
       if (i.changed || !i.form) continue;
       InstanceRecord& r = nextRecord(id, changes);
-      placeInstance(r, places[k].rows, places[k].widens, i.form->sphere);
+      placeInstance(r, places[k].rows, places[k].widens, sphereOf(i, id));
       describe(i, true, degradation, r);
     }
   }
@@ -143,9 +153,9 @@ void Instances::publish(const Instance& i, InstanceId id, const Affine& X_WN, bo
     return;
   }
   if (const std::optional<MemberPlace> member = placements_.inFleet(i.placement))
-    placeInstance(r, member->rows, member->widens, i.form->sphere);
+    placeInstance(r, member->rows, member->widens, sphereOf(i, id));
   else
-    placeInstance(r, X_WN, i.form->sphere);
+    placeInstance(r, X_WN, sphereOf(i, id));
   describe(i, shown, degradation, r);
 }
 
@@ -156,6 +166,7 @@ void Instances::handOn(ChangeSet& changes) {
 }
 
 void Instances::state(StateFields& f) {
+  if (f.restores()) reaches_.clear();
   f("instances", all_), f("free instances", free_), f("instances at", first_);
 }
 

@@ -17,7 +17,9 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
+#include <unordered_map>
 #include <utility>
 #include <vector>
 
@@ -41,6 +43,8 @@ public:
   void setFigure(InstanceId id, std::uint16_t figure);
   /// Sets the number of the instance's paint (PaintTable), and what follows from its opacity.
   void setPaint(InstanceId id, std::uint16_t number, double opacity);
+  /// Sets the sphere (in N) that holds what the instance shows; nothing: that of its mesh. Not saved.
+  void setReach(InstanceId id, const std::optional<Sphere>& reach);
   /// Returns true if the instance exists and belongs to `owner`; nodes ask this when they are restored.
   bool owns(InstanceId id, NodeRef owner) const {
     return id < all_.size() && all_[id].live && all_[id].owner == owner;
@@ -87,6 +91,7 @@ private:
     std::uint32_t transparent : 1 = false, leveled : 1 = false;
     /// Properties of the paint: it lets the background shine through, or all of it.
     std::uint32_t seeThrough : 1 = false, vanished : 1 = false;
+    std::uint32_t ownReach : 1 = false;  ///< not that of its mesh
 
     template <class Self, class Fields>
     static void fields(Self& i, Fields& f) {
@@ -109,6 +114,9 @@ private:
 
   void mark(InstanceId id);
   void findForm(Instance& i) const;
+  const Sphere& sphereOf(const Instance& i, InstanceId id) const {
+    return i.ownReach ? reaches_.at(id) : i.form->sphere;
+  }
   void publishAll(PlacementId placement, const Degradation& degradation, ChangeSet& changes);
   void publish(const Instance& i, InstanceId id, const Affine& X_WN, bool shown,
                const Degradation& degradation, ChangeSet& changes);
@@ -122,6 +130,7 @@ private:
   std::vector<Instance> all_;  ///< by id
   std::vector<InstanceId> free_, changed_;
   std::vector<InstanceId> first_;  ///< by placement: the first of its instances
+  std::unordered_map<InstanceId, Sphere> reaches_;
   std::uint64_t published_ = 0;
 };
 

@@ -41,6 +41,13 @@ bool PlacedNode::place(Scene& scene, const Affine& X_WN) {
   return true;
 }
 
+bool PlacedNode::placeInParent(Scene& scene, const Affine& X_PN) {
+  aboutToChange(scene);
+  if (!scene.placements().setLocal(placement_, X_PN)) return false;
+  X_PN_ = X_PN;
+  return true;
+}
+
 bool PlacedNode::hold(Scene& scene, const Affine& X_WN, HeldParts parts) {
   aboutToChange(scene);
   if (!scene.placements().holdInWorld(placement_, X_WN, parts)) return false;

@@ -75,6 +75,8 @@ protected:
   void simulate(FrameContext& frame) override;
   /// Returns the node to its pose in the script.
   void resetPlace(Scene& scene);
+  /// Places the node at X_PN below its parent. Returns false, and keeps the old pose, if X_PN is not finite.
+  bool placeInParent(Scene& scene, const Affine& X_PN);
 
 private:
   void aboutToChange(Scene& scene);

@@ -19,8 +19,8 @@ constexpr Node::Missed lastOf(Node::Missed) {
 namespace {
 
 /// Of the format; snapshots of other versions mean something else.
-constexpr std::uint32_t kVersion = 9;
-constexpr std::uint32_t kWithPlugins = 10;                  ///< the same with the names of plugins
+constexpr std::uint32_t kVersion = 11;
+constexpr std::uint32_t kWithPlugins = 12;                  ///< the same with the names of plugins
 constexpr Nanoseconds kLatest = 1'000'000'000'000'000'000;  ///< thirty years of a show [ns]
 
 std::string pluginsOr(const std::string& plugins) {

@@ -148,6 +148,13 @@ std::optional<NodeReference> Declaration::reference(Attr attr) const {
   return document_->referenceAt(value->data);
 }
 
+std::vector<std::string_view> Declaration::texts(Attr attr) const {
+  std::vector<std::string_view> result;
+  for (const auto& value : document_->valuesOf(index_))
+    if (value.attr() == attr) result.push_back(document_->source_.slice(value.where, value.data));
+  return result;
+}
+
 std::vector<NodeReference> Declaration::references(Attr attr) const {
   std::vector<NodeReference> result;
   for (const auto& value : document_->valuesOf(index_))

@@ -68,6 +68,8 @@ public:
   bool flag(Attr attr) const;
   std::string_view
   text(Attr attr) const;  ///< NewName, Tracker, File, Words, and the word of a Choice; empty if neither
+  /// The values of a repeatable attribute with text, in the order of the script.
+  std::vector<std::string_view> texts(Attr attr) const;
   /// The position of the word among the attribute's choices, as an enumeration in the same order.
   template <class E>
   E choice(Attr attr) const {

@@ -55,15 +55,29 @@ Failure hiddenIn(const Piece& piece) {
   return fault;
 }
 
+/// The word after an event that has one.
+Failure readEventWord(const EventSpec& spec, std::string_view& rest, std::size_t& offset,
+                      ReadMessage& message) {
+  const Piece word = takeUntil('\0', rest, offset);
+  if (word.text.empty())
+    return ValueError{word.offset, fmt::format("\"{0}\" must be followed by a word: {0} {1}",
+                                               spec.event.name(), spec.word)};
+  message.event = spec.event.with(word.text);
+  return named(word, faultOfName(word.text));
+}
+
 Failure readEvent(const Piece& piece, const RegisteredType& sender, const NodeRegistry& types,
                   ReadMessage& message) {
   if (auto hidden = hiddenIn(piece)) return hidden;
   const auto events = sender.type().events;
   if (events.empty()) return ValueError{piece.offset, fmt::format("{} posts no events", sender.name())};
+  std::string_view rest = piece.text;
+  std::size_t offset = piece.offset;
+  const Piece name = takeWord(rest, offset);
   for (const EventSpec& own : events) {
-    if (own.event.name() != piece.text) continue;
+    if (own.event.name() != (own.word.empty() ? piece.text : name.text)) continue;
     message.event = own.event;
-    return std::nullopt;
+    return own.word.empty() ? std::nullopt : readEventWord(own, rest, offset, message);
   }
   const std::string ours = joinWithOr(namesOf(events));
   if (types.isEvent(piece.text))

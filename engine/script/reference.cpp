@@ -94,8 +94,10 @@ std::string describeOwn(const RegisteredType& node, const NodeRegistry& types) {
 
 std::string describeEvents(const RegisteredType& node) {
   std::string text;
-  for (const EventSpec& row : node.type().events)
-    text += fmt::format("  {:<17} {}\n", row.event.name(), wrapped(row.help, 20));
+  for (const EventSpec& row : node.type().events) {
+    const std::string form = fmt::format("{}{}{}", row.event.name(), row.word.empty() ? "" : " ", row.word);
+    text += fmt::format("  {:<17} {}\n", form, wrapped(row.help, 20));
+  }
   return text;
 }
 

@@ -13,12 +13,14 @@ constexpr double kLookup = 4, kUsed = 0.98;
 
 /// Returns a hash of the layers that a figure plays.
 std::uint64_t keyOf(const FigureRecord& figure) {
-  std::uint64_t key = figure.layerCount;
-  for (const ClipLayer& layer : figure.layers) {
+  std::uint64_t key = figure.layerCount | std::uint64_t{figure.addedCount} << 32;
+  const auto add = [&](const ClipLayer& layer) {
     key = mixedBits(
         key ^ (std::uint64_t{layer.clip} | std::uint64_t{std::bit_cast<std::uint32_t>(layer.weight)} << 32));
     key = mixedBits(key ^ std::bit_cast<std::uint64_t>(layer.time));
-  }
+  };
+  for (const ClipLayer& layer : figure.layers) add(layer);
+  for (const ClipLayer& layer : figure.added) add(layer);
   return key;
 }
 

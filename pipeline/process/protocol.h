@@ -20,7 +20,7 @@
 namespace stadion::wall_process {
 
 constexpr std::uint32_t kMagic = 0x57445453;  // "STDW"
-constexpr std::uint32_t kVersion = 7;
+constexpr std::uint32_t kVersion = 8;
 constexpr std::size_t kLongestText = 4096;
 
 // Address space, not memory.

@@ -30,7 +30,7 @@ constexpr std::size_t kStamps = std::size_t{1} << 19;
 static_assert(kStamps * kInstancesAStamp * sizeof(InstanceRecord) >= kReserve);
 
 /// Behind the header.
-constexpr std::size_t kStampsAt = std::size_t{1} << 19;
+constexpr std::size_t kStampsAt = std::size_t{1} << 20;
 constexpr std::size_t kInstancesAt = kStampsAt + kStamps * sizeof(std::uint32_t);
 
 std::string_view publishedField(const InstanceRecord& r, const void* address) {

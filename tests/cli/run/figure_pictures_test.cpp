@@ -21,12 +21,16 @@ public:
   FigureShow() {
     write("tube.glb", test::riggedTube().glb());
     write("square.glb", test::morphingSquare().glb());
+    write("stroll.glb", test::strollingTube().glb());
     write("show.evs", R"(light( direction="-1, 2, -3" )
 figure( name=left, file=tube.glb, clip=bend, position="-0.8, 4, 0",
         eventmessage="looped, right, play bend fade 0.3" )
 figure( name=right, file=tube.glb, clip=lift, phase=0.1, speed=0.6, position="0.8, 4, 0" )
 object( file=tube.glb, position="0, 6, 0" )
 figure( file=square.glb, clip=swell, position="-1, 5, 0" )
+figure( name=walker, file=stroll.glb, clip=stroll, root=lower, marker="stroll, 0.1, step", marker="bend, 0.5, bent",
+        position="-0.3, 3, 0", scale="0.3, 0.3, 0.3", eventmessage="marker step, walker, layer bend weight 0.7 speed 2",
+        eventmessage="marker bent, walker, unlayer bend fade 0.1" )
 )");
   }
 
@@ -81,6 +85,15 @@ TEST(ProgramFigures, WrongClipsAndBonesAreErrorsThatListTheRightOnes) {
   };
   EXPECT_TRUE(has(checked("figure( name=f, file=tube.glb, clip=run )"),
                   "error: \"tube.glb\" has no clip \"run\"; there are \"bend\", \"lift\""));
+  EXPECT_TRUE(has(checked("figure( name=f, file=tube.glb, root=hips )"),
+                  "error: \"tube.glb\" has no bone \"hips\"; there are \"tube\", \"lower\", \"upper\""));
+  EXPECT_TRUE(has(checked("figure( file=tube.glb, marker=\"bend, 0.2, a\", marker=\"run, 0.2, b\" )"),
+                  "show.evs:1:55: error: \"tube.glb\" has no clip \"run\"; there are \"bend\", \"lift\""));
+  EXPECT_TRUE(has(checked("figure( file=tube.glb, marker=\"lift, 0.6, a\" )"),
+                  "error: the clip \"lift\" is 0.5 s long"));
+  EXPECT_TRUE(has(checked("figure( name=f, file=tube.glb, root=lower )\n"
+                          "path( target=f, key=\"0, 0, 0, 0\", key=\"1, 1, 0, 0\" )"),
+                  "warning: \"f\" is moved by its root bone, too"));
   const std::string figure = "figure( name=f, file=tube.glb )\n";
   EXPECT_TRUE(has(checked(figure + "bone( parent=f, bone=toe )"),
                   "error: the figure has no bone \"toe\"; there are \"tube\", \"lower\", \"upper\""));

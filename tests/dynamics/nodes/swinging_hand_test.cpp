@@ -128,6 +128,56 @@ private:
   }
 };
 
+/// A cube that a figure with a root bone carries along y at 3.25 m/s, pass after pass, and a target above its way.
+struct WalkShow : ShowFixture {
+  static constexpr double kSpeed = 3.25;
+  NodeRef sim;
+  DynObjectNode* target = nullptr;
+  std::vector<Nanoseconds> impacts;
+
+  explicit WalkShow(double framesPerSecond) {
+    rate = framesPerSecond;
+    const MeshId mesh = meshes.add(cube(kHalf));
+    loader.files["show"] = [=, this](LoadedScene& load) {
+      auto skeleton = std::make_shared<Skeleton>(test::chain(1));
+      Clip clip{"walk", 0.125, {}};
+      clip.channels.push_back(test::channel(0, ChannelTarget::Translation, Interpolation::Linear, {0, 0.125f},
+                                            {0, 0, 0, 0, 0.40625f, 0}));
+      skeleton->clips.push_back(clip);
+      ClipPlayer::Start start;
+      start.length = clip.length;
+      FigureExtras extras;
+      extras.root = 0;
+      const auto& figure =
+          addNode<FigureNode>(load, "figure", placeAt({Swing().x - kReach, 0, 0}),
+                              Appearance{mesh, false, "box"}, skeleton, ClipPlayer::Start(), start, extras);
+      addNode<Hand>(load, "hand", mesh, figure.self());
+      target = &addNode<Target>(load, "target", mesh);
+      sim = addNode<Sim>(load, "sim", std::vector<std::string>{"hand"}, std::vector<std::string>{"target"})
+                .self();
+    };
+    scene.open("show");
+  }
+  void play(double seconds) {
+    while (signatureAt(next, rate).time <= fromSeconds(seconds)) {
+      frame();
+      for (const EventRecord& e : scene.events())
+        if (e.node == sim && e.event == Event("onimpact")) impacts.push_back(e.when);
+    }
+  }
+};
+
+TEST(WalkingFigure, WhatItCarriesHitsAtTheExactTimeWithItsVelocity) {
+  const double time = (kHeight - kHalf) / WalkShow::kSpeed;  // in the second pass
+  for (const double rate : kRates) {
+    WalkShow show(rate);
+    show.play(time + 1 / rate);
+    ASSERT_EQ(show.impacts.size(), 1U) << rate;
+    EXPECT_NEAR(toSeconds(show.impacts[0]), time, 1e-7) << rate;
+    EXPECT_NEAR(show.target->state().v.y(), 2 * WalkShow::kSpeed, 1e-5) << rate;
+  }
+}
+
 TEST(SwingingHand, ItHitsAtTheExactTimeWithItsTrueVelocity) {
   const Swing truth;
   for (const Mover mover : {Mover::Path, Mover::Bone})

@@ -58,6 +58,20 @@ inline GltfBuilder riggedTube() {
   return b;
 }
 
+/// The same with the clip "stroll": "lower" goes 0.6 m along the file's -z (the show's y) within 0.4 s, and up and
+/// down.
+inline GltfBuilder strollingTube() {
+  GltfBuilder b = riggedTube();
+  const auto times = b.accessor(std::vector<float>{0, 0.2f, 0.4f}, GltfBuilder::kFloat, "SCALAR", 3);
+  const auto values =
+      b.accessor(std::vector<float>{0, 0, 0, 0, 0.2f, -0.3f, 0, 0, -0.6f}, GltfBuilder::kFloat, "VEC3", 3);
+  b.json["animations"].push_back(
+      {{"name", "stroll"},
+       {"samplers", {{{"input", times}, {"output", values}}}},
+       {"channels", {{{"sampler", 0}, {"target", {{"node", 1}, {"path", "translation"}}}}}}});
+  return b;
+}
+
 /// A square of 1 m that a morph target "open" stretches along the file's x by up to a metre. Its weight is 0.5 at
 /// rest; the clip "swell" takes it from 0 to 1 within a second.
 inline GltfBuilder morphingSquare() {

@@ -197,7 +197,7 @@ Clip FigureJoints::clipOf(const SourceClip& from, std::string name, std::size_t&
 Skeleton FigureJoints::skeleton(ModelInventory& inventory) const {
   if (scene_.clips.size() > limits_.clips)
     throw Refusal("has more than " + std::to_string(limits_.clips) + " clips");
-  Skeleton skeleton{bones_, joints_, {}, weights_, {}};
+  Skeleton skeleton{bones_, joints_, {}, weights_, {}, {}};
   std::size_t leftOut = 0;
   std::uint64_t keys = 0;
   for (const SourceClip& clip : scene_.clips) {
