@@ -1,0 +1,67 @@
+/// Figures and painted models in a cluster: every machine shows what one machine alone would.
+
+#include "tests/engine/asset/rigged_model.h"
+#include "tests/programs/played_cluster.h"
+
+#include <gtest/gtest.h>
+
+namespace stadion {
+namespace {
+
+/// A floor, a roof 2 m above it.
+test::GltfBuilder pavilion() {
+  test::GltfBuilder b;
+  b.attribute("POSITION", std::vector<float>{-1, 0, -1, 1, 0, -1, 1, 0, 1, -1, 0, 1}, b.kFloat, "VEC3", 4);
+  b.primitive()["indices"] =
+      b.accessor(std::vector<std::uint16_t>{0, 2, 1, 0, 3, 2}, b.kUnsignedShort, "SCALAR", 6);
+  b.json["nodes"] = nlohmann::json::parse(
+      R"([{"name": "floor", "mesh": 0, "children": [1]},
+          {"name": "roof", "mesh": 0, "translation": [0, 2, 0]}])");
+  return b;
+}
+
+/// A walker around the visitor with a layer and markers, figures before every wall, and paint that messages change.
+const char* const kShow = R"(light( direction="-1, 2, -3" )
+figure( name=walker, file=tube.glb, clip=stroll, root=lower, position="-1, 2, 0", marker="stroll, 0.1, step",
+        eventmessage="marker step, left, tint 1 0.3 0.2", eventmessage="looped, left, emit 0 0.3 0" )
+bone( name=hand, parent=walker, bone=upper )
+object( file=box.obj, up=z, parent=hand, position="0, 0, 1", scale=0.2 )
+figure( name=left, file=tube.glb, clip=bend, position="-2, 0, 0" )
+figure( name=right, file=tube.glb, clip=bend, speed=-0.7, phase=0.3, position="2, 0, 0" )
+object( name=hall, file=pavilion.glb, position="1, 2.5, 0" )
+timer( period=0.1, eventmessage="timesup, walker, layer bend weight 0.6 fade 0.1",
+       eventmessage="timesup, right, opacity 0.4, 0.05", eventmessage="timesup, hall/roof, tint 0.2 1 0.3, 0.05",
+       eventmessage="timesup, hall/roof, opacity 0.5, 0.1", eventmessage="timesup, right, play lift fade 0.2, 0.1",
+       eventmessage="timesup, walker, unlayer bend fade 0.1, 0.2", eventmessage="timesup, hall/roof, reset, 0.2" )
+)";
+
+TEST(ClusterFigures, FourMachinesShowWhatOneShows) {
+  const TestFolder folder;
+  folder.write("tube.glb", test::strollingTube().glb());
+  folder.write("pavilion.glb", pavilion().glb());
+  folder.write("box.obj", "v 0 0 0\nv 1 0 0\nv 1 0 1\nv 0 0 1\nv 0 1 0\nv 1 1 0\nv 1 1 1\nv 0 1 1\n"
+                          "f 1 2 3 4\nf 6 5 8 7\nf 5 1 4 8\nf 2 6 7 3\nf 4 3 7 8\nf 5 6 2 1\n");
+  const std::string script = folder.write("show.evs", kShow);
+  const std::string out = folder.path() / "four", one = folder.path() / "one";
+  const std::vector<std::string> same{"--size",     "48x36", "--frames",   "32",
+                                      "--pictures", "4",     "--renderer", "cpu"};
+  std::vector<std::string> cluster{"cluster", fourNodes(folder), script, "--out", out},
+      alone{"run", script, "--walls", "cave4", "--out", one};
+  cluster.insert(cluster.end(), same.begin(), same.end());
+  alone.insert(alone.end(), same.begin(), same.end());
+  const ProgramResult r = stadionProgram(cluster);
+  ASSERT_EQ(r.status, 0) << r.out << r.err;
+  const ProgramResult by = stadionProgram(alone);
+  ASSERT_EQ(by.status, 0) << by.err;
+  const auto wanted = picturesIn(one);
+  EXPECT_GE(wanted.size(), 64U);
+  EXPECT_EQ(picturesIn(out), wanted);
+  std::set<std::string> different;
+  for (const auto& [name, bytes] : wanted) different.insert(bytes);
+  EXPECT_GT(different.size(), 40U) << "it moves";
+  for (const char* node : {"front", "left", "right", "floor"})
+    EXPECT_EQ(summaryOf(out + "/" + node)["state_hash"], summaryOf(one)["state_hash"]) << node;
+}
+
+}  // namespace
+}  // namespace stadion
