@@ -15,7 +15,7 @@ std::vector<std::string> modelsBelow(const fs::path& folder) {
     std::error_code ignored;
     if (at->is_symlink(ignored) || !at->is_regular_file(ignored)) continue;
     const std::string name = at->path().lexically_relative(folder).string();
-    if (formatOf(name) || refusedFormat(name)) names.push_back(name);
+    if (formatOf(name) || radianceFormatOf(name) || refusedFormat(name)) names.push_back(name);
   }
   std::sort(names.begin(), names.end());
   return names;
@@ -38,9 +38,9 @@ Result<AssetCounts> checkAssets(const fs::path& importerProgram, const fs::path&
   for (const std::string& name : single ? std::vector{place.filename().string()} : modelsBelow(folder)) {
     AssetFinding finding;
     finding.file = name;
-    const bool readable = formatOf(name) != nullptr;
+    const bool isEnvironment = radianceFormatOf(name).has_value(), readable = isEnvironment || formatOf(name);
     ImportOptions options;
-    options.form = ModelForm::Either;
+    options.form = isEnvironment ? ModelForm::Environment : ModelForm::Either;
     auto mesh = importer.load(name, options, {name, 0, 0}, &finding.losses, &finding.inventory);
     finding.verdict = mesh ? AssetVerdict::Loaded : readable ? AssetVerdict::Failed : AssetVerdict::Refused;
     if (mesh)

@@ -114,6 +114,17 @@ const FormatInfo* formatOf(std::string_view fileName) {
   return at == kFormats.end() ? nullptr : &*at;
 }
 
+std::optional<RadianceFormat> radianceFormatOf(std::string_view fileName) {
+  const std::string extension = extensionOf(fileName);
+  if (extension == "hdr") return RadianceFormat::Hdr;
+  if (extension == "exr") return RadianceFormat::Exr;
+  return std::nullopt;
+}
+
+std::string radianceFormats() {
+  return "Radiance HDR (.hdr) and OpenEXR (.exr)";
+}
+
 std::optional<std::string> refusedFormat(std::string_view fileName) {
   const std::string extension = extensionOf(fileName);
   const auto at = std::find_if(std::begin(kRefused), std::end(kRefused),

@@ -44,9 +44,10 @@ struct FormatInfo {
 
 /// What is made of a model.
 enum class ModelForm : std::uint8_t {
-  Object,  ///< a mesh of fixed form
-  Figure,  ///< a mesh with skeleton and clips
-  Either,  ///< a figure if the file has skins or clips
+  Object,       ///< a mesh of fixed form
+  Figure,       ///< a mesh with skeleton and clips
+  Either,       ///< a figure if the file has skins or clips
+  Environment,  ///< light from all around, from a picture
 };
 
 /// What is made of the nodes of an object's file. A node is named by its path, "roof" or "roof/lamp": each name is that
@@ -70,6 +71,15 @@ struct ImportOptions {
 
 /// By the extension of the file's name, in either case; nullptr if it is not a format for shows.
 const FormatInfo* formatOf(std::string_view fileName);
+
+/// The formats of pictures of surroundings, which nodes of the type `environment` read.
+enum class RadianceFormat : std::uint8_t { Hdr, Exr };
+
+/// By the extension of the file's name, in either case; nothing if it is no such format.
+std::optional<RadianceFormat> radianceFormatOf(std::string_view fileName);
+
+/// "Radiance HDR (.hdr) and OpenEXR (.exr)", for messages.
+std::string radianceFormats();
 
 /// The name of a 3D format that is recognised in order to be refused ("Blender"), or nothing.
 std::optional<std::string> refusedFormat(std::string_view fileName);

@@ -13,6 +13,12 @@ using Outcome = Result<std::unique_ptr<Mesh>>;
 using End = ImporterProcess::End;
 
 std::string faultOf(const std::string& name, const ImportOptions& options) {
+  if (options.form == ModelForm::Environment) {
+    if (radianceFormatOf(name)) return {};
+    return "\"" + name + "\" is no picture of surroundings; use " + radianceFormats();
+  }
+  if (radianceFormatOf(name))
+    return "\"" + name + "\" is a picture of surroundings, not a model; an environment takes it";
   if (!formatOf(name)) {
     const auto known = refusedFormat(name);
     return "\"" + name + "\" is " +

@@ -5,6 +5,7 @@
 /// Threads  immutable after import: shared by App, every Cull and every Draw without locks.
 
 #include "engine/asset/material.h"
+#include "engine/environment/environment_light.h"
 #include "engine/figure/morph.h"
 #include "engine/figure/skeleton.h"
 #include "engine/maths/maths.h"
@@ -83,6 +84,8 @@ struct Mesh {
   std::string name;                  ///< the file it came from
   /// Simplified surfaces, each with fewer triangles and a greater error than the one before.
   std::vector<MeshLevel> levels;
+  /// Light from all around; null: it is a model. Such a mesh has no triangles.
+  std::shared_ptr<const EnvironmentLight> environment;
   bool standIn = false;  ///< drawn in place of an asset that could not be loaded
 
   /// Returns true if something of it is seen through.

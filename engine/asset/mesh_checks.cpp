@@ -155,6 +155,12 @@ std::uint64_t contentHash(const Mesh& mesh) {
   if (mesh.skeleton) addSkeleton(mesh, hash);
   addLightsAndCameras(mesh, hash);
   if (mesh.place.matrix() != Affine::Identity().matrix()) addMatrix(mesh.place, hash);
+  if (mesh.environment) {
+    hash.add(std::uint64_t{20} << 32 | mesh.environment->pictureSide);
+    for (const Radiance& harmonic : mesh.environment->harmonics)
+      for (const float c : harmonic) hash.add(c);
+    hash.add(mesh.environment->texels);
+  }
   return hash.value();
 }
 

@@ -18,7 +18,8 @@ constexpr std::uint32_t kVersion = 7;
 struct Head {
   std::uint32_t magic, version;
   std::uint32_t vertices, indices, submeshes, materials, textures;
-  std::uint32_t hasUvs, hasSecondUvs, hasTangents, hasColours, hasSkeleton, morphs, lights, cameras, unused;
+  std::uint32_t hasUvs, hasSecondUvs, hasTangents, hasColours, hasSkeleton, morphs, lights, cameras,
+      hasEnvironment;
   double place[12];  ///< columns
 };
 
@@ -274,6 +275,17 @@ void putLightsAndCameras(const Mesh& mesh, ValueWriter& out) {
   }
 }
 
+bool readEnvironment(ValueReader& in, const Head& head, Mesh& mesh) {
+  if (!head.hasEnvironment) return true;
+  auto light = std::make_shared<EnvironmentLight>();
+  if (!in.get(light->harmonics) || !in.get(light->pictureSide)) return false;
+  if (light->pictureSide > EnvironmentLight::kMostPicture) return false;
+  if (!in.get(light->texels, EnvironmentLight::sizeWith(light->pictureSide)) || !light->isSound())
+    return false;
+  mesh.environment = std::move(light);
+  return true;
+}
+
 // The submeshes cover the indices in order, without gap or overlap.
 const char* faultOf(const Mesh& mesh) {
   if (!finite(mesh.positions) || !finite(mesh.uvs) || !finite(mesh.secondUvs) || !finite(mesh.tangents))
@@ -316,7 +328,7 @@ Head headOf(const Mesh& mesh) {
             count(mesh.morphs),
             count(mesh.lights),
             count(mesh.cameras),
-            0,
+            mesh.environment != nullptr,
             {}};
   std::copy_n(mesh.place.data(), 12, head.place);
   return head;
@@ -356,6 +368,11 @@ std::vector<std::uint8_t> encode(const Mesh& mesh) {
     }
   }
   putLightsAndCameras(mesh, out);
+  if (mesh.environment) {
+    out.put(mesh.environment->harmonics);
+    out.put(mesh.environment->pictureSide);
+    out.put(mesh.environment->texels);
+  }
   return std::move(out.bytes);
 }
 
@@ -373,9 +390,10 @@ Result<std::unique_ptr<Mesh>> decode(std::span<const std::uint8_t> bytes, const 
   auto mesh = std::make_unique<Mesh>();
   if (!readGeometry(in, head, *mesh) || !readMaterials(in, head, *mesh) ||
       !readTextures(in, head, limits, *mesh) || !readFigure(in, head, limits, *mesh) ||
-      !readPlace(head, *mesh) || !readLights(in, head, *mesh) || !readCameras(in, head, *mesh) || !in.atEnd())
-    return Decoded::failure(
-        "a mesh that is cut short or has a bad material, texture, skeleton, place, light or camera");
+      !readPlace(head, *mesh) || !readLights(in, head, *mesh) || !readCameras(in, head, *mesh) ||
+      !readEnvironment(in, head, *mesh) || !in.atEnd())
+    return Decoded::failure("a mesh that is cut short or has a bad material, texture, skeleton, place, "
+                            "light, camera or environment");
   if (const char* fault = faultOf(*mesh)) return Decoded::failure(std::string("a mesh with ") + fault);
   return mesh;
 }

@@ -51,7 +51,8 @@ Notification notificationOf(const EventMessage& m, const NodeRegistry& types) {
     n.arguments = {std::string(kAttachPartNames[static_cast<std::size_t>(m.part)])};
   if (!m.field.name.empty()) n.arguments.push_back(std::string(m.field.name));
   if (argument == ArgumentKind::Words) n.arguments.push_back(unescaped(m.words));
-  if (argument == ArgumentKind::Colour || argument == ArgumentKind::Share) n.arguments = wordsOf(m.words);
+  if (argument == ArgumentKind::Colour || argument == ArgumentKind::Share || argument == ArgumentKind::Faded)
+    n.arguments = wordsOf(m.words);
   if (!m.tracker.empty()) n.arguments.push_back(std::string(m.tracker));
   return n;
 }
@@ -290,6 +291,7 @@ private:
                               findings_,
                               input_.services,
                               soundLengthOf(d),
+                              d.is(Trait::Surroundings) && d.has("file") ? input_.meshes(d) : kNoMesh,
                               childrenOf(d)};
     std::unique_ptr<Node> node = request.type().make(request);
     if (!node) return;

@@ -6,6 +6,10 @@ namespace stadion {
 
 ImportOptions importOptionsOf(const Declaration& d) {
   ImportOptions options;
+  if (d.is(Trait::Surroundings)) {
+    options.form = ModelForm::Environment;
+    return options;
+  }
   options.unit = d.optionalNumber("unit");
   options.up = d.optionalChoice<UpAxis>("up");
   options.form = d.is(Trait::Figure) ? ModelForm::Figure : ModelForm::Object;

@@ -6,7 +6,7 @@
 
 namespace stadion {
 
-/// Expects a type with Trait::Model or Trait::Figure.
+/// Expects a type with Trait::Model, Trait::Figure or Trait::Surroundings.
 ImportOptions importOptionsOf(const Declaration& d);
 
 /// Where to point at if the model cannot be loaded: at the name of a part, else at the file.

@@ -36,6 +36,7 @@ struct NodeRequest {
   Diagnostics& findings;
   NodeServices& services;
   Nanoseconds soundLength = 0;      ///< length of the sound; for types with Trait::Sound [ns]
+  MeshId surroundings = kNoMesh;    ///< of the picture, if one was stated and read; for Trait::Surroundings
   std::vector<NodeRef> children{};  ///< children with Trait::Level, in the order of the file
 
   const NodeType& type() const { return declaration.type().type(); }

@@ -49,10 +49,11 @@ enum class Trait : std::uint8_t {
   Figure,    ///< has a model file with bones and clips, which is drawn
   Field,     ///< a force field: may be hooked to a body
   Collides,  ///< tests colliders against collidees
-  OwnsBodies,  ///< moves its collidees
-  Degradable,  ///< may run its cycle less often to save time
-  Encloses,    ///< loads a file of its own
-  Sound,       ///< has a sound file
+  OwnsBodies,    ///< moves its collidees
+  Degradable,    ///< may run its cycle less often to save time
+  Encloses,      ///< loads a file of its own
+  Sound,         ///< has a sound file
+  Surroundings,  ///< may have a picture of surroundings, which give light
 };
 
 class TraitSet {
@@ -140,6 +141,7 @@ enum class ArgumentKind : std::uint8_t {
   Words,           ///< the rest of the command, any text without commas
   Colour,          ///< R G B, each from 0 to 1 (sRGB)
   Share,           ///< a number from 0 to 1
+  Faded,           ///< a number, and `fade` with a time if it is reached slowly
 };
 
 struct CommandSpec {

@@ -9,9 +9,9 @@
 namespace stadion {
 namespace {
 
-constexpr double kShortest = 0.5;      ///< from the middle to the pose ahead [m]
-constexpr double kSteepest = 0.2;      ///< height over distance of a floor
-constexpr double kFarthestEyes = 0.5;  ///< from their sensor [m]
+constexpr double kShortestAhead = 0.5;  ///< from the middle to the pose ahead [m]
+constexpr double kSteepest = 0.2;       ///< height over distance of a floor
+constexpr double kFarthestEyes = 0.5;   ///< from their sensor [m]
 
 }  // namespace
 
@@ -32,11 +32,11 @@ Result<RigFile> calibrateRoom(RigFile rig, const Pose& middle, const Pose& ahead
   const Vec3 from = rig.levelled(middle).p, way = rig.levelled(ahead).p - from;
   const double distance = way.head<2>().norm();
   if (!from.allFinite() || !way.allFinite()) return Result<RigFile>::failure("a pose is not finite");
-  if (distance < kShortest)
+  if (distance < kShortestAhead)
     return Result<RigFile>::failure(
         fmt::format("the two marks are {:.2f} m apart, seen from above; they must be at least {} m apart (is "
                     "\"up\" or \"unit\" of the rig file wrong?)",
-                    distance, kShortest));
+                    distance, kShortestAhead));
   if (std::fabs(way.z()) > kSteepest * distance)
     return Result<RigFile>::failure(fmt::format(
         "one mark is {:.2f} m higher than the other; is \"up\" of the rig file wrong?", std::fabs(way.z())));

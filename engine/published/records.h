@@ -82,10 +82,34 @@ struct LightRecord {
   NodeRef owner;          ///< the light node; invalid: the sun of shows without lights
 };
 
+/// Light from all around, in place of a sky's `ambient`.
+struct EnvironmentRecord {
+  std::uint32_t lit = 0;         ///< 0: there is none, and the sky's `ambient` lights
+  MeshId picture = kNoMesh;      ///< whose Mesh::environment it is; none: the light of the sky's own colours
+  std::uint32_t background = 0;  ///< 1: the picture is seen behind everything
+  float intensity = 1;
+  float turnCos = 1, turnSin = 0;  ///< it is turned about Z, counter-clockwise seen from above
+};
+
+/// How light becomes a picture's colours.
+enum class ToneCurve : std::uint32_t {
+  Soft,     ///< up to 0.8 as it is, above bent towards 1
+  Clamp,    ///< cut at 1
+  Neutral,  ///< Khronos PBR Neutral
+  Aces,     ///< the film curve of ACES, as fitted by Narkowicz
+};
+
+struct TonesRecord {
+  float exposure = 1;  ///< what light is multiplied with before the curve
+  ToneCurve curve = ToneCurve::Soft;
+};
+
 struct SkyRecord {
   float zenith[3] = {0.18f, 0.36f, 0.72f}, horizon[3] = {0.66f, 0.76f, 0.85f},
         ground[3] = {0.28f, 0.26f, 0.22f}, ambient[3] = {0.25f, 0.27f, 0.30f};
   float haze = 0;  ///< [m], 0 = none
+  EnvironmentRecord environment;
+  TonesRecord tones;
 };
 
 /// Where the visitor is.

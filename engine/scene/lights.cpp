@@ -67,6 +67,13 @@ void Lights::removeSky(NodeRef node) {
   std::erase_if(skies_, [&](const Sky& s) { return s.node == node; });
 }
 
+SkyRecord Lights::skyRecord() const {
+  SkyRecord sky = skies_.empty() ? SkyRecord{} : skies_.back().record;
+  sky.environment = environments_.last([](const EnvironmentRecord& e) { return e.lit != 0; });
+  sky.tones = tones_.last([](const TonesRecord&) { return true; });
+  return sky;
+}
+
 void Lights::findWanted() {
   wanted_.clear();
   for (std::size_t i = 0; i < lights_.size(); ++i)
@@ -148,7 +155,7 @@ void Lights::stateOfLights(StateFields& f) {
 }
 
 void Lights::stateOfSkies(StateFields& f) {
-  f("skies", skies_);
+  f("skies", skies_), f("environments", environments_), f("tones", tones_);
 }
 
 bool Lights::consistent() const {

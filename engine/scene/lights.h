@@ -1,5 +1,5 @@
 #pragma once
-/// The lights and the sky of a scene, and which of them are published.
+/// The lights, the sky, environments and tones of a scene, and which of them are published.
 ///
 /// At most kMostLights shine at a time: the brightest at the visitor's head, among equals the first node. If
 /// more are on, the author is warned once.
@@ -13,6 +13,7 @@
 #include "engine/scene/placements.h"
 #include "engine/scene/scene_tree.h"
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -20,6 +21,43 @@
 #include <vector>
 
 namespace stadion {
+
+/// Records of nodes of which only the last one counts; when it leaves, the one before returns.
+template <class Record>
+class LastRecords {
+public:
+  void add(NodeRef node, const Record& record) { all_.push_back({node, record}); }
+  void set(NodeRef node, const Record& record) {
+    for (Entry& e : all_)
+      if (e.node == node) e.record = record;
+  }
+  void remove(NodeRef node) {
+    std::erase_if(all_, [&](const Entry& e) { return e.node == node; });
+  }
+  /// The last record for which `counts` is true; else the standard one.
+  template <class Counts>
+  Record last(const Counts& counts) const {
+    const auto at =
+        std::find_if(all_.rbegin(), all_.rend(), [&](const Entry& e) { return counts(e.record); });
+    return at == all_.rend() ? Record{} : at->record;
+  }
+  template <class Self, class Fields>
+  static void fields(Self& self, Fields& f) {
+    f("nodes", self.all_);
+  }
+
+private:
+  struct Entry {
+    NodeRef node;
+    Record record;
+
+    template <class Self, class Fields>
+    static void fields(Self& e, Fields& f) {  // the node restores the rest
+      f("node", e.node);
+    }
+  };
+  std::vector<Entry> all_;  ///< in the order in which their nodes entered
+};
 
 class Lights {
 public:
@@ -38,6 +76,9 @@ public:
   void addSky(NodeRef node, const SkyRecord& sky) { skies_.push_back({node, sky}); }
   void setSky(NodeRef node, const SkyRecord& sky);
   void removeSky(NodeRef node);
+  /// Of several environments that are lit, the last one counts.
+  LastRecords<EnvironmentRecord>& environments() { return environments_; }
+  LastRecords<TonesRecord>& tones() { return tones_; }
   /// The node whose sky is seen: the last one; invalid: the standard sky.
   NodeRef sky() const { return skies_.empty() ? NodeRef{} : skies_.back().node; }
 
@@ -52,7 +93,7 @@ public:
   bool due() const { return changed_ || !shining_.empty(); }
   /// Publishes all lights that shine, if they changed. The head is at p_WH.
   void publish(const Vec3& p_WH, ChangeSet& changes);
-  SkyRecord skyRecord() const { return skies_.empty() ? SkyRecord{} : skies_.back().record; }
+  SkyRecord skyRecord() const;
 
   void stateOfLights(StateFields& f);
   void stateOfSkies(StateFields& f);
@@ -98,6 +139,8 @@ private:
   std::vector<std::pair<double, std::size_t>> brightest_;
   bool warned_ = false;     ///< a warning of too many lights has been given
   std::vector<Sky> skies_;  ///< the last one is seen
+  LastRecords<EnvironmentRecord> environments_;
+  LastRecords<TonesRecord> tones_;
 };
 
 }  // namespace stadion

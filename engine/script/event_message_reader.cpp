@@ -6,6 +6,8 @@
 #include "engine/text/text_mesh.h"
 #include "engine/unicode/characters.h"
 
+#include <cmath>
+
 #include <fmt/format.h>
 
 namespace stadion {
@@ -150,6 +152,39 @@ Failure readShares(std::string_view& rest, std::size_t& offset, std::size_t coun
   return std::nullopt;
 }
 
+/// A number, or "NUMBER fade SECONDS".
+Failure readFaded(std::string_view& rest, std::size_t& offset, ReadMessage& message) {
+  message.words = takeUntil('\0', rest, offset);
+  std::string_view left = message.words.text;
+  std::size_t at = message.words.offset;
+  const Piece number = takeWord(left, at), word = takeWord(left, at), time = takeWord(left, at);
+  const auto readOne = [&](const Piece& piece, const std::string& what, NumberList& numbers) -> Failure {
+    auto failure = readNumbers(piece.text, numbers, what, "one number");
+    if (!failure && numbers.count != 1)
+      failure = ValueError{0, fmt::format("{} must be followed by one number", what)};
+    if (failure) failure->offset += piece.offset;
+    return failure;
+  };
+  NumberList numbers;
+  if (auto failure = readOne(number, fmt::format("\"{}\"", message.spec->name), numbers)) return failure;
+  constexpr double kMost = 1e6;
+  if (std::abs(numbers.value[0]) > kMost)
+    return ValueError{number.offset, fmt::format("\"{}\" is beyond all limits", number.text)};
+  if (word.text.empty()) return std::nullopt;
+  if (word.text != "fade")
+    return ValueError{word.offset, fmt::format("\"{}\" is too much: the command is \"{}\"",
+                                               shortened(word.text), message.spec->form)};
+  if (auto failure = readOne(time, "\"fade\"", numbers)) return failure;
+  if (!(numbers.value[0] >= 0 && numbers.value[0] <= kLongestDelay))
+    return ValueError{time.offset,
+                      fmt::format("a fade takes from 0 to {} s, not {}", kLongestDelay, numbers.value[0])};
+  const Piece extra = takeWord(left, at);
+  if (!extra.text.empty())
+    return ValueError{extra.offset, fmt::format("\"{}\" is too much: the command is \"{}\"",
+                                                shortened(extra.text), message.spec->form)};
+  return std::nullopt;
+}
+
 Failure readArguments(std::string_view& rest, std::size_t& offset, ReadMessage& message) {
   switch (message.spec->argument) {
   case ArgumentKind::None: return std::nullopt;
@@ -158,6 +193,7 @@ Failure readArguments(std::string_view& rest, std::size_t& offset, ReadMessage& 
   case ArgumentKind::Words: return readWords(rest, offset, message);
   case ArgumentKind::Colour: return readShares(rest, offset, 3, message);
   case ArgumentKind::Share: return readShares(rest, offset, 1, message);
+  case ArgumentKind::Faded: return readFaded(rest, offset, message);
   case ArgumentKind::PartAndTracker:
     if (auto failure = readPart(rest, offset, message)) return failure;
     return readTracker(rest, offset, message);

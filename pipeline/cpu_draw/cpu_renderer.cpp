@@ -41,7 +41,8 @@ ViewParameters viewParameters(const ViewBlock& block, std::uint32_t width, std::
 }  // namespace
 
 CpuRoom::CpuRoom(const MeshStore& store, Look look, DrawPool& pool, const DrawKernels& kernels)
-    : kernels_(kernels), pool_(pool), meshes_(store, look), paints_(look), shadows_(kernels) {}
+    : kernels_(kernels), pool_(pool), meshes_(store, look), paints_(look), shadows_(kernels),
+      environments_(store) {}
 
 CpuRoom::CpuRoom(const MeshStore& store, Look look, DrawPool& pool)
     : CpuRoom(store, look, pool, bestDrawKernels()) {}
@@ -86,8 +87,14 @@ void CpuRenderer::drawWhole(const DrawList& list, const std::function<bool()>& g
     shadows = room_.shadows().find(list.shadows, meshesOf(list), room_.pool());
   }
   stopIf(giveUp);
-  const SceneParameters scene =
-      sceneParameters(fillScene(list.sky, list.lights, drawing_.look, shadowed ? list.shadows.light : -1));
+  const auto surroundings = room_.environments().find(list.sky);
+  SceneParameters scene = sceneParameters(fillScene(list.sky, list.lights, drawing_.look,
+                                                    shadowed ? list.shadows.light : -1, surroundings.get()));
+  EnvironmentParameters environment{};
+  if (surroundings && drawing_.look == Look::Full) {
+    environment = environmentParameters(list.sky.environment, *surroundings, drawing_.reflections);
+    scene.environment = &environment;
+  }
   const ShadowParameters shadow =
       shadows ? shadows->parameters(list.shadows, drawing_.shadowTaps) : ShadowParameters{};
   {

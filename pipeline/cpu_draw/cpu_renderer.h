@@ -23,6 +23,7 @@
 #include "pipeline/draw_list/renderer.h"
 #include "pipeline/platform/draw_pool.h"
 #include "pipeline/shader/look.h"
+#include "pipeline/surface/environment_lights.h"
 
 #include <cstdint>
 #include <memory>
@@ -44,6 +45,7 @@ public:
   PosedMeshes& poses() { return poses_; }
   MeshPaints& paints() { return paints_; }
   ShadowStore& shadows() { return shadows_; }
+  EnvironmentLights& environments() { return environments_; }
   BandMemory& bands() { return bands_; }
 
 private:
@@ -53,6 +55,7 @@ private:
   PosedMeshes poses_;
   MeshPaints paints_;
   ShadowStore shadows_;
+  EnvironmentLights environments_;
   BandMemory bands_;
 };
 

@@ -83,7 +83,7 @@ void setLights(const SlotView& state, DrawList& out) {
 /// In front of a sky without light and without a sun.
 void makeBlack(DrawList& out) {
   out.lights.clear();
-  out.sky = {{0, 0, 0}, {0, 0, 0}, {0, 0, 0}, {0, 0, 0}, 0};
+  out.sky = {{0, 0, 0}, {0, 0, 0}, {0, 0, 0}, {0, 0, 0}, 0, {}, {}};
 }
 
 void setSky(const SkyRecord& sky, DrawList& out) {
@@ -95,6 +95,8 @@ void setSky(const SkyRecord& sky, DrawList& out) {
   copy(sky.ground, out.sky.ground);
   copy(sky.ambient, out.sky.ambient);
   out.sky.hazeDistance = sky.haze;
+  out.sky.environment = sky.environment;
+  out.sky.tones = sky.tones;
 }
 
 /// Bits of the views whose pictures are for that eye.

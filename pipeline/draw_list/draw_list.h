@@ -55,6 +55,8 @@ struct DrawSky {
   std::array<float, 3> ground{0.28f, 0.26f, 0.22f};   ///< linear, below the horizon
   std::array<float, 3> ambient{0.25f, 0.27f, 0.30f};  ///< linear, light from everywhere
   float hazeDistance = 0;                             ///< where 63 % is haze [m]; 0 = none
+  EnvironmentRecord environment{};
+  TonesRecord tones{};
 };
 
 constexpr std::uint32_t kShadowTexels = 1024;  ///< a side of a ring of the shadow maps

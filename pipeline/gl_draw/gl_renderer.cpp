@@ -41,7 +41,7 @@ GlRenderer::GlRenderer(const GlTable& gl, std::mutex& turns, const MeshStore& me
 /// Builds what every list needs. Returns why that failed, or nothing.
 std::optional<Diagnostic> GlRenderer::build() {
   if (auto why = scene_.surfaces().build()) return why;
-  auto sky = SkyPass::create(gl_, scene_, look_);
+  auto sky = SkyPass::create(gl_, scene_, look_, problems_);
   if (!sky) return sky.error();
   sky_ = std::move(sky.value());
   return buffers_.check();

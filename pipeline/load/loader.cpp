@@ -18,9 +18,9 @@ namespace {
 
 constexpr std::size_t kDeepestNesting = 16;
 
-/// The levels of a figure would have to be simplified in all its poses.
+/// The levels of a figure would have to be simplified in all its poses. Surroundings have no triangles.
 double levelsOf(const Declaration& d) {
-  return d.is(Trait::Figure) ? 0 : d.number("levels");
+  return d.is(Trait::Figure) || d.is(Trait::Surroundings) ? 0 : d.number("levels");
 }
 
 }  // namespace
@@ -269,7 +269,8 @@ MeshId Loader::Imports::of(const Declaration& d, Loader& loader, Diagnostics& fi
   const Key key(d.text("file"), options.unit.value_or(0), options.up ? static_cast<int>(*options.up) : -1,
                 levelsOf(d), d.is(Trait::Figure), textOf(options.nodes));
   const auto [at, isNew] = known.try_emplace(key, kNoMesh);
-  if (isNew) counted.push_back(at->second = loader.importMesh(d, options, findings));
+  if (isNew) at->second = loader.importMesh(d, options, findings);
+  if (isNew && at->second != kNoMesh) counted.push_back(at->second);
   return at->second;
 }
 
@@ -303,8 +304,10 @@ MeshId Loader::importMesh(const Declaration& d, const ImportOptions& options, Di
   Diagnostic missing = mesh.error();
   missing.excerpt = d.excerpt(blamed);
   missing.severity = Severity::Warning;
-  missing.message += "; a stand-in is shown in its place";
+  const bool lights = options.form == ModelForm::Environment;
+  missing.message += lights ? "; the show's sky lights in its place" : "; a stand-in is shown in its place";
   findings.add(missing);
+  if (lights) return kNoMesh;
   return parts_.meshes.add(standIn(file));
 }
 

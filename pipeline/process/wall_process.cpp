@@ -169,6 +169,7 @@ void WallProcess::readPictures() {
 ListNews WallProcess::newsFor(const DrawList& list) {
   ListNews news;
   forgetFreed(news);
+  if (list.sky.environment.picture != kNoMesh) add(list.sky.environment.picture, news);
   MeshId last = kNoMesh;
   const auto addAll = [&](const std::vector<DrawItem>& items) {
     for (const DrawItem& item : items)

@@ -52,6 +52,8 @@ struct RenderQuality {
   /// bytes. The picture does not depend on it.
   std::uint32_t mostFragments = 1U << 21;
 
+  bool reflections = true;  ///< shiny surfaces mirror an environment's maps; else its harmonics alone
+
   GlSubmission submission{};
 
   static constexpr RenderQuality plain() { return {Look::Plain, 1}; }

@@ -1,5 +1,6 @@
 #include "pipeline/shader/shaders.h"
 
+#include "pipeline/shader/environment_text.h"
 #include "pipeline/shader/surface_text.h"
 
 namespace stadion {
@@ -350,6 +351,9 @@ out vec4 shown;
 void main() {
   vec3 d = normalize(ray);
   vec3 c;
+#ifdef PICTURED
+  c = backgroundAt(d);
+#else
   if (d.z >= 0.0) {
     float off = max(1.0 - dot(d, sunDirection.xyz), 0.0);
     c = air(d) + sunColour.rgb * (3.0 * sunDirection.w * (1.0 - smoothstep(6.0e-5, 9.0e-5, off)));
@@ -357,7 +361,8 @@ void main() {
     // An endless plain in thin haze: near the horizon one looks through ever more of it.
     c = mix(air(d), ground.rgb, exp2(0.03 / min(d.z, -1e-4)));
   }
-  shown = encoded(softClip(c));
+#endif
+  shown = encoded(toned(c));
 }
 )";
 
@@ -379,6 +384,9 @@ std::string definitions(const SurfaceTraits& traits) {
   if (traits.pictured()) text += "#define PICTURES\n";
   if (traits.pictured() && traits.ownPlaces) text += "#define OWN_PLACES\n";
   if (traits.indirect) text += "#define INDIRECT\n";
+  if (traits.surroundings != Surroundings::None)
+    text += "#define ENVIRONMENT " + std::to_string(static_cast<int>(traits.surroundings)) + "\n";
+  if (traits.tones > 0) text += "#define TONES " + std::to_string(traits.tones) + "\n";
   text += "#define LIGHTS " +
           (traits.lights < 0 ? std::string("lightCount.x") : std::to_string(traits.lights)) + "\n";
   return text;
@@ -401,7 +409,8 @@ std::string surfaceVertexShader(const SurfaceTraits& traits) {
 std::string surfaceFragmentShader(const SurfaceTraits& traits) {
   return versionOf(traits) + definitions(traits) + "#define IO in\n" + kBlocks +
          (traits.indirect ? kDrawMaterialFragment : kMaterial) + kKeepFragment + kTexels +
-         (traits.look == Look::Plain ? kPlainFragment : kSurfaceFragment);
+         (traits.look == Look::Plain ? std::string(kPlainFragment)
+                                     : std::string(kTonesText) + kEnvironmentText + kSurfaceFragment);
 }
 
 std::string shadowVertexShader(const SurfaceTraits& traits) {
@@ -417,8 +426,12 @@ std::string skyVertexShader() {
   return std::string(kVersion) + kBlocks + kSkyVertex;
 }
 
-std::string skyFragmentShader(Look look) {
-  return std::string(kVersion) + kBlocks + (look == Look::Plain ? kPlainSkyFragment : kSkyFragment);
+std::string skyFragmentShader(Look look, int tones, bool pictured) {
+  if (look == Look::Plain) return std::string(kVersion) + kBlocks + kPlainSkyFragment;
+  std::string text = kVersion;
+  if (tones > 0) text += "#define TONES " + std::to_string(tones) + "\n";
+  if (pictured) text += "#define ENVIRONMENT 2\n#define PICTURED\n";
+  return text + kBlocks + kTonesText + kEnvironmentText + kSkyFragment;
 }
 
 }  // namespace stadion

@@ -6,11 +6,13 @@
 ///              shadowing in Schlick's form and Schlick's Fresnel term.
 /// Ambient      a face looking up receives `ambient`, one looking down `ambient` x (0.3 + `ground`), others
 ///              in between in proportion to their normal's z.
-/// Range        radiance up to 0.8 is shown as it is; above, it approaches 1 smoothly (softClip).
+/// Range        radiance up to 0.8 is shown as it is; above, it approaches 1 smoothly (softClip). A node `tones`
+///              chooses an exposure and other curves (environment_text.h).
 /// sRGB         opaque surfaces and the sky encode it themselves: once a pixel, not once a sample.
 /// Haze         a surface at distance d keeps exp(-d / haze distance) of its colour. The rest is the colour
 ///              of the sky behind it, brighter towards the sun, so that distant surfaces fade into the
 ///              horizon.
+/// Surroundings environment_text.h: an environment takes the place of Ambient.
 /// Maps         roughness and metallic are factor times map. Occlusion dims the light from around alone. The
 ///              normal map's axes are the tangent, square to the interpolated normal, and a bitangent square to
 ///              both that points up in the picture. Without tangents of the file, the tangent is the triangle's
@@ -38,6 +40,9 @@ enum class SurfaceWrites : std::uint8_t {
 /// Number of transparent layers that are blended exactly (glass_layers.h); a multiple of four.
 constexpr int kExactLayers = 32;
 
+/// What gives light from all around (environment_text.h).
+enum class Surroundings : std::uint8_t { None, Harmonics, Maps };
+
 /// The features of a surface program, so that none pays for unused ones. A software rasteriser runs every
 /// line of a fragment shader for every block of pixels that a triangle touches, whatever the branches say.
 struct SurfaceTraits {
@@ -54,6 +59,8 @@ struct SurfaceTraits {
   bool tangents = false;   ///< the mesh has tangents; only with `bumpy`
   bool ownPlaces = false;  ///< maps have texture coordinates of their own
   bool unlit = false;      ///< shows the base colour as it is
+  Surroundings surroundings = Surroundings::None;  ///< what gives light from all around
+  int tones = 0;                                   ///< ToneCurve + 1; 0: the soft curve without an exposure
   Look look = Look::Full;
   /// One of many draws of a call, each with a material of its own (indirect_draws.h). Only with Picture.
   bool indirect = false;
@@ -85,6 +92,7 @@ std::string shadowFragmentShader(const SurfaceTraits& traits = {});
 std::string layerBlendVertexShader();
 std::string layerBlendFragmentShader(bool sampled);
 std::string skyVertexShader();
-std::string skyFragmentShader(Look look);
+/// `tones`: as in SurfaceTraits. `pictured`: the picture of an environment is seen; in the full look.
+std::string skyFragmentShader(Look look, int tones = 0, bool pictured = false);
 
 }  // namespace stadion

@@ -187,6 +187,13 @@ void main() {
   if (!gl_FrontFacing) n = -n;
   float nv = max(dot(n, v), 1e-3);
 
+#ifdef ENVIRONMENT
+  vec3 light = surrounded(base.rgb, roughness, metallic, n, v, nv);
+#ifdef OCCLUDED
+  light *= arrives;
+#endif
+  light += emitted;
+#else
   // A dielectric seen square on shows its diffuse colour alone; towards grazing it mirrors the surroundings.
   float grazing = fifth(1.0 - nv) * (1.0 - roughness) * (1.0 - roughness);
 #ifdef OCCLUDED
@@ -195,6 +202,7 @@ void main() {
 #else
   vec3 light = emitted + diffuse * ambientFrom(n) +
                (mirror * metallic + (1.0 - mirror) * grazing) * ambientFrom(reflect(-v, n));
+#endif
 #endif
 
   float spread = roughness * roughness;
@@ -241,12 +249,12 @@ void main() {
 #ifdef HAZY
   vec3 behind = air(-v);
 #ifdef UNLIT
-  behind = softClip(behind);
+  behind = toned(behind);
 #endif
   light = mix(behind, light, exp2(-1.442695 * distanceSquared * perDistance * ambient.w));
 #endif
 #ifndef UNLIT
-  light = softClip(light);
+  light = toned(light);
 #endif
 #if defined(LAYERED)
   keep(vec4(light, clamp(base.a, 0.0, 1.0)), plane);

@@ -11,9 +11,11 @@ namespace {
 
 constexpr std::array kBlockBindings{GlBinding{"View", kViewBinding}, GlBinding{"Scene", kSceneBinding},
                                     GlBinding{"Material", kMaterialBinding},
-                                    GlBinding{"Shadow", kShadowBinding}};
+                                    GlBinding{"Shadow", kShadowBinding},
+                                    GlBinding{"Environment", kEnvironmentBinding}};
 constexpr std::array kTextureBindings{GlBinding{"baseTexture", kMapUnits[kBaseMap]},
                                       GlBinding{"shadowMap", kShadowUnit},
+                                      GlBinding{"environmentMap", kEnvironmentUnit},
                                       GlBinding{"glowTexture", kMapUnits[kEmissiveMap]},
                                       GlBinding{"finishTexture", kMapUnits[kMetallicRoughnessMap]},
                                       GlBinding{"normalTexture", kMapUnits[kNormalMap]},
@@ -39,6 +41,41 @@ Float4 reversed(const std::array<float, 3>& v, float w) {
   const float length = std::sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
   if (!(length > 0) || !std::isfinite(length)) return {0, 0, 1, w};
   return {-v[0] / length, -v[1] / length, -v[2] / length, w};
+}
+
+std::array<float, 3> times(std::array<float, 3> linear, float factor) {
+  for (float& c : linear) c *= factor;
+  return linear;
+}
+
+/// The light of a matt face with this normal.
+std::array<float, 3> mattLight(const EnvironmentLight& light, const std::array<float, 3>& n,
+                               float intensity) {
+  std::array<float, 3> out = light.matt(n);
+  for (float& c : out) c = std::max(c * intensity, 0.0f);
+  return out;
+}
+
+/// In the plain look, colours of the sky that stand for the picture behind everything.
+void paintPlainSky(DrawSky& sky, const EnvironmentLight& light) {
+  const float intensity = sky.environment.intensity;
+  sky.zenith = mattLight(light, {0, 0, 1}, intensity);
+  sky.ground = mattLight(light, {0, 0, -1}, intensity);
+  sky.horizon = {0, 0, 0};
+  for (const std::array<float, 3>& n : {std::array<float, 3>{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}})
+    for (std::size_t c = 0; c < 3; ++c) sky.horizon[c] += 0.25f * mattLight(light, n, intensity)[c];
+}
+
+/// What lights and a sky become in the plain look, which has neither an exposure nor an environment of its own.
+void makePlain(DrawSky& sky, std::vector<DrawLight>& lights, const EnvironmentLight* environment) {
+  if (environment) {
+    if (sky.environment.background != 0) paintPlainSky(sky, *environment);
+    constexpr float kMean = 0.28209479f;
+    sky.ambient = times(environment->harmonics[0], std::max(kMean * sky.environment.intensity, 0.0f));
+  }
+  for (auto* colour : {&sky.zenith, &sky.horizon, &sky.ground, &sky.ambient})
+    *colour = times(*colour, sky.tones.exposure);
+  for (DrawLight& light : lights) light.colour = times(light.colour, sky.tones.exposure);
 }
 
 LightBlock fillLight(const DrawLight& light, Look look) {
@@ -105,17 +142,36 @@ bool fillView(const DrawView& eye, ClipDepth clip, ViewBlock& out) {
   return true;
 }
 
-SceneBlock fillScene(const DrawSky& sky, const std::vector<DrawLight>& lights, Look look,
-                     std::int32_t shadowed) {
+SceneBlock fillScene(const DrawSky& from, const std::vector<DrawLight>& shining, Look look,
+                     std::int32_t shadowed, const EnvironmentLight* environment) {
   SceneBlock out{};
+  DrawSky sky = from;
+  std::vector<DrawLight> changed;
+  const bool changes = look == Look::Plain && (environment || sky.tones.exposure != 1);
+  if (changes) makePlain(sky, changed = shining, environment);
+  const std::vector<DrawLight>& lights = changes ? changed : shining;
   out.zenith = colour(sky.zenith, 0, look);
   out.horizon = colour(sky.horizon, 0, look);
   out.ground = colour(sky.ground, 0, look);
   out.ambient = colour(sky.ambient, sky.hazeDistance > 0 ? 1 / sky.hazeDistance : 0, look);
   placeSun(lights, out);
   const std::size_t count = std::min(lights.size(), DrawList::kMaxLights);
-  out.lightCount = {static_cast<std::int32_t>(count), shadowed, 0, 0};
+  out.lightCount = {static_cast<std::int32_t>(count), shadowed, static_cast<std::int32_t>(sky.tones.curve),
+                    0};
+  if (look == Look::Full) out.zenith[3] = finite(sky.tones.exposure);
   for (std::size_t i = 0; i < count; ++i) out.lights[i] = fillLight(lights[i], look);
+  return out;
+}
+
+EnvironmentBlock fillEnvironment(const EnvironmentRecord& record, const EnvironmentLight& light) {
+  constexpr std::array<float, 9> kFactors{0.28209479f, 0.48860251f, 0.48860251f, 0.48860251f, 1.09254843f,
+                                          1.09254843f, 0.31539157f, 1.09254843f, 0.54627422f};
+  EnvironmentBlock out{};
+  const float intensity = std::max(finite(record.intensity), 0.0f);
+  for (std::size_t i = 0; i < kFactors.size(); ++i)
+    out.harmonics[i] = widen(times(light.harmonics[i], kFactors[i] * intensity), 0);
+  out.turn = {finite(record.turnCos), finite(record.turnSin), intensity,
+              record.background != 0 ? static_cast<float>(light.pictureSide) : 0.0f};
   return out;
 }
 

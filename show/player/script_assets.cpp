@@ -96,7 +96,8 @@ private:
     if (!found) return;
     const SourcePosition at = d.where(attr);
     files_.push_back({fmt::format("{}:{}:{}", at.file, at.line, at.column), found.value().path, false});
-    if (!d.is(Trait::Encloses) && !d.is(Trait::Sound)) addNamedBy(found.value().path);
+    if (!d.is(Trait::Encloses) && !d.is(Trait::Sound) && !d.is(Trait::Surroundings))
+      addNamedBy(found.value().path);
   }
 
   void addNamedBy(const std::string& model) {

@@ -271,6 +271,7 @@ TEST(Layering, EachForeignLibraryIsIncludedInFewFiles) {
   for (const std::string& file : assimp)
     EXPECT_TRUE(file.starts_with("engine/asset/importer_program/assimp/")) << file;
   EXPECT_EQ(includersOf("draco/"), Files{"engine/asset/importer_program/gltf/draco_mesh.cpp"});
+  EXPECT_EQ(includersOf("OpenEXR/"), Files{"engine/asset/importer_program/environment/exr_picture.cpp"});
   EXPECT_EQ(includersOf("webp/"), Files{"engine/asset/importer_program/mesh/picture_decoder.cpp"});
 }
 

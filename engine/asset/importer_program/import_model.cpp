@@ -1,6 +1,7 @@
 #include "engine/asset/importer_program/import_model.h"
 
 #include "engine/asset/importer_program/assimp/assimp_reader.h"
+#include "engine/asset/importer_program/environment/import_environment.h"
 #include "engine/asset/importer_program/gltf/gltf_reader.h"
 #include "engine/asset/importer_program/mesh/figure_joints.h"
 #include "engine/asset/importer_program/mesh/geometry.h"
@@ -66,9 +67,16 @@ PictureSource picturesOf(const Request& request) {
           request.head.mesh};
 }
 
+ImportedModel environmentOf(const Request& request) {
+  ImportedModel result;
+  result.mesh = importEnvironment(request.path, contentOf(request), result.inventory);
+  return result;
+}
+
 }  // namespace
 
 ImportedModel importModel(const Request& request) {
+  if (request.head.form == ModelForm::Environment) return environmentOf(request);
   const SourceScene scene = readScene(request);
   ImportedModel result;
   const bool figure = isFigure(scene, request.head.form);

@@ -213,6 +213,18 @@ struct LightParameters {
   int fallsOff;  ///< 1: with the square of the distance
 };
 
+/// Light from all around (engine/environment/environment_light.h). The uniform block has the same numbers.
+struct EnvironmentParameters {
+  static constexpr int kMaps = 8;
+  float harmonics[9][3];  ///< factors of 1, y, z, x, xy, yz, 3zz - 1, xz, xx - yy
+  float turnCos, turnSin, intensity;
+  const unsigned* texels;   ///< of all maps; null: shiny surfaces mirror the harmonics
+  int first[16];            ///< by map: its first texel; eight of them, as in `side`
+  int side[16];             ///< [texels]
+  const unsigned* picture;  ///< what is seen behind everything; null: the sky
+  int pictureSide;
+};
+
 /// Light and air of a frame.
 struct SceneParameters {
   static constexpr int kMostLights = 16;
@@ -221,8 +233,12 @@ struct SceneParameters {
   float sunDirection[3], sunColour[3];
   float sunShare;  ///< 1 if there is a sun, else 0
   int lights;
-  int shadowed;  ///< the light that casts shadows, or -1
-  int steep;     ///< 1: a light falls off with the square of the distance
+  int shadowed;                              ///< the light that casts shadows, or -1
+  int steep;                                 ///< 1: a light falls off with the square of the distance
+  const EnvironmentParameters* environment;  ///< null: `ambient` lights
+  int toned;                                 ///< 1: there is an exposure, or another curve than the soft one
+  int curve;                                 ///< 0 soft, 1 clamp, 2 neutral, 3 aces
+  float exposure;                            ///< what light is multiplied with
   LightParameters light[kMostLights];
 };
 

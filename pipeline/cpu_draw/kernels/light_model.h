@@ -4,7 +4,7 @@
 /// Linkage  internal.
 
 #include "pipeline/cpu_draw/kernels/kernel_data.h"
-#include "pipeline/cpu_draw/kernels/lanes.h"
+#include "pipeline/cpu_draw/kernels/tone_curves.h"
 
 namespace stadion {
 namespace {
@@ -35,13 +35,13 @@ struct LightModel : DrawLanes<By> {
   [[gnu::always_inline]] static inline T air(const T& d, const SceneParameters& s) {
     return airWithoutGlow(d, s) + glow(d, s);
   }
-  [[gnu::always_inline]] static inline F softClip(F c) {
-    if (L::bits(~I(c <= 0.8f)) == 0) return c;
-    const F over = L::most(c - 0.8f, F{}) * 5.0f;
-    return L::least(c, L::all(0.8f)) + 0.2f * over / (1.0f + over);
-  }
+  [[gnu::always_inline]] static inline F softClip(F c) { return ToneCurves<By>::softClip(c); }
   [[gnu::always_inline]] static inline T softClip(const T& c) {
     return {softClip(c.x), softClip(c.y), softClip(c.z)};
+  }
+  /// The colour that light is shown with.
+  [[gnu::always_inline]] static inline T shown(const T& light, const SceneParameters& s) {
+    return s.toned ? ToneCurves<By>::shown(light, s.exposure, s.curve) : softClip(light);
   }
   [[gnu::always_inline]] static inline T ambientFrom(F up, const SceneParameters& s) {
     const T low = T::of(s.ground) + T::of(0.3f);

@@ -28,6 +28,8 @@ struct RunLight : DrawLanes<By> {
   /// Whether runs of this material may be interpolated.
   static bool serves(const FragmentJob& job) {
     constexpr float kNarrowestLobe = 0.35f;
+    if (job.scene->environment && job.material->metallic > 0)
+      return false;  // it mirrors its picture's colours
     return job.runs != 0 && job.material->roughness >= kNarrowestLobe && !job.material->glow.texels &&
            job.scene->steep == 0;
   }
@@ -100,7 +102,8 @@ private:
     I state = I{} + kUnlit;
     typename Light::ShadowPlace place{};
     const SurfaceResponse<By> light(
-        job, {m.roughness, m.metallic}, placed, n, nullptr, [&](const T& where, const T& normal, I reached) {
+        job, {m.roughness, m.metallic}, placed, n, nullptr, nullptr,
+        [&](const T& where, const T& normal, I reached) {
           place = Light::shadowPlace(*job.shadow, where, normal);
           const auto tile = Light::shadowTile(*job.shadow, place);
           const auto either = [](I which, int one, I other) { return By::select(which, I{} + one, other); };

@@ -4,6 +4,7 @@
 /// Linkage  internal.
 
 #include "pipeline/cpu_draw/kernels/light_model.h"
+#include "pipeline/cpu_draw/kernels/surroundings.h"
 
 namespace stadion {
 namespace {
@@ -24,18 +25,20 @@ struct SurfaceResponse : DrawLanes<By> {
     Number roughness, metallic;
   };
 
-  /// `around`: the part of the light from around that arrives; null: all.
+  /// `around`: the part of the light from around that arrives; null: all. `base`: the base colour, if it is
+  /// a metal and there is an environment.
   /// `arriving(placed, n, reached)`: the part of the light of the lamp that casts shadows. It is called only
   /// if its light would reach a fragment.
   template <class Arriving>
   [[gnu::always_inline]] inline SurfaceResponse(const FragmentJob& job, const Finish& m, const T& placed,
-                                                const T& n, const F* around, const Arriving& arriving) {
+                                                const T& n, const F* around, const T* base,
+                                                const Arriving& arriving) {
     const MaterialParameters& material = *job.material;
     const SceneParameters& scene = *job.scene;
     const T away = T::of(job.view->eye) - placed;
     const F squared = L::most(T::dot(away, away), L::all(1e-12f)), perDistance = L::perRoot(squared);
     const T v = away * perDistance;
-    fromAround(m, scene, v, n);
+    scene.environment ? fromEnvironment(m, *scene.environment, v, n, base) : fromAround(m, scene, v, n);
     if (around) by = by * *around, with = with * *around;
     with = with + T::of(material.emissive) * L::all(material.glow.texels ? 0.0f : 1.0f);
     for (int i = 0; i < scene.lights; ++i) addLamp(i, m, scene, placed, v, n, arriving);
@@ -68,6 +71,15 @@ private:
     by =
         Light::ambientFrom(n.z, scene) * everywhere(matt) + reflected * ((m.metallic - grazing) * m.metallic);
     with = reflected * (mirror * m.metallic + (1.0f - mirror) * grazing);
+  }
+
+  [[gnu::always_inline]] inline void fromEnvironment(const Finish& m, const EnvironmentParameters& e,
+                                                     const T& v, const T& n, const T* base) {
+    const F facing = T::dot(n, v);
+    nv_ = L::most(facing, L::all(1e-3f));
+    const T reflected = n * (2.0f * facing) - v;
+    SurroundingLight<By>::respond(e, {everywhere(m.roughness), everywhere(m.metallic), nv_}, n, reflected,
+                                  base, by, with);
   }
 
   template <class Arriving>

@@ -23,8 +23,8 @@ struct SurfaceShading : DrawLanes<By> {
   using Interpolation = SurfaceInterpolation<By, kUniform>;
   static constexpr int kLanes = By::kLanes;
 
-  [[gnu::always_inline]] static inline Colour encodable(const T& light, F alpha) {
-    const T c = Light::softClip(light);
+  [[gnu::always_inline]] static inline Colour encodable(const FragmentJob& job, const T& light, F alpha) {
+    const T c = Light::shown(light, *job.scene);
     return {{c.x, c.y, c.z, L::clamp(alpha)}};
   }
 
@@ -32,10 +32,25 @@ struct SurfaceShading : DrawLanes<By> {
   [[gnu::always_inline]] static inline Colour shadeBatch(const FragmentJob& job, const Batch& b) {
     const MaterialParameters& m = *job.material;
     const Interpolation<kUniform> at(job, b);
+    const MirroredColour<Interpolation<kUniform>> mirrored(job, at);
     const SurfaceResponse<By> response(job, {m.roughness, m.metallic}, at.three(3), at.normal(), nullptr,
-                                       Arriving{job});
+                                       mirrored.colour, Arriving{job});
     return coloured(job, at, response);
   }
+  /// The colour that a metal mirrors its surroundings with. What is no metal needs none.
+  template <class At>
+  struct MirroredColour {
+    T base;
+    const T* colour = nullptr;
+    [[gnu::always_inline]] inline MirroredColour(const FragmentJob& job, const At& at) {
+      const MaterialParameters& m = *job.material;
+      if (!job.scene->environment || !(m.metallic > 0)) return;
+      base = at.three(8) * T::of(m.baseColour);
+      if (m.base.texels)
+        base = base * Filter::at(m.base, at.place(m.base), job.nearestLevel != 0, true).colour;
+      colour = &base;
+    }
+  };
   /// The part of the light that arrives through shadows.
   struct Arriving {
     const FragmentJob& job;
@@ -49,8 +64,9 @@ struct SurfaceShading : DrawLanes<By> {
   [[gnu::always_inline]] static inline Colour shadeMapped(const FragmentJob& job, const Batch& b) {
     const Interpolation<kUniform> at(job, b);
     const MappedSurface<By, kUniform> surface(job, at);
+    const MirroredColour<Interpolation<kUniform>> mirrored(job, at);
     const SurfaceResponse<By, F> response(job, {surface.roughness, surface.metallic}, at.three(3),
-                                          surface.normal, &surface.around, Arriving{job});
+                                          surface.normal, &surface.around, mirrored.colour, Arriving{job});
     return coloured(job, at, response);
   }
 
@@ -70,7 +86,7 @@ struct SurfaceShading : DrawLanes<By> {
       const T away = T::of(job.view->eye) - at.three(3);
       const F squared = L::most(T::dot(away, away), L::all(1e-12f)), perDistance = L::perRoot(squared);
       const F clearness = L::exp2(squared * perDistance * (Light::kPerE * scene.perHaze));
-      const T behind = Light::softClip(Light::air(away * (perDistance * -1.0f), scene));
+      const T behind = Light::shown(Light::air(away * (perDistance * -1.0f), scene), scene);
       colour = T::mix(behind, colour, clearness);
     }
     return {{colour.x, colour.y, colour.z, L::clamp(alpha)}};
@@ -92,7 +108,7 @@ struct SurfaceShading : DrawLanes<By> {
       const T glow = Filter::at(m.glow, at.place(m.glow), job.nearestLevel != 0, true).colour;
       light = light + T::of(m.emissive) * glow * response.clearness;
     }
-    return encodable(response.by * colour + light, alpha);
+    return encodable(job, response.by * colour + light, alpha);
   }
 
   /// Pixels of runs whose light changes evenly.
@@ -107,7 +123,7 @@ struct SurfaceShading : DrawLanes<By> {
       light = light * t.colour;
       alpha *= t.alpha;
     }
-    return encodable(light + pixels.with, alpha);
+    return encodable(job, light + pixels.with, alpha);
   }
   template <bool kUniform>
   [[gnu::always_inline]] static inline typename Filter::Coordinates coordinates(const FragmentJob& job,
@@ -210,8 +226,16 @@ struct SurfaceShading : DrawLanes<By> {
     return {L::select(m, a.x, b.x), L::select(m, a.y, b.y), L::select(m, a.z, b.z)};
   }
 
+  static void background(const FragmentJob& job) {
+    const SceneParameters& s = *job.scene;
+    Batch::shadeAll(job, [&](const Batch& b) -> Colour {
+      const T c = Light::shown(SurroundingLight<By>::picture(direction(*job.view, b), *s.environment), s);
+      return {{c.x, c.y, c.z, L::all(1)}};
+    });
+  }
   static void sky(const FragmentJob& job) {
     const SceneParameters& s = *job.scene;
+    if (s.environment && s.environment->picture) return background(job);
     Batch::shadeAll(job, [&](const Batch& b) -> Colour {
       const T d = direction(*job.view, b), air = Light::air(d, s);
       const F off = L::most(1.0f - T::dot(d, T::of(s.sunDirection)), F{});
@@ -219,7 +243,7 @@ struct SurfaceShading : DrawLanes<By> {
       const F disc = (1.0f - t * t * (3.0f - 2.0f * t)) * (3.0f * s.sunShare);
       const T above = air + T::of(s.sunColour) * disc;
       const T below = T::mix(air, T::of(s.ground), groundShare(d));
-      const T sky = Light::softClip(either(d.z >= 0.0f, above, below));
+      const T sky = Light::shown(either(d.z >= 0.0f, above, below), s);
       return {{sky.x, sky.y, sky.z, L::all(1)}};
     });
   }

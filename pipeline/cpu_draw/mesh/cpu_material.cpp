@@ -58,6 +58,25 @@ MaterialParameters materialParameters(const Material& material, Look look) {
   return to;
 }
 
+EnvironmentParameters environmentParameters(const EnvironmentRecord& record, const EnvironmentLight& light,
+                                            bool maps) {
+  const EnvironmentBlock block = fillEnvironment(record, light);
+  EnvironmentParameters to{};
+  for (std::size_t i = 0; i < block.harmonics.size(); ++i) copyFirst(block.harmonics[i], to.harmonics[i]);
+  to.turnCos = block.turn[0];
+  to.turnSin = block.turn[1];
+  to.intensity = block.turn[2];
+  if (maps) to.texels = light.texels.data();
+  static_assert(EnvironmentParameters::kMaps == int{EnvironmentLight::kMaps});
+  for (std::size_t i = 0; i < EnvironmentLight::kMaps; ++i) {
+    to.first[i] = static_cast<int>(light.firstOf(i));
+    to.side[i] = static_cast<int>(EnvironmentLight::kSides[i]);
+  }
+  to.pictureSide = static_cast<int>(block.turn[3]);
+  if (to.pictureSide > 0) to.picture = light.texels.data();
+  return to;
+}
+
 SceneParameters sceneParameters(const SceneBlock& block) {
   SceneParameters to{};
   copyFirst(block.zenith, to.zenith);
@@ -70,6 +89,9 @@ SceneParameters sceneParameters(const SceneBlock& block) {
   to.sunShare = block.sunDirection[3];
   to.lights = block.lightCount[0];
   to.shadowed = block.lightCount[1];
+  to.curve = block.lightCount[2];
+  to.exposure = block.zenith[3];
+  to.toned = to.curve != 0 || to.exposure != 1;
   std::ranges::transform(block.lights, to.light, lightParameters);
   to.steep =
       std::any_of(to.light, to.light + to.lights, [](const LightParameters& l) { return l.fallsOff != 0; });

@@ -13,6 +13,9 @@ namespace stadion {
 void setUse(const MaterialMap& map, TextureParameters& to);
 /// Without textures.
 MaterialParameters materialParameters(const Material& material, Look look);
+/// `maps`: shiny surfaces mirror the maps; else the harmonics. Points to the texels of `light`.
+EnvironmentParameters environmentParameters(const EnvironmentRecord& record, const EnvironmentLight& light,
+                                            bool maps);
 SceneParameters sceneParameters(const SceneBlock& block);
 
 }  // namespace stadion

@@ -15,6 +15,7 @@
 #include "pipeline/draw_list/draw_list.h"
 #include "pipeline/gl/problem_log.h"
 #include "pipeline/gl_draw/gpu/draw_calls.h"
+#include "pipeline/gl_draw/gpu/environment_texture.h"
 #include "pipeline/gl_draw/gpu/figure_meshes.h"
 #include "pipeline/gl_draw/gpu/frame_data.h"
 #include "pipeline/gl_draw/gpu/list_instances.h"
@@ -24,6 +25,7 @@
 #include "pipeline/gl_draw/gpu/upload_ring.h"
 #include "pipeline/shader/look.h"
 #include "pipeline/shader/uniform_blocks.h"
+#include "pipeline/surface/environment_lights.h"
 
 #include <cstddef>
 #include <optional>
@@ -54,6 +56,10 @@ public:
   bool isLit() const { return isLit_; }
   /// The block that light() uploaded.
   const SceneBlock& lighting() const { return lighting_; }
+  /// The tones of the list, as SurfaceTraits has them.
+  int tones() const { return tones_; }
+  /// Returns true if the picture of an environment is seen in place of the sky.
+  bool hasBackground() const { return hasBackground_; }
   /// Returns true if the sky has one colour: then it is cleared, not drawn.
   bool skyIsFlat() const { return skyIsFlat_; }
 
@@ -82,6 +88,7 @@ public:
 
 private:
   UploadRing* withRing(GlUse use);
+  Surroundings surround(const DrawSky& sky, const std::shared_ptr<const EnvironmentLight>& light);
 
   const GlTable& gl_;
   Look look_;
@@ -94,10 +101,14 @@ private:
   PaintedMeshes painted_;
   SurfacePrograms surfaces_;
   ListInstances instances_;
+  EnvironmentLights environments_;
+  EnvironmentTexture environment_;
+  bool reflections_;
   FrameData scene_;
   std::vector<FrameData> views_;  ///< uniform blocks of the views; at least one
   SceneBlock lighting_{};
-  bool isLit_ = false, skyIsFlat_ = false;
+  bool isLit_ = false, skyIsFlat_ = false, isSurrounded_ = false, hasBackground_ = false;
+  int tones_ = 0;
 };
 
 }  // namespace stadion

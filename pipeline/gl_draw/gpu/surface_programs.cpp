@@ -35,8 +35,11 @@ void SurfacePrograms::choose(const Common& of) {
   common.hazy = of.hazy;
   common.look = look_;
   common.lights = counted ? static_cast<int>(of.lights) : -1;
+  if (look_ == Look::Full) common.surroundings = of.surroundings, common.tones = of.tones;
   const auto which = static_cast<std::size_t>(common.lights + 1);
-  Set& set = sets_[std::size_t{of.shadowed} | std::size_t{of.hazy} << 1 | which << 2];
+  Set& set = sets_[std::size_t{of.shadowed} | std::size_t{of.hazy} << 1 | which << 2 |
+                   static_cast<std::size_t>(common.surroundings) << 8 |
+                   static_cast<std::size_t>(common.tones) << 10];
   if (set.empty())
     if (const auto why = buildUsual(common, set)) problems_.report(why->message);
   chosen_ = set.empty() ? &sets_[0] : &set;
@@ -80,6 +83,8 @@ const GlProgram& SurfacePrograms::find(SurfaceTraits traits) {
     traits.shadowed = common.shadowed;
     traits.hazy = common.hazy;
     traits.lights = common.lights;
+    traits.surroundings = common.surroundings;
+    traits.tones = common.tones;
     auto built = compile(traits);
     at = chosen_->others.emplace(i, std::nullopt).first;
     if (built)

@@ -15,6 +15,7 @@
 
 #include <array>
 #include <cstddef>
+#include <map>
 #include <optional>
 #include <unordered_map>
 
@@ -35,6 +36,8 @@ public:
     bool hazy = false;         ///< there is haze
     bool localLights = false;  ///< there are point or spot lights
     std::size_t lights = 0;
+    Surroundings surroundings = Surroundings::None;
+    int tones = 0;  ///< as in SurfaceTraits
   };
   /// Chooses the programs for a list.
   void choose(const Common& common);
@@ -63,7 +66,7 @@ private:
   bool indirect_;
   DrawCalls& calls_;
   ProblemLog& problems_;
-  std::array<Set, 4 * (kMostCounted + 2)> sets_;
+  std::map<std::size_t, Set> sets_;  ///< by what they share; 0: clear air without shadows
   Set* chosen_ = nullptr;
   bool localLights_ = false;
 };

@@ -186,6 +186,8 @@ void DrawnWall::draw(const OrderHead& order) {
   if (!wall_process::read({bytes_->data(), order.listBytes}, list_, news_))
     return answer(Order::Draw, "the draw list is damaged", true);
   takeNews();
+  if (const auto at = ids_.find(list_.sky.environment.picture); at != ids_.end())
+    list_.sky.environment.picture = at->second;
   translateMeshIds(list_.opaque);
   translateMeshIds(list_.transparent);
   for (DrawShadowRing& ring : list_.shadows.rings) translateMeshIds(ring.moving);

@@ -59,6 +59,8 @@ TEST_F(PictureLadder, UnderStressHalfTheSamplesAreDrawnForEachQuarterOfAnOctave)
   EXPECT_EQ(PictureRung{}.under(1), PictureRung{});
   EXPECT_EQ(PictureRung{.samples = 8}.under(stressOf(1)).samples, 4);
   EXPECT_EQ(PictureRung{.samples = 8}.under(stressOf(kMostStress)).samples, 1);
+  EXPECT_TRUE(PictureRung{}.under(stressOf(1)).reflections);
+  EXPECT_FALSE(PictureRung{.samples = 1}.under(stressOf(kMostStress)).reflections) << "harmonics are cheaper";
   for (const auto& [level, samples] : {std::pair{0U, 4}, {1U, 2}, {2U, 1}, {3U, 1}}) {
     DrawList list = *list_;
     list.viewer.stress = stressOf(level);

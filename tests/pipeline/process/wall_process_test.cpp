@@ -1,7 +1,9 @@
 // Walls drawn by processes of their own: what travels, that the pixels are the same, and what becomes of a
 // wall whose process dies or hangs.
+#include "engine/asset/mesh_checks.h"
 #include "pipeline/process/list_bytes.h"
 #include "pipeline/process/per_view_process_renderer.h"
+#include "tests/engine/environment/surroundings.h"
 #include "tests/fresh_folder.h"
 #include "tests/pipeline/gl_draw/renderer_scene.h"
 #include "tests/proc.h"
@@ -91,6 +93,8 @@ TEST(WallProcessBytes, ListsArriveAsTheyWere) {
   list.opaque[0].figure = 3;
   list.paints = {{}, {{1, 0, 0.5f}, 0.25f, {0, 0.125f, 1}}};
   list.opaque[0].paint = 2;
+  list.sky.environment = {1, 77, 1, 2.5f, 0.6f, 0.8f};
+  list.sky.tones = {0.5f, ToneCurve::Aces};
   SharedSegment segment("test", kListReserve);
   StillKeys known;
   const ListNews news{{{5, 4096, 77}}, {9, 8}};
@@ -110,6 +114,9 @@ TEST(WallProcessBytes, ListsArriveAsTheyWere) {
   EXPECT_EQ(got.lights.size(), list.lights.size());
   EXPECT_EQ(got.figures, list.figures);
   EXPECT_EQ(got.paints, list.paints);
+  EXPECT_EQ(got.sky.environment.picture, 77u);
+  EXPECT_EQ(got.sky.environment.turnSin, 0.8f);
+  EXPECT_EQ(got.sky.tones.curve, ToneCurve::Aces);
   EXPECT_TRUE(same(got.shadows.rings[2].moving, list.opaque));
   ASSERT_TRUE(got.shadows.rings[3].still);
   EXPECT_TRUE(same(*got.shadows.rings[3].still, list.opaque));
@@ -207,6 +214,23 @@ TEST(ProgramWallProcesses, DrawTheSamePictures) {
   EXPECT_NE(pictureOf(drawing, 0, 0), pictureOf(drawing, 0, 1));
   EXPECT_EQ(drawing.totals(0)[0].frames, 1u);
   EXPECT_NE(drawing.drawnBy(0).find("llvmpipe"), std::string::npos);
+}
+
+TEST(ProgramWallProcesses, HaveTheLightFromAllAround) {
+  MeshStore meshes;
+  DrawList list = stereoList(meshes);
+  auto hall = std::make_unique<Mesh>();
+  hall->materials.emplace_back();
+  hall->environment =
+      std::make_shared<const EnvironmentLight>(environmentLight(test::surroundingsOf(64, test::hallAt)));
+  finish(*hall);
+  list.sky.environment = {1, meshes.add(std::move(hall)), 1, 1, 0.8f, 0.6f};
+  PerWallProcessRenderer drawing(partsFor(meshes));
+  ASSERT_FALSE(drawing.open(0));
+  for (int frame = 0; frame < 2; ++frame) ASSERT_FALSE(drawing.draw(0, list, false).failure);
+  EXPECT_EQ(pictureOf(drawing, 0), drawnHere(meshes, list));
+  list.sky.environment.lit = 0;
+  EXPECT_NE(pictureOf(drawing, 0), drawnHere(meshes, list));
 }
 
 TEST(ProgramWallProcesses, AProcessForEachEyeDrawsTheSamePictures) {
