@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <ctime>
+#include <thread>
 
 namespace stadion::plan {
 namespace {
@@ -114,11 +115,13 @@ void CostProbe::endDraw(WallCost& wall, const Moment& now) {
   inTurn_ += othersSince(began_, picturesEnd_.back());
   rastered_ += othersSince(began_, now);
   picturesEnd_.back() = now;
+  // The clocks of time and of work differ by microseconds: a short wait would seem to have had hundreds of threads.
+  const double processors = std::max(1u, std::thread::hardware_concurrency());
   Moment from = began_;
   for (const Moment& end : picturesEnd_) {
     const double own = end.own - from.own, raster = othersSince(from, end);
     const double waited = end.time - from.time - own;
-    wall.pictures.push_back({own, raster, waited > 0 ? raster / waited : 1});
+    wall.pictures.push_back({own, raster, waited > 0 ? std::min(raster / waited, processors) : 1});
     from = end;
   }
 }

@@ -15,7 +15,7 @@ namespace stadion {
 namespace {
 
 /// Where the model of the first instance stands in a slot.
-constexpr const char* kInModel = "2621448";
+constexpr const char* kInModel = "3145736";
 
 class ProgramGuard : public ::testing::Test {
 protected:
