@@ -202,12 +202,12 @@ bool readFigure(ValueReader& in, const Head& head, const MeshLimits& limits, Mes
   return true;
 }
 
-struct LightRecord {
+struct ModelLightRecord {
   std::uint32_t kind;
   float position[3], direction[3], colour[3], range, innerAngle, outerAngle;
 };
 
-struct CameraRecord {
+struct ModelCameraRecord {
   float position[3], direction[3];
 };
 
@@ -229,7 +229,7 @@ bool isLight(const ModelLight& light) {
 
 bool readLights(ValueReader& in, const Head& head, Mesh& mesh) {
   for (std::uint32_t i = 0; i < head.lights; ++i) {
-    LightRecord r{};
+    ModelLightRecord r{};
     ModelLight& light = mesh.lights.emplace_back();
     if (!in.get(r) || !getName(in, light.name) || r.kind > static_cast<std::uint32_t>(ModelLight::Kind::Spot))
       return false;
@@ -245,7 +245,7 @@ bool readLights(ValueReader& in, const Head& head, Mesh& mesh) {
 
 bool readCameras(ValueReader& in, const Head& head, Mesh& mesh) {
   for (std::uint32_t i = 0; i < head.cameras; ++i) {
-    CameraRecord r{};
+    ModelCameraRecord r{};
     ModelCamera& camera = mesh.cameras.emplace_back();
     if (!in.get(r) || !getName(in, camera.name)) return false;
     std::ranges::copy(r.position, camera.position.begin());
@@ -257,7 +257,7 @@ bool readCameras(ValueReader& in, const Head& head, Mesh& mesh) {
 
 void putLightsAndCameras(const Mesh& mesh, ValueWriter& out) {
   for (const ModelLight& light : mesh.lights) {
-    LightRecord r{};
+    ModelLightRecord r{};
     r.kind = static_cast<std::uint32_t>(light.kind);
     std::ranges::copy(light.position, r.position);
     std::ranges::copy(light.direction, r.direction);
@@ -267,7 +267,7 @@ void putLightsAndCameras(const Mesh& mesh, ValueWriter& out) {
     putName(out, light.name);
   }
   for (const ModelCamera& camera : mesh.cameras) {
-    CameraRecord r{};
+    ModelCameraRecord r{};
     std::ranges::copy(camera.position, r.position);
     std::ranges::copy(camera.direction, r.direction);
     out.put(r);

@@ -24,11 +24,11 @@ double FadedValue::at(Nanoseconds time) const {
 }
 
 bool FadedValue::take(const Message& m, Nanoseconds when, double least, double most) {
-  constexpr double kMostSeconds = 1e6;
+  constexpr double kLongestFade = 1e6;
   const std::size_t words = m.arguments.size();
   if (words != 1 && (words != 3 || m.arguments[1] != "fade")) return false;
   const auto number = numberOfWord(m.arguments[0]), seconds = words == 3 ? numberOfWord(m.arguments[2]) : 0.0;
-  if (!number || !seconds || !(*number == *number) || !(*seconds >= 0 && *seconds <= kMostSeconds))
+  if (!number || !seconds || !(*number == *number) || !(*seconds >= 0 && *seconds <= kLongestFade))
     return false;
   from_ = at(when);
   to_ = std::clamp(*number, least, most);

@@ -43,7 +43,7 @@ GltfBuilder cylinder(bool normalMap, float direction = 1) {
   return b;
 }
 
-Imported imported(const GltfBuilder& b) {
+Imported bumpyModel(const GltfBuilder& b) {
   TestFolder folder;
   std::filesystem::copy_file(models() / "arms.png", folder.path() / "arms.png");
   folder.write("m.glb", b.glb());
@@ -56,7 +56,7 @@ Vec3 vec(const std::array<float, 3>& v) {
 
 /// In the show's coordinates the cylinder stands upright, and u goes around counter-clockwise.
 TEST(MadeTangents, AreSmoothOverASurfaceOfFewTriangles) {
-  const Imported m = imported(cylinder(true));
+  const Imported m = bumpyModel(cylinder(true));
   ASSERT_TRUE(m.mesh) << m.error;
   ASSERT_EQ(m.mesh->tangents.size(), m.mesh->positions.size());
   for (std::size_t i = 0; i < m.mesh->positions.size(); ++i) {
@@ -72,7 +72,7 @@ TEST(MadeTangents, AreSmoothOverASurfaceOfFewTriangles) {
 }
 
 TEST(MadeTangents, OfAMirroredPictureTurnRound) {
-  const Imported m = imported(cylinder(true, -1));
+  const Imported m = bumpyModel(cylinder(true, -1));
   ASSERT_TRUE(m.mesh) << m.error;
   for (std::size_t i = 0; i < m.mesh->positions.size(); ++i) {
     const auto& t = m.mesh->tangents[i];
@@ -84,7 +84,7 @@ TEST(MadeTangents, OfAMirroredPictureTurnRound) {
 }
 
 TEST(MadeTangents, AreThereOnlyForNormalMaps) {
-  const Imported m = imported(cylinder(false));
+  const Imported m = bumpyModel(cylinder(false));
   ASSERT_TRUE(m.mesh) << m.error;
   EXPECT_TRUE(m.mesh->tangents.empty());
 }
@@ -98,7 +98,7 @@ TEST(MadeTangents, DoNotMixAPictureWithItsMirrorImage) {
   b.attribute("TEXCOORD_0", std::vector<float>{0, 1, 1, 1, 1, 0, 0, 1}, b.kFloat, "VEC2", 4);
   b.primitive()["indices"] =
       b.accessor(std::vector<std::uint16_t>{0, 1, 2, 1, 3, 2}, b.kUnsignedShort, "SCALAR", 6);
-  const Imported m = imported(b);
+  const Imported m = bumpyModel(b);
   ASSERT_TRUE(m.mesh) << m.error;
   EXPECT_EQ(m.mesh->positions.size(), 6u);
   int right = 0, left = 0;
@@ -110,7 +110,7 @@ TEST(MadeTangents, DoNotMixAPictureWithItsMirrorImage) {
 
 TEST(MadeTangents, OfACollapsedPictureAreLeftToTheTriangles) {
   GltfBuilder b = cylinder(true, 0);
-  const Imported m = imported(b);
+  const Imported m = bumpyModel(b);
   ASSERT_TRUE(m.mesh) << m.error;
   EXPECT_TRUE(m.mesh->tangents.empty());
 }
