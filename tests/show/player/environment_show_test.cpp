@@ -19,7 +19,7 @@ std::string greyHdr(int grey) {
 }
 
 /// A hall in a scene of its own, and a yard.
-struct SurroundedShow {
+struct SurroundedShow : SteppedShow {
   explicit SurroundedShow(const std::string& hall = "") {
     folder.write("yard.hdr", greyHdr(128));
     folder.write("hall.hdr", hall.empty() ? greyHdr(32) : hall);
@@ -34,12 +34,7 @@ timer( period=2.2, repeat=off, eventmessage="timesup, yard, intensity 3 fade 0.5
   }
   /// The surroundings at a show time.
   const EnvironmentRecord& at(double seconds) {
-    ShowParts parts = player->parts(StereoLayout::Off);
-    for (; next == 0 || toSeconds(changes.signature.time) < seconds; ++next) {
-      const TimeSignature now = signatureAt(next, 60);
-      parts.input.sampleFrame(now.time - now.step, now.time, input);
-      player->scene().advance(now, input, changes, nullptr);
-    }
+    while (next == 0 || toSeconds(changes.signature.time) < seconds) play(1);
     return changes.sky.environment;
   }
   const EnvironmentLight* picture() {
@@ -47,10 +42,6 @@ timer( period=2.2, repeat=off, eventmessage="timesup, yard, intensity 3 fade 0.5
     return mesh ? mesh->environment.get() : nullptr;
   }
   TestFolder folder;
-  std::unique_ptr<Player> player;
-  InputSample input;
-  ChangeSet changes;
-  std::uint64_t next = 0;
 };
 
 TEST(SurroundedShow, AScenesSurroundingsComeAndGoWithIt) {

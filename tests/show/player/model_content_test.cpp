@@ -26,30 +26,19 @@ GltfBuilder litPlate() {
   return b;
 }
 
-struct LitShow {
+struct LitShow : SteppedShow {
   explicit LitShow(const std::string& script) {
     folder.write("plate.glb", litPlate().glb());
     player = openShow(folder.write("show.evs", script));
   }
-  /// One frame.
-  void play() {
-    ShowParts parts = player->parts(StereoLayout::Off);
-    const TimeSignature now = signatureAt(next++, 60);
-    parts.input.sampleFrame(now.time - now.step, now.time, input);
-    player->scene().advance(now, input, changes, nullptr);
-  }
   TestFolder folder;
-  std::unique_ptr<Player> player;
-  InputSample input;
-  ChangeSet changes;
-  std::uint64_t next = 0;
 };
 
 TEST(ModelContent, ALightTakesItsPlaceAndKindFromTheFileOfItsParent) {
   LitShow show("object( name=plate, file=plate.glb, position=\"10, 0, 0\" )\n"
                "light( parent=plate, source=lamp, intensity=2 )\n");
   ASSERT_TRUE(show.player);
-  show.play();
+  show.play(1);
   ASSERT_EQ(show.changes.lights.size(), 1u);
   const LightRecord& light = show.changes.lights[0];
   EXPECT_EQ(light.kind, 1u);
@@ -65,7 +54,7 @@ TEST(ModelContent, WhatALightStatesReplacesTheFiles) {
                "light( parent=plate, source=lamp, type=spot, direction=\"0, 1, 0\", range=4, falloff=range, "
                "colour=\"0, 0, 1\" )\n");
   ASSERT_TRUE(show.player);
-  show.play();
+  show.play(1);
   const LightRecord& light = show.changes.lights.at(0);
   EXPECT_EQ(light.kind, 2u);
   EXPECT_FALSE(light.fallsOff);
@@ -79,7 +68,7 @@ TEST(ModelContent, ARigStartsAtACameraAndStandsUpright) {
   LitShow show("object( name=plate, file=plate.glb, position=\"10, 0, 0\", orientation=\"0, 0, 90\" )\n"
                "rig( name=rig, model=plate, camera=front, eyeheight=1.5 )\n");
   ASSERT_TRUE(show.player);
-  show.play();
+  show.play(1);
   const Pose rig = show.changes.viewer.rig();
   EXPECT_LT((rig.p - Vec3(15, 0, 0.5)).norm(), 1e-6);
   EXPECT_LT((rig.q * Vec3::UnitY() - Vec3(-1, 0, 0)).norm(), 1e-6);

@@ -27,18 +27,15 @@ GltfBuilder pavilion() {
 }
 
 /// The show "show.evs" beside the model, ready to be played.
-struct PartShow {
+struct PartShow : SteppedShow {
   explicit PartShow(const std::string& script, const std::string& inner = "") {
     folder.write("pavilion.glb", pavilion().glb());
     folder.write("inner.evs", inner);
     player = openShow(folder.write("show.evs", script));
   }
   void play(std::uint64_t frames) {
-    ShowParts parts = player->parts(StereoLayout::Off);
-    for (std::uint64_t end = next + frames; next < end; ++next) {
-      const TimeSignature now = signatureAt(next, 60);
-      parts.input.sampleFrame(now.time - now.step, now.time, input);
-      player->scene().advance(now, input, changes, nullptr);
+    for (; frames > 0; --frames) {
+      SteppedShow::play(1);
       for (const ChangeSet::Instance& i : changes.instances) seen[i.record.owner] = i.record;
       if (changes.paintsChanged) paints = changes.paints;
     }
@@ -53,12 +50,8 @@ struct PartShow {
     return at != seen.end() && (at->second.flags & InstanceRecord::kShown) != 0;
   }
   TestFolder folder;
-  std::unique_ptr<Player> player;
-  InputSample input;
-  ChangeSet changes;
   std::map<NodeRef, InstanceRecord> seen;
   std::vector<PaintRecord> paints;
-  std::uint64_t next = 0;
 };
 
 constexpr const char* kTimer = "timer( period=0.5, eventmessage=\"timesup, ";

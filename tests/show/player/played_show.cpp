@@ -26,4 +26,13 @@ FrameLoopOutcome play(ShowStages& stages, Mode mode, std::size_t walls, std::uin
   return loop.run();
 }
 
+void SteppedShow::play(std::uint64_t frames) {
+  ShowParts parts = player->parts(StereoLayout::Off);
+  for (const std::uint64_t end = next + frames; next < end; ++next) {
+    const TimeSignature now = signatureAt(next, 60);
+    parts.input.sampleFrame(now.time - now.step, now.time, input);
+    player->scene().advance(now, input, changes, nullptr);
+  }
+}
+
 }  // namespace stadion

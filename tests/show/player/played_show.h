@@ -16,4 +16,14 @@ std::unique_ptr<Player> openShow(const std::string& script, const std::string& w
 FrameLoopOutcome play(ShowStages& stages, Mode mode, std::size_t walls, std::uint64_t frames,
                       double rate = 60);
 
+/// A show that a test plays frame by frame at 60 Hz, without drawing it.
+struct SteppedShow {
+  void play(std::uint64_t frames);
+
+  std::unique_ptr<Player> player;
+  InputSample input;
+  ChangeSet changes;       ///< of the last frame
+  std::uint64_t next = 0;  ///< number of the next frame
+};
+
 }  // namespace stadion
