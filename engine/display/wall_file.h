@@ -23,6 +23,8 @@
 #include "engine/base/diagnostic.h"
 #include "engine/display/frustum.h"
 #include "engine/display/output.h"
+#include "engine/display/projector.h"
+#include "engine/display/screen.h"
 #include "engine/display/wall.h"
 
 #include <array>
@@ -38,15 +40,17 @@ struct PixelSize {
   std::uint32_t width = 0, height = 0;  ///< 0 = not stated
 };
 
-/// A wall as a file describes it.
+/// A wall as a file describes it: what one output shows.
 struct WallEntry {
+  /// Of a projector: its name, and a rectangle about as large as the part of the screen that it covers.
   Wall wall;
-  PixelSize pixels;                   ///< size of one eye's picture, if the file states it
-  std::optional<WallOutput> output;   ///< output of the wall, if the file states one
-  std::optional<std::uint32_t> card;  ///< number of the graphics card that draws it, if the file states one
-  std::uint32_t line = 0;             ///< in the file; 0 = made by a program
-  std::uint32_t column = 0;           ///< column of the wall's name
-  std::string excerpt;                ///< the line, for messages
+  std::optional<Projector> projector;  ///< none: the wall is flat, and its picture fills it
+  PixelSize pixels;                    ///< size of one eye's picture, if the file states it
+  std::optional<WallOutput> output;    ///< output of the wall, if the file states one
+  std::optional<std::uint32_t> card;   ///< number of the graphics card that draws it, if the file states one
+  std::uint32_t line = 0;              ///< in the file; 0 = made by a program
+  std::uint32_t column = 0;            ///< column of the wall's name
+  std::string excerpt;                 ///< the line, for messages
 };
 
 struct WallFile {
@@ -55,7 +59,9 @@ struct WallFile {
   static constexpr std::size_t kMaxWalls = 256;
 
   std::string file;              ///< as the user named it
-  std::vector<WallEntry> walls;  ///< in file order
+  std::vector<WallEntry> walls;  ///< walls and projectors in file order
+  std::vector<Screen> screens;   ///< what the projectors light
+  VisitorPlace visitor;          ///< for what depends on where eyes usually are
   double metresPerUnit = 1;      ///< factor by which lengths were multiplied
   double eyeSeparation = 0.064;  ///< [m]
   DepthRange depth;
