@@ -1,10 +1,13 @@
 #include "engine/display/output_reader.h"
 #include "engine/display/wall_lint.h"
+#include "engine/maths/angles.h"
+#include "engine/maths/functions.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 namespace stadion {
 namespace {
@@ -21,6 +24,11 @@ public:
   void put(int column, int row, char c) {
     if (column < 0 || row < 0 || column >= columns_ || row >= static_cast<int>(lines_.size())) return;
     lines_[static_cast<std::size_t>(row)][static_cast<std::size_t>(column)] = c;
+  }
+
+  char at(int column, int row) const {
+    if (column < 0 || row < 0 || column >= columns_ || row >= static_cast<int>(lines_.size())) return ' ';
+    return lines_[static_cast<std::size_t>(row)][static_cast<std::size_t>(column)];
   }
 
   std::string text() const {
@@ -71,51 +79,150 @@ std::string facing(const Wall& wall) {
   return fmt::format("faces {}", kTowards[axis][n[axis] > 0]);
 }
 
+/// A line of the plan.
+struct PlanLine {
+  Vec3 a, b;
+};
+
+void addOutline(const Wall& w, std::vector<PlanLine>& lines) {
+  const Vec3 corners[] = {w.lowerLeft, w.lowerRight, w.upperRight(), w.upperLeft};
+  for (std::size_t k = 0; k < 4; ++k) lines.push_back({corners[k], corners[(k + 1) % 4]});
+}
+
+void addArc(const Vec3& centre, double radius, double left, double right, std::vector<PlanLine>& lines) {
+  constexpr int kParts = 64;
+  const auto at = [&](int i) -> Vec3 {
+    const auto [sine, cosine] = det::sincos(left + (right - left) * i / kParts);
+    return centre + radius * Vec3(sine, cosine, 0);
+  };
+  for (int i = 0; i < kParts; ++i) lines.push_back({at(i), at(i + 1)});
+}
+
+/// The edges that only one triangle has.
+void addOutline(const MeshScreen& mesh, std::vector<PlanLine>& lines) {
+  std::map<std::pair<std::uint32_t, std::uint32_t>, int> uses;
+  for (const auto& t : mesh.triangles)
+    for (std::size_t k = 0; k < 3; ++k) ++uses[std::minmax(t[k], t[(k + 1) % 3])];
+  for (const auto& [edge, count] : uses)
+    if (count == 1) lines.push_back({mesh.points[edge.first], mesh.points[edge.second]});
+}
+
+/// Draws the plan: first the lines, which set its scale, then numbers on them.
+class Plan {
+public:
+  Plan(const WallFile& hall, std::uint32_t columns) : hall_(hall), sheet_(0, 0) {
+    collect();
+    Scale& scale = scale_;
+    scale.bounds.include(hall.visitor.eye);
+    for (const auto* lines : {&dotted_, &solid_})
+      for (const PlanLine& l : *lines) {
+        scale.bounds.include(l.a);
+        scale.bounds.include(l.b);
+      }
+    for (const WallEntry& e : hall.walls)
+      if (e.projector) scale.bounds.include(placeOf(e));
+    const Vec3 extent = scale.bounds.hi - scale.bounds.lo;
+    width_ = static_cast<int>(std::clamp(columns, 20u, 200u));
+    scale.lettersPerMetre = (width_ - 3) / std::max({extent.x(), extent.y(), 1e-3});
+    sheet_ = Sheet(width_, scale.row(scale.bounds.lo.y()) + 1);
+  }
+
+  std::string text() {
+    for (const PlanLine& l : dotted_) line(sheet_, scale_, l.a, l.b, '.');
+    for (const PlanLine& l : solid_) line(sheet_, scale_, l.a, l.b, '#');
+    const Vec3& eye = hall_.visitor.eye;
+    sheet_.put(scale_.column(eye.x()), scale_.row(eye.y()), '@');
+    for (std::size_t i = 0; i < hall_.walls.size(); ++i) number(i);
+    std::string text = sheet_.text() + legend();
+    for (std::size_t i = 0; i < hall_.walls.size(); ++i) text += listed(i);
+    return text;
+  }
+
+private:
+  void collect() {
+    for (const WallEntry& e : hall_.walls)
+      if (!e.projector) addOutline(e.wall, isLevel(e.wall) ? dotted_ : solid_);
+    for (const Screen& s : hall_.screens) {
+      if (const auto* wall = std::get_if<Wall>(&s.surface))
+        addOutline(*wall, isLevel(*wall) ? dotted_ : solid_);
+      else if (const auto* c = std::get_if<CylinderScreen>(&s.surface))
+        addArc(c->centre, c->radius, c->left, c->right, solid_);
+      else if (const auto* ball = std::get_if<SphereScreen>(&s.surface))
+        addArc(ball->centre, ball->radius, 0, 2 * kPi, solid_);
+      else
+        addOutline(std::get<MeshScreen>(s.surface), solid_);
+    }
+  }
+
+  /// Where the projector's light comes from, or the middle of what it lights.
+  static Vec3 placeOf(const WallEntry& e) {
+    const Projector& p = *e.projector;
+    if (const auto* lens = std::get_if<LensImage>(&p.image)) return lens->X_RP.p;
+    if (const auto* fisheye = std::get_if<FisheyeImage>(&p.image)) return fisheye->X_RP.p;
+    return e.wall.centre();
+  }
+
+  static char sign(std::size_t i) {
+    constexpr std::string_view kSigns = "123456789abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ";
+    return i < kSigns.size() ? kSigns[i] : '*';
+  }
+
+  void number(std::size_t i) {
+    const WallEntry& e = hall_.walls[i];
+    const Vec3 c = e.projector ? placeOf(e) : e.wall.centre();
+    // Floor and ceiling share their middle with the visitor and with each other.
+    int aside = e.projector || !isLevel(e.wall) ? 0 : c.z() < hall_.visitor.eye.z() ? -4 : 4;
+    // Projectors hang in pairs.
+    while (e.projector && aside < 8 && taken(scale_.column(c.x()) + aside, scale_.row(c.y()))) ++aside;
+    sheet_.put(scale_.column(c.x()) + aside, scale_.row(c.y()), sign(i));
+  }
+
+  bool taken(int column, int row) const {
+    const char c = sheet_.at(column, row);
+    return c != ' ' && c != '#' && c != '.';
+  }
+
+  std::string legend() const {
+    const int metre = std::max(1, static_cast<int>(std::lround(scale_.lettersPerMetre)));
+    const bool fits = metre <= width_ - 10;
+    const auto bar = [](int letters) { return std::string(static_cast<std::size_t>(letters), '-'); };
+    const Vec3& eye = hall_.visitor.eye;
+    return fmt::format("\n |{}| {} m   @ eye at {:.4g} {:.4g} {:.4g}   up the page is forward (+Y)\n\n",
+                       bar(fits ? metre : std::max(1, metre / 10)), fits ? "1" : "0.1", eye.x(), eye.y(),
+                       eye.z());
+  }
+
+  std::string listed(std::size_t i) const {
+    const WallEntry& e = hall_.walls[i];
+    const Wall& w = e.wall;
+    const WallBasis b = basis(w);
+    std::string text = fmt::format(" {} {:<12} ", sign(i), w.name);
+    if (e.projector) {
+      const Vec3 place = placeOf(e);
+      text += fmt::format("lights {:.2f} x {:.2f} m of {}{}, {} x {} pixels, at {:.2f} {:.2f} {:.2f}\n",
+                          b.width, b.height, hall_.screens[e.projector->screen].name,
+                          e.projector->eye ? fmt::format(" for the {} eye", eyeName(*e.projector->eye)) : "",
+                          e.pixels.width, e.pixels.height, place.x(), place.y(), place.z());
+    } else {
+      text += fmt::format("{:.2f} x {:.2f} m, {}, middle at {:.2f} {:.2f} {:.2f}\n", b.width, b.height,
+                          facing(w), w.centre().x(), w.centre().y(), w.centre().z());
+    }
+    if (e.output) text += fmt::format("   shown on{}\n", formatOutput(*e.output));
+    return text;
+  }
+
+  const WallFile& hall_;
+  std::vector<PlanLine> dotted_;  ///< of what is level: it hides nothing
+  std::vector<PlanLine> solid_;
+  Scale scale_;
+  int width_ = 0;
+  Sheet sheet_;
+};
+
 }  // namespace
 
 std::string floorPlan(const WallFile& walls, std::uint32_t columns) {
-  Scale scale;
-  scale.bounds.include(kStandingEye);
-  for (const WallEntry& e : walls.walls)
-    for (const Vec3& p : {e.wall.lowerLeft, e.wall.lowerRight, e.wall.upperLeft, e.wall.upperRight()})
-      scale.bounds.include(p);
-  const Vec3 extent = scale.bounds.hi - scale.bounds.lo;
-  const int width = static_cast<int>(std::clamp(columns, 20u, 200u));
-  scale.lettersPerMetre = (width - 3) / std::max({extent.x(), extent.y(), 1e-3});
-  Sheet sheet(width, scale.row(scale.bounds.lo.y()) + 1);
-
-  for (const bool level : {true, false})
-    for (std::size_t i = 0; i < walls.walls.size(); ++i) {
-      const Wall& w = walls.walls[i].wall;
-      if (isLevel(w) != level) continue;
-      const Vec3 corners[] = {w.lowerLeft, w.lowerRight, w.upperRight(), w.upperLeft};
-      for (std::size_t k = 0; k < 4; ++k)
-        line(sheet, scale, corners[k], corners[(k + 1) % 4], level ? '.' : '#');
-    }
-  sheet.put(scale.column(kStandingEye.x()), scale.row(kStandingEye.y()), '@');
-  for (std::size_t i = 0; i < walls.walls.size(); ++i) {
-    const Vec3 c = walls.walls[i].wall.centre();
-    // Floor and ceiling share their middle with the visitor and with each other.
-    const int aside = isLevel(walls.walls[i].wall) ? (c.z() < kStandingEye.z() ? -4 : 4) : 0;
-    sheet.put(scale.column(c.x()) + aside, scale.row(c.y()), static_cast<char>('1' + i));
-  }
-
-  const int metre = std::max(1, static_cast<int>(std::lround(scale.lettersPerMetre)));
-  const bool fits = metre <= width - 10;
-  std::string text = sheet.text();
-  text += fits ? fmt::format("\n |{}| 1 m", std::string(static_cast<std::size_t>(metre), '-'))
-               : fmt::format("\n |{}| 0.1 m",
-                             std::string(static_cast<std::size_t>(std::max(1, metre / 10)), '-'));
-  text += "   @ eye at 0 0 1.7   up the page is forward (+Y)\n\n";
-  for (std::size_t i = 0; i < walls.walls.size(); ++i) {
-    const Wall& w = walls.walls[i].wall;
-    const WallBasis b = basis(w);
-    text += fmt::format(" {} {:<12} {:.2f} x {:.2f} m, {}, middle at {:.2f} {:.2f} {:.2f}\n", i + 1, w.name,
-                        b.width, b.height, facing(w), w.centre().x(), w.centre().y(), w.centre().z());
-    if (const auto& output = walls.walls[i].output)
-      text += fmt::format("   shown on{}\n", formatOutput(*output));
-  }
-  return text;
+  return Plan(walls, columns).text();
 }
 
 }  // namespace stadion

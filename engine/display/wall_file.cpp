@@ -2,8 +2,11 @@
 
 #include "engine/base/folder_names.h"
 #include "engine/base/plain_file.h"
+#include "engine/display/hall_reader.h"
+#include "engine/display/hall_statements.h"
 #include "engine/display/output_reader.h"
 #include "engine/display/wall_lint.h"
+#include "engine/display/wall_words.h"
 #include "engine/plain_text/statement_reader.h"
 #include "engine/plain_text/suggestion.h"
 
@@ -18,56 +21,48 @@ namespace stadion {
 namespace {
 
 constexpr std::size_t kMaxFileBytes = 4 << 20;
-constexpr double kMaxLength = 1e7;  ///< of any number before units [m or the file's unit]
-constexpr std::uint64_t kMaxPixels = 16384;
-constexpr std::uint64_t kMaxCard = 63;  ///< a larger number is a mistake in the file
 
 class WallParser {
 public:
-  WallParser(std::string_view text, const std::string& file, Diagnostics& out) : in_(text, file, out) {
+  WallParser(std::string_view text, const std::string& file, Diagnostics& out)
+      : in_(text, file, out), lengths_(in_), hall_(in_, lengths_, walls_) {
     walls_.file = file;
   }
 
   std::optional<WallFile> run() {
-    while (!tooMany_ && in_.next()) in_.read(*this, kStatements);
+    while (!tooMany_ && !hall_.tooMany() && in_.next()) in_.read(*this, kStatements);
     if (in_.failed()) return std::nullopt;
     if (walls_.walls.empty()) {
-      in_.errorOfFile("there is no wall in the file; add a line such as: wall front  lower-left -1.5 1.5 "
-                      "0  lower-right 1.5 1.5 0  upper-left -1.5 1.5 3");
+      in_.errorOfFile(walls_.screens.empty()
+                          ? "there is no wall in the file; add a line such as: wall front  lower-left -1.5 "
+                            "1.5 0  lower-right 1.5 1.5 0  upper-left -1.5 1.5 3"
+                          : "the file has screens and no projector; add a line such as: projector one  "
+                            "screen NAME  pixels 1920 1200  at X Y Z  look-at X Y Z  throw 1.5");
       return std::nullopt;
     }
     for (WallEntry& entry : walls_.walls)
       if (entry.pixels.width == 0) entry.pixels = pixels_;
-    if (!giveOutputs()) return std::nullopt;
+    const bool shown = giveOutputs();
+    if (!hall_.finish() || !shown) return std::nullopt;
     return std::move(walls_);
   }
 
 private:
-  static const Statement<WallParser> kStatements[7];
+  static const Statement<WallParser> kStatements[10];
   static const StatementField<WallParser> kFields[5];
 
   void unit() {
     const auto unit = lengthUnit(in_);
     if (!unit || !in_.finished()) return;
-    if (lengths_ > 0)
+    if (lengths_.used())
       return in_.error(in_.keyword(), "the unit must stand before the first length; move this line up");
     walls_.metresPerUnit = unit->metres;
-  }
-
-  std::optional<double> length(std::string_view what) {
-    const auto value = in_.number(what);
-    if (!value) return std::nullopt;
-    ++lengths_;
-    if (std::fabs(*value) <= kMaxLength) return *value * walls_.metresPerUnit;
-    in_.error(in_.last(), fmt::format("{} is too large ({})", quotedWord(in_.last().text), what));
-    return std::nullopt;
+    lengths_.setUnit(unit->metres);
   }
 
   void positive(std::string_view what, double lo, double hi, double& target) {
-    const auto value = length(what);
-    if (!value || !in_.finished()) return;
-    if (*value >= lo && *value <= hi) return void(target = *value);
-    in_.error(in_.last(), fmt::format("{} must be from {} m to {} m, not {} m", what, lo, hi, *value));
+    const auto value = lengths_.length(what, lo, hi);
+    if (value && in_.finished()) target = *value;
   }
 
   void eyeSeparation() { positive("the eye separation", 0, 0.5, walls_.eyeSeparation); }
@@ -89,20 +84,13 @@ private:
     walls_.depth = {};
   }
 
-  bool readPixels(PixelSize& target) {
-    const Word* w = in_.word("the width in pixels");
-    const Word* h = w ? in_.word("the height in pixels") : nullptr;
-    if (!h) return false;
-    const auto width = in_.countIn(*w, "the width in pixels", 1, kMaxPixels);
-    const auto height = in_.countIn(*h, "the height in pixels", 1, kMaxPixels);
-    if (!width || !height) return false;
-    target = {static_cast<std::uint32_t>(*width), static_cast<std::uint32_t>(*height)};
-    return true;
+  void pixels() {
+    if (readPixelSize(in_, pixels_)) in_.finished();
   }
 
-  void pixels() {
-    if (readPixels(pixels_)) in_.finished();
-  }
+  void screen() { hall_.screen(); }
+  void projector() { hall_.projector(); }
+  void visitor() { hall_.visitor(); }
 
   // The fields of a wall; they fill entry_ and corners_.
 
@@ -114,24 +102,14 @@ private:
       {"lower-left", &Wall::lowerLeft}, {"lower-right", &Wall::lowerRight}, {"upper-left", &Wall::upperLeft}};
 
   bool corner(std::size_t which) {
-    for (int axis = 0; axis < 3; ++axis) {
-      const auto value = length(fmt::format("{} of {}", "xyz"[axis], kCorners[which].name));
-      if (!value) return false;
-      (entry_.wall.*kCorners[which].place)[axis] = *value;
-    }
+    if (!lengths_.point(kCorners[which].name, entry_.wall.*kCorners[which].place)) return false;
     return corners_[which] = true;
   }
   bool lowerLeft() { return corner(0); }
   bool lowerRight() { return corner(1); }
   bool upperLeft() { return corner(2); }
-  bool wallPixels() { return readPixels(entry_.pixels); }
-  bool card() {
-    const Word* number = in_.word("the number of the graphics card");
-    const auto card =
-        number ? in_.countIn(*number, "the number of the graphics card", 0, kMaxCard) : std::nullopt;
-    if (card) entry_.card = static_cast<std::uint32_t>(*card);
-    return card.has_value();
-  }
+  bool wallPixels() { return readPixelSize(in_, entry_.pixels); }
+  bool card() { return readCard(in_, entry_.card); }
 
   void wall() {
     const auto name = in_.name("the wall's name", "a wall");
@@ -152,9 +130,9 @@ private:
     for (const WallEntry& other : walls_.walls)
       if (other.wall.name == *name)
         return in_.error(nameWord,
-                         fmt::format("there is a wall \"{}\" already, on line {}; give this one another "
+                         fmt::format("there is a {} \"{}\" already, on line {}; give this one another "
                                      "name",
-                                     *name, other.line));
+                                     other.projector ? "projector" : "wall", *name, other.line));
     walls_.walls.push_back(std::move(entry_));
   }
 
@@ -204,20 +182,26 @@ private:
   };
 
   StatementReader in_;
+  LengthReader lengths_;
   WallFile walls_;
+  HallReader hall_;
   PixelSize pixels_;
   WallEntry entry_;                ///< the wall of this line
   std::array<bool, 3> corners_{};  ///< which of its corners the line has
   std::vector<NamedOutput> outputs_;
-  std::size_t lengths_ = 0;
   bool tooMany_ = false;  ///< walls or outputs
 };
 
-constexpr Statement<WallParser> WallParser::kStatements[7] = {
-    {"wall", &WallParser::wall, true}, {"output", &WallParser::output, true},
-    {"unit", &WallParser::unit},       {"eye-separation", &WallParser::eyeSeparation},
-    {"near", &WallParser::near},       {"far", &WallParser::far},
-    {"pixels", &WallParser::pixels}};
+constexpr Statement<WallParser> WallParser::kStatements[10] = {{"wall", &WallParser::wall, true},
+                                                               {"output", &WallParser::output, true},
+                                                               {"unit", &WallParser::unit},
+                                                               {"eye-separation", &WallParser::eyeSeparation},
+                                                               {"near", &WallParser::near},
+                                                               {"far", &WallParser::far},
+                                                               {"pixels", &WallParser::pixels},
+                                                               {"screen", &WallParser::screen, true},
+                                                               {"projector", &WallParser::projector, true},
+                                                               {"visitor", &WallParser::visitor}};
 
 constexpr StatementField<WallParser> WallParser::kFields[5] = {{"lower-left", &WallParser::lowerLeft},
                                                                {"lower-right", &WallParser::lowerRight},
@@ -237,6 +221,32 @@ std::vector<std::string> shippedNames(const std::string& folder) {
 
 bool looksLikePath(const std::string& text) {
   return text.find('/') != std::string::npos || text.ends_with(".walls");
+}
+
+bool namesFiles(const WallFile& walls) {
+  return std::ranges::any_of(walls.screens,
+                             [](const Screen& s) { return std::holds_alternative<MeshScreen>(s.surface); }) ||
+         std::ranges::any_of(walls.walls, [](const WallEntry& e) {
+           return e.projector && std::holds_alternative<MeasuredImage>(e.projector->image);
+         });
+}
+
+std::string_view unitName(double metres) {
+  for (const LengthUnit& unit : kLengthUnits)
+    if (unit.metres == metres) return unit.name;
+  return "m";
+}
+
+std::string formatWall(const WallEntry& entry, double unit) {
+  const auto corner = [&](const Vec3& p) {
+    return fmt::format("{} {} {}", p.x() / unit, p.y() / unit, p.z() / unit);
+  };
+  std::string text =
+      fmt::format("wall {}  lower-left {}  lower-right {}  upper-left {}", entry.wall.name,
+                  corner(entry.wall.lowerLeft), corner(entry.wall.lowerRight), corner(entry.wall.upperLeft));
+  if (entry.pixels.width > 0) text += fmt::format("  pixels {} {}", entry.pixels.width, entry.pixels.height);
+  if (entry.card) text += fmt::format("  card {}", *entry.card);
+  return text + '\n';
 }
 
 }  // namespace
@@ -264,7 +274,7 @@ std::optional<WallFile> loadWalls(const std::string& nameOrPath, const std::stri
     return std::nullopt;
   }
   auto walls = parseWalls(text.value(), path, out);
-  if (!walls) return std::nullopt;
+  if (!walls || !loadHallFiles(*walls, out)) return std::nullopt;
   Diagnostics findings;
   lintWalls(*walls, findings);
   out.append(findings);
@@ -273,17 +283,16 @@ std::optional<WallFile> loadWalls(const std::string& nameOrPath, const std::stri
 }
 
 std::string formatWalls(const WallFile& walls) {
-  std::string text = fmt::format("unit m\neye-separation {}\nnear {}\nfar {}\n", walls.eyeSeparation,
-                                 walls.depth.near, walls.depth.far);
-  const auto corner = [](const Vec3& p) { return fmt::format("{} {} {}", p.x(), p.y(), p.z()); };
+  // Files that the hall names have lengths in the unit of the wall file.
+  const bool named = namesFiles(walls);
+  const double unit = named ? walls.metresPerUnit : 1;
+  std::string text = fmt::format("unit {}\neye-separation {}\nnear {}\nfar {}\n", unitName(unit),
+                                 walls.eyeSeparation / unit, walls.depth.near / unit, walls.depth.far / unit);
+  if (!walls.screens.empty()) text += formatVisitor(walls.visitor, unit);
+  for (const Screen& screen : walls.screens) text += formatScreen(screen, unit);
   for (const WallEntry& entry : walls.walls) {
-    text += fmt::format("wall {}  lower-left {}  lower-right {}  upper-left {}", entry.wall.name,
-                        corner(entry.wall.lowerLeft), corner(entry.wall.lowerRight),
-                        corner(entry.wall.upperLeft));
-    if (entry.pixels.width > 0)
-      text += fmt::format("  pixels {} {}", entry.pixels.width, entry.pixels.height);
-    if (entry.card) text += fmt::format("  card {}", *entry.card);
-    text += '\n';
+    text += entry.projector ? formatProjector(entry, walls.screens[entry.projector->screen].name, unit)
+                            : formatWall(entry, unit);
     if (entry.output) text += fmt::format("output {}{}\n", entry.wall.name, formatOutput(*entry.output));
   }
   return text;

@@ -14,7 +14,24 @@
 ///     pixels WIDTH HEIGHT       of every wall that does not say otherwise (the run decides)
 ///     wall NAME lower-left X Y Z  lower-right X Y Z  upper-left X Y Z  [pixels WIDTH HEIGHT]  [card N]
 /// Corners are in rig space (+X right, +Y forward, +Z up) as seen from inside the room. A file has 1 to
-/// WallFile::kMaxWalls walls.
+/// WallFile::kMaxWalls walls and projectors.
+///
+/// A hall has screens of any shape (screen.h) and projectors that light them (projector.h). Angles are
+/// degrees. Screens may stand below their projectors.
+///     screen NAME plane     lower-left X Y Z  lower-right X Y Z  upper-left X Y Z
+///     screen NAME cylinder  centre X Y Z  radius R  azimuth LEFT RIGHT  height BOTTOM TOP
+///     screen NAME sphere    centre X Y Z  radius R  azimuth LEFT RIGHT  elevation LOWEST HIGHEST  [tilt A]
+///     screen NAME mesh      file FILE.obj|FILE.pfm
+///     projector NAME  screen SCREEN  [pixels W H]  [eye left|right|both]  [card N]  IMAGE  [LIGHT]
+///       IMAGE   at X Y Z  look-at X Y Z | turn YAW PITCH  [roll A]  throw RATIO  [shift RIGHT UP]
+///               at X Y Z  look-at X Y Z | turn YAW PITCH  [roll A]  fisheye A
+///               pins X Y  X Y  X Y  X Y       upper left, upper right, lower right, lower left (planes only)
+///               warp FILE.pfm                 points of the screen that a camera system measured
+///       LIGHT   [display-gamma G | R G B | srgb]  [white R G B]  [black L]  [no-blend]  [mask FILE.png]
+///     visitor X Y Z [within R]  usual place of the eyes, and how far they go from there (0 0 1.7, 1 m)
+/// YAW turns the lens to the right, PITCH up; `roll` turns it clockwise, seen along the lens. Names of files
+/// are relative to the folder of the wall file. Points in them are in rig space, in the unit of the wall file.
+/// screen_mesh.h says which files are read.
 ///
 /// Units    metres in memory, whatever the file's unit.
 /// Threads  plain values, any thread.
@@ -57,6 +74,7 @@ struct WallFile {
   /// Each wall takes two threads and an OpenGL context, or a process. A larger count is a mistake in the
   /// file.
   static constexpr std::size_t kMaxWalls = 256;
+  static constexpr std::size_t kMaxScreens = 256;
 
   std::string file;              ///< as the user named it
   std::vector<WallEntry> walls;  ///< walls and projectors in file order
@@ -73,14 +91,20 @@ struct WallFile {
   }
 };
 
-/// Reads the text; nothing if it has errors. Says nothing about geometry: lintWalls (wall_lint.h) does.
+/// Reads the text; nothing if it has errors. Says nothing about geometry: lintWalls (wall_lint.h) does. Opens
+/// no file: meshes and warps have their names only, until loadHallFiles reads them.
 std::optional<WallFile> parseWalls(std::string_view text, const std::string& file, Diagnostics& out);
 
-/// Finds the file, reads and lints it. `nameOrPath` is the path of a file, or the name of one that lies in
+/// Reads the meshes and warps that the hall names, relative to the folder of WallFile::file, and places the
+/// rectangles of projectors. False after an error; findings name the file, and the line of the wall file.
+bool loadHallFiles(WallFile& hall, Diagnostics& out);
+
+/// Finds the file, reads it and the files that it names, and lints it. `nameOrPath` is the path of a file, or the name of one that lies in
 /// `folder` as NAME.walls (the walls that ship with Stadion). Warnings alone do not fail.
 std::optional<WallFile> loadWalls(const std::string& nameOrPath, const std::string& folder, Diagnostics& out);
 
-/// The file as text that parseWalls reads back to the same values, in metres.
+/// The file as text that parseWalls reads back to the same values, in metres; in the unit of the file if it
+/// names meshes or warps. Angles and rotations may differ in their last digits.
 std::string formatWalls(const WallFile& walls);
 
 }  // namespace stadion

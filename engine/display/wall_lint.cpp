@@ -39,12 +39,17 @@ std::string distance(double metres) {
 
 class Linter {
 public:
-  Linter(const WallFile& walls, Diagnostics& out) : walls_(walls), out_(out) {}
+  /// `noun` is what messages call an entry.
+  Linter(const WallFile& walls, const char* noun, Diagnostics& out) : walls_(walls), noun_(noun), out_(out) {}
 
-  void run() {
-    for (const WallEntry& entry : walls_.walls) sound_.push_back(area(entry) && size(entry) && square(entry));
-    // The rest would only repeat, in other words, that a wall is no rectangle or ten times too large.
-    if (!std::ranges::all_of(sound_, [](bool sound) { return sound; })) return;
+  /// Checks each entry by itself. False after an error.
+  bool rectangles() {
+    bool sound = true;
+    for (const WallEntry& e : walls_.walls) sound = area(e) && size(e) && square(e) && sound;
+    return sound;
+  }
+
+  void room() {
     const std::vector<Facing> all = facingOf(walls_.walls, kStandingEye);
     for (std::size_t i = 0; i < all.size(); ++i) facing(walls_.walls[i], all[i]);
     for (std::size_t i = 0; i < walls_.walls.size(); ++i)
@@ -58,6 +63,7 @@ private:
   void warning(const WallEntry& e, std::string message) {
     out_.warning({walls_.file, e.line, e.column}, std::move(message), e.excerpt);
   }
+  std::string nameOf(const WallEntry& e) const { return fmt::format("{} \"{}\"", noun_, e.wall.name); }
   std::string inUnit(const Vec3& p) const { return point(p, walls_.metresPerUnit); }
 
   bool area(const WallEntry& e) {
@@ -67,22 +73,20 @@ private:
                        : lower.cross(left).norm() < 1e-6 * lower.norm() * left.norm()
                            ? "its three corners lie on one line"
                            : nullptr;
-    if (what)
-      error(e, fmt::format("wall \"{}\" has no area: {}; measure its corners again", e.wall.name, what));
+    if (what) error(e, fmt::format("{} has no area: {}; measure its corners again", nameOf(e), what));
     return !what;
   }
 
   bool size(const WallEntry& e) {
     const WallBasis b = basis(e.wall);
     const double large = std::max(b.width, b.height), small = std::min(b.width, b.height);
-    const std::string is =
-        fmt::format("wall \"{}\" is {} by {}", e.wall.name, distance(b.width), distance(b.height));
+    const std::string is = fmt::format("{} is {} by {}", nameOf(e), distance(b.width), distance(b.height));
     if (large > kLargest) {
       const char* unit = large > 500 ? "mm" : "cm";
       const bool stated = walls_.metresPerUnit != 1;
       error(e, fmt::format("{}; if the file is in {} put the line \"unit {}\" {}", is,
                            large > 500 ? "millimetres" : "centimetres", unit,
-                           stated ? "in the place of its unit" : "above the first wall"));
+                           stated ? "in the place of its unit" : fmt::format("above the first {}", noun_)));
       return false;
     }
     if (small >= kSmallest) return true;
@@ -101,9 +105,8 @@ private:
     const double degrees = 90 - det::asin(sine) * (180 / kPi);
     const Vec3 mended = e.wall.lowerLeft + left.norm() * b.up;
     const std::string message = fmt::format(
-        "wall \"{}\" is no rectangle: the angle at lower-left is {:.2f} degrees; a square corner has "
-        "upper-left {}",
-        e.wall.name, degrees, inUnit(mended));
+        "{} is no rectangle: the angle at lower-left is {:.2f} degrees; a square corner has upper-left {}",
+        nameOf(e), degrees, inUnit(mended));
     if (std::fabs(sine) <= kSquareError) {
       warning(e, message);
       return true;
@@ -192,14 +195,48 @@ private:
   }
 
   const WallFile& walls_;
+  const char* noun_;
   Diagnostics& out_;
-  std::vector<bool> sound_;
 };
+
+WallFile emptyLike(const WallFile& walls) {
+  WallFile like;
+  like.file = walls.file;
+  like.metresPerUnit = walls.metresPerUnit;
+  return like;
+}
+
+/// The walls that fill their pictures. Projectors overlap by intent.
+WallFile flatWalls(const WallFile& walls) {
+  WallFile flat = emptyLike(walls);
+  for (const WallEntry& e : walls.walls)
+    if (!e.projector) flat.walls.push_back(e);
+  return flat;
+}
+
+WallFile planeScreens(const WallFile& walls) {
+  WallFile planes = emptyLike(walls);
+  for (const Screen& s : walls.screens)
+    if (const auto* plane = std::get_if<Wall>(&s.surface)) {
+      WallEntry& e = planes.walls.emplace_back();
+      e.wall = *plane;
+      e.wall.name = s.name;
+      e.line = s.line;
+      e.column = s.column;
+      e.excerpt = s.excerpt;
+    }
+  return planes;
+}
 
 }  // namespace
 
 void lintWalls(const WallFile& walls, Diagnostics& out) {
-  Linter(walls, out).run();
+  const WallFile flat = flatWalls(walls), planes = planeScreens(walls);
+  Linter ofWalls(flat, "wall", out);
+  // The rest would only repeat, in other words, that a wall is no rectangle or ten times too large.
+  const bool sound = ofWalls.rectangles(), soundScreens = Linter(planes, "screen", out).rectangles();
+  if (sound && !flat.walls.empty()) ofWalls.room();
+  if (sound && soundScreens) lintHall(walls, out);
 }
 
 }  // namespace stadion

@@ -1,0 +1,118 @@
+#include "engine/display/hall_reader.h"
+
+#include "engine/display/covered_rectangle.h"
+#include "engine/display/hall_statements.h"
+#include "engine/plain_text/suggestion.h"
+
+#include <algorithm>
+
+namespace stadion {
+
+bool HallReader::refuseMore(std::size_t count, std::size_t most, std::string_view what) {
+  if (count < most) return false;
+  in_.error(in_.keyword(),
+            fmt::format("a file has at most {} {}; delete this line and those after it", most, what));
+  return tooMany_ = true;
+}
+
+void HallReader::screen() {
+  const auto name = in_.name("the screen's name", "a screen");
+  if (!name) return;
+  const Word nameWord = in_.last();
+  Screen screen;
+  screen.name = *name;
+  screen.line = in_.line();
+  screen.column = nameWord.column;
+  screen.excerpt = in_.excerpt();
+  if (!readScreen(in_, lengths_, screen)) return;
+  if (refuseMore(hall_.screens.size(), WallFile::kMaxScreens, "screens")) return;
+  for (const Screen& other : hall_.screens)
+    if (other.name == *name)
+      return in_.error(nameWord, fmt::format("there is a screen \"{}\" already, on line {}; give this one "
+                                             "another name",
+                                             *name, other.line));
+  hall_.screens.push_back(std::move(screen));
+}
+
+void HallReader::projector() {
+  const auto name = in_.name("the projector's name", "a projector");
+  if (!name) return;
+  const Word nameWord = in_.last();
+  WallEntry entry;
+  entry.wall.name = *name;
+  entry.line = in_.line();
+  entry.column = nameWord.column;
+  entry.excerpt = in_.excerpt();
+  const auto screen = readProjector(in_, lengths_, entry);
+  if (!screen || refuseMore(hall_.walls.size(), WallFile::kMaxWalls, "walls and projectors")) return;
+  for (const WallEntry& other : hall_.walls)
+    if (other.wall.name == *name)
+      return in_.error(nameWord,
+                       fmt::format("there is a {} \"{}\" already, on line {}; give this one another "
+                                   "name",
+                                   other.projector ? "projector" : "wall", *name, other.line));
+  links_.push_back({hall_.walls.size(), screen->name, screen->at, in_.place(nameWord)});
+  hall_.walls.push_back(std::move(entry));
+}
+
+void HallReader::visitor() {
+  VisitorPlace visitor;
+  if (!lengths_.point("the visitor's eyes", visitor.eye)) return;
+  if (in_.more()) {
+    static constexpr std::string_view kWithin[] = {"within"};
+    if (!in_.choice("the reach", kWithin)) return;
+    const auto reach = lengths_.length("the reach", 0, 100);
+    if (!reach || !in_.finished()) return;
+    visitor.reach = *reach;
+  }
+  hall_.visitor = visitor;
+}
+
+bool HallReader::finish() {
+  bool good = true;
+  for (const ScreenOfProjector& one : links_) good = link(one) && good;
+  if (good) placeRectangles(hall_);
+  return good;
+}
+
+bool HallReader::link(const ScreenOfProjector& link) {
+  WallEntry& entry = hall_.walls[link.entry];
+  Projector& projector = *entry.projector;
+  const auto screen = std::ranges::find(hall_.screens, link.screen, &Screen::name);
+  if (screen == hall_.screens.end()) {
+    std::vector<std::string> known;
+    for (const Screen& s : hall_.screens) known.push_back(s.name);
+    in_.errorAt(link.at, fmt::format("there is no screen {}{}", quotedWord(link.screen),
+                                     known.empty() ? "; add a line such as: screen " + link.screen +
+                                                         " plane  lower-left X Y Z  lower-right X Y Z  "
+                                                         "upper-left X Y Z"
+                                                   : didYouMeanOrKnown(link.screen, known)));
+    return false;
+  }
+  projector.screen = static_cast<std::size_t>(screen - hall_.screens.begin());
+  projector.width = entry.pixels.width;
+  projector.height = entry.pixels.height;
+  if (projector.width == 0) {
+    in_.errorAt(link.projector,
+                fmt::format("projector \"{}\" has no size; add: pixels WIDTH HEIGHT, here or as "
+                            "a line for all",
+                            entry.wall.name));
+    return false;
+  }
+  if (std::holds_alternative<PinnedImage>(projector.image) &&
+      !std::holds_alternative<Wall>(screen->surface)) {
+    in_.errorAt(link.projector,
+                fmt::format("pins fit plane screens only, and screen \"{}\" is none; use warp FILE.pfm",
+                            screen->name));
+    return false;
+  }
+  if (entry.output && entry.output->shape.warp) {
+    in_.errorAt(link.projector, fmt::format("projector \"{}\" has an output with warp; leave that warp out: "
+                                            "the projector's own image bends the picture",
+                                            entry.wall.name));
+    return false;
+  }
+  return true;
+}
+
+}  // namespace stadion

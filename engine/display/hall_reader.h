@@ -1,0 +1,56 @@
+#pragma once
+/// The statements of a wall file about screens, projectors and visitors (wall_file.h lists them).
+///
+/// Ownership  borrows the reader and the WallFile that it fills.
+/// Threads    one reader, one thread.
+/// Errors     are reported at the word that is wrong.
+
+#include "engine/display/wall_file.h"
+#include "engine/display/wall_words.h"
+
+#include <string>
+#include <vector>
+
+namespace stadion {
+
+class HallReader {
+public:
+  HallReader(StatementReader& in, LengthReader& lengths, WallFile& hall)
+      : in_(in), lengths_(lengths), hall_(hall) {}
+
+  // Each reads the rest of one line.
+  void screen();
+  void projector();
+  void visitor();
+
+  /// Gives projectors their screens, which may stand below them. Expects the pixels of all entries. False
+  /// after an error.
+  bool finish();
+  /// True after a statement that is one too many: more lines would only repeat the error.
+  bool tooMany() const { return tooMany_; }
+
+private:
+  struct ScreenOfProjector {
+    std::size_t entry;
+    std::string screen;
+    StatementPlace at;         ///< of the screen's name
+    StatementPlace projector;  ///< of the projector's name
+  };
+
+  bool link(const ScreenOfProjector& link);
+  bool refuseMore(std::size_t count, std::size_t most, std::string_view what);
+
+  StatementReader& in_;
+  LengthReader& lengths_;
+  WallFile& hall_;
+  std::vector<ScreenOfProjector> links_;
+  bool tooMany_ = false;
+};
+
+/// The statement as text that HallReader reads back to the same values in a file whose unit has
+/// `metresPerUnit`.
+std::string formatScreen(const Screen& screen, double metresPerUnit);
+std::string formatProjector(const WallEntry& entry, const std::string& screen, double metresPerUnit);
+std::string formatVisitor(const VisitorPlace& visitor, double metresPerUnit);
+
+}  // namespace stadion
