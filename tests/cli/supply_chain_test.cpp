@@ -96,7 +96,7 @@ TEST(ProgramSupplyChain, TheBillOfMaterialsIsWellFormedAndNamesWhatIsLinkedOrLoa
     EXPECT_TRUE(ids.contains(relation["relatedSpdxElement"].get<std::string>()));
   }
   for (const char* linked : {"libc6", "libfmt9", "libassimp5", "libdraco7", "libopenexr-3-1-30", "libwebp7",
-                             "libfcl0.7", "libsndfile1", "libosmesa6"})
+                             "libfcl0.7", "libmd0", "libsndfile1", "libosmesa6"})
     EXPECT_TRUE(names.contains(linked)) << linked;
   expectLoadedLibrariesIn(names);
 }
