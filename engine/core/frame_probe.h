@@ -56,6 +56,7 @@ enum class Span : std::uint8_t {
   Resolve,  ///< samples become pixels
   Finish,   ///< the rasteriser, or the graphics processor, completes what it was told
   Read,     ///< pictures are read back
+  Warp,     ///< pictures of facets become those of a projector
   // Waits.
   ForTick,   ///< App, for the clock
   ForSlot,   ///< App, for Cull to give a slot back

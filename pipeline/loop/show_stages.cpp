@@ -3,6 +3,7 @@
 #include "engine/input/tracker_names.h"
 #include "pipeline/gl_draw/warm_up_list.h"
 #include "pipeline/process/per_view_process_renderer.h"
+#include "pipeline/projection/projection.h"
 #include "pipeline/wall/cpu_wall_renderer.h"
 #include "pipeline/wall/gl_wall_renderer.h"
 
@@ -202,22 +203,48 @@ Failure ShowStages::draw(std::size_t wall, const DrawList& list) {
   drawn.views = list.viewCount;
   drawn.frame = list.ticket.signature.frame;
   drawn.read = false;
+  if (parts_.walls[wall].projection)
+    for (std::uint32_t view = 0; view < list.viewCount; ++view)
+      drawn.clipFromRig[view] = clipFromRig(list, view);
   drawn.totals = wallRenderer_->totals(wall);
   return wanted ? readPictures(wall) : std::nullopt;
 }
 
 Failure ShowStages::readPictures(std::size_t wall) {
-  const SpanScope span(parts_.probe, Span::Read);
   Drawn& drawn = drawn_[wall];
+  const bool projected = parts_.walls[wall].projection != nullptr;
+  if (Failure f = readViews(wall, projected ? drawn.facets : pictures_[wall].eyes)) return f;
   pictures_[wall].frame = drawn.frame;
-  pictures_[wall].eyes.resize(drawn.views);
-  for (std::uint32_t view = 0; view < drawn.views; ++view) {
-    Picture& p = pictures_[wall].eyes[view];
-    p = Picture(parts_.walls[wall].width, parts_.walls[wall].height);
-    if (Failure f = wallRenderer_->read(wall, view, p.rgba)) return f;
-  }
+  if (projected) project(wall);
   drawn.read = true;
   return kNoFailure;
+}
+
+Failure ShowStages::readViews(std::size_t wall, std::vector<Picture>& pictures) {
+  const SpanScope span(parts_.probe, Span::Read);
+  pictures.resize(drawn_[wall].views);
+  for (std::uint32_t view = 0; view < drawn_[wall].views; ++view) {
+    Picture& p = pictures[view];
+    const WallViews& of = parts_.walls[wall];
+    if (p.width != of.width || p.height != of.height) p = Picture(of.width, of.height);
+    if (Failure f = wallRenderer_->read(wall, view, p.rgba)) return f;
+  }
+  return kNoFailure;
+}
+
+/// Makes the picture of each eye from the facets' pictures.
+void ShowStages::project(std::size_t wall) {
+  const SpanScope span(parts_.probe, Span::Warp);
+  const Drawn& drawn = drawn_[wall];
+  const Projection& projection = *parts_.walls[wall].projection;
+  const std::size_t facets = projection.facets().all.size(), eyes = drawn.views / facets;
+  pictures_[wall].eyes.resize(eyes);
+  for (std::size_t eye = 0; eye < eyes; ++eye) {
+    std::array<FacetPicture, Facets::kMost> seen;
+    for (std::size_t f = 0; f < facets; ++f)
+      seen[f] = {drawn.clipFromRig[f * eyes + eye], &drawn.facets[f * eyes + eye]};
+    projection.draw({seen.data(), facets}, pictures_[wall].eyes[eye], parts_.pool);
+  }
 }
 
 void ShowStages::closeWall(std::size_t wall) {

@@ -20,6 +20,7 @@
 #include "pipeline/wall/wall_contexts.h"
 #include "pipeline/wall/wall_renderer.h"
 
+#include <array>
 #include <atomic>
 #include <functional>
 #include <vector>
@@ -138,12 +139,17 @@ private:
     std::optional<std::chrono::steady_clock::time_point> posed{};  ///< the head's pose was measured then
     WallLateness late{};
     std::uint64_t lateNow = 0;  ///< frames in a row, up to this one
+    /// Of a projector: the matrices from the rig to each view, and the views' pictures.
+    std::array<Mat4, DrawList::kMostViews> clipFromRig{};
+    std::vector<Picture> facets{};
   };
 
   void tellPublished();
   void playSounds(const InputSample& input, bool still);
   void noteMeasured(const InputSample& input);
   Failure readPictures(std::size_t wall);
+  Failure readViews(std::size_t wall, std::vector<Picture>& pictures);
+  void project(std::size_t wall);
 
   ShowParts parts_;
   InputSample input_;  ///< input of App's current frame

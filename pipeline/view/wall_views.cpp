@@ -1,5 +1,7 @@
 #include "pipeline/view/wall_views.h"
 
+#include "pipeline/projection/projection.h"
+
 #include <algorithm>
 #include <cassert>
 
@@ -20,6 +22,27 @@ bool isSameScreen(const Wall& a, const Wall& b) {
 std::vector<View> viewsOf(const Wall& screen, bool stereo) {
   if (!stereo) return {{screen, ViewPoint::Middle}};
   return {{screen, ViewPoint::Left}, {screen, ViewPoint::Right}};
+}
+
+std::vector<View> viewsOf(const Projection& projection, bool stereo) {
+  std::vector<View> views;
+  for (const Facet& facet : projection.facets().all) {
+    if (!stereo) {
+      views.push_back({facet.rectangle, ViewPoint::Middle});
+      continue;
+    }
+    if (projection.eye() != Eye::Right) views.push_back({facet.rectangle, ViewPoint::Left});
+    if (projection.eye() != Eye::Left) views.push_back({facet.rectangle, ViewPoint::Right});
+  }
+  return views;
+}
+
+Mat4 clipFromRig(const DrawList& list, std::uint32_t view) {
+  const Pose X_WR = list.viewer.rig();
+  Mat4 rig = Mat4::Identity();
+  rig.topLeftCorner<3, 3>() = X_WR.q.toRotationMatrix();
+  rig.topRightCorner<3, 1>() = X_WR.p - list.origin;
+  return list.views[view].projection * list.views[view].view * rig;
 }
 
 std::uint32_t PlacedViews::endOfScreen(std::uint32_t first) const {

@@ -18,11 +18,14 @@
 
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 namespace stadion {
+
+class Projection;
 
 /// From where the visitor looks through a screen.
 enum class ViewPoint : std::uint32_t { Left, Right, Middle };
@@ -37,6 +40,8 @@ bool isSameScreen(const Wall& a, const Wall& b);
 
 /// Returns the views of a flat wall: one for each eye, or one from the middle.
 std::vector<View> viewsOf(const Wall& screen, bool stereo);
+/// Returns the views of a projector: its facets one after the other, each for the eyes that it serves.
+std::vector<View> viewsOf(const Projection& projection, bool stereo);
 
 struct WallViews {
   std::string name{};
@@ -46,6 +51,8 @@ struct WallViews {
   std::uint32_t width = 800, height = 600;  ///< size of the picture of each view [pixels]
   const FreeCamera* camera = nullptr;       ///< looks in place of the visitor; `views` is one, and not used
   HeadReach reach{};                        ///< how far the visitor's head may go after Cull
+  /// Makes the output's pictures from those of the views; null: they are the same.
+  std::shared_ptr<const Projection> projection{};
   std::optional<std::uint32_t>
       card{};  ///< graphics card that draws it (GlProvider); none: the provider's choice
 };
@@ -77,6 +84,9 @@ struct PlacedViews {
   ConvexVolume volume(std::uint32_t first, std::uint32_t end) const;
   void setUp(DrawList& list) const;
 };
+
+/// Returns the matrix from R to the clip coordinates of a view of the list.
+Mat4 clipFromRig(const DrawList& list, std::uint32_t view);
 
 /// Where the views of a wall are for this viewer, or the camera's if it looks. Borrows the wall and `camera`.
 PlacedViews place(const ViewerRecord& viewer, const WallViews& wall, const EyeChoice& choice,

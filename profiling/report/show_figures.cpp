@@ -281,7 +281,7 @@ private:
     draw.stage = "draw";
     draw.measured = sum(Span::Draw);
     for (const Span s :
-         {Span::Prepare, Span::Upload, Span::ShadowMaps, Span::Finish, Span::Read, Span::ForTurn})
+         {Span::Prepare, Span::Upload, Span::ShadowMaps, Span::Finish, Span::Read, Span::Warp, Span::ForTurn})
       draw.named += sum(s);
     for (const auto& [key, eye] : profile_.eyes()) {
       if (eye.whole.mean() <= 0 || key.first >= out_.walls.size()) continue;

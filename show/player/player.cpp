@@ -4,6 +4,9 @@
 #include "engine/input/input_log.h"
 #include "engine/plain_text/number_text.h"
 #include "engine/scene/scene_snapshot.h"
+#include "pipeline/platform/draw_pool.h"
+#include "pipeline/platform/processor_set.h"
+#include "pipeline/projection/projection.h"
 #include "show/player/show_files.h"
 
 #include <algorithm>
@@ -133,6 +136,7 @@ std::unique_ptr<Player> Player::prepare(const ShowOptions& options, Diagnostics&
 
   auto walls = loadWalls(options.walls, shareFolder() + "/walls", findings);
   if (!walls) return nullptr;
+  if (!p.project(*walls, findings)) return nullptr;
   p.takeWalls(std::move(*walls));
   if (!p.openInput(findings)) return nullptr;
   p.computeLength();
@@ -185,6 +189,29 @@ FrameLoopOptions Player::loopOptions() const {
   return l;
 }
 
+/// Finds how the projectors of the hall, if it has any, share its screens. Neighbours that other hosts draw
+/// count, too.
+bool Player::project(WallFile& room, Diagnostics& findings) {
+  const auto isProjector = [](const WallEntry& entry) { return entry.projector.has_value(); };
+  if (std::ranges::none_of(room.walls, isProjector)) return true;
+  for (WallEntry& entry : room.walls) {
+    if (!entry.projector || options_.size.empty()) continue;
+    // --size states the width: a projector's picture keeps its shape.
+    Projector& p = *entry.projector;
+    p.height = std::max(1u, static_cast<std::uint32_t>(std::uint64_t{p.height} * options_.width / p.width));
+    p.width = options_.width;
+  }
+  DrawPool pool(std::max<std::size_t>(1, processorsOfThisThread().size()));
+  auto made = makeProjections(room, pool);
+  if (!made) {
+    findings.add(made.error());
+    return false;
+  }
+  for (std::size_t i = 0; i < room.walls.size(); ++i)
+    if (made.value()[i]) projections_[room.walls[i].wall.name] = std::move(made.value()[i]);
+  return true;
+}
+
 void Player::takeWalls(WallFile room) {
   walls_ = std::move(room);
   if (options_.onlyWalls.empty()) return;
@@ -201,6 +228,25 @@ PixelSize Player::pixelsOf(const WallEntry& entry) const {
   return byFile ? entry.pixels : PixelSize{options_.width, options_.height};
 }
 
+WallViews Player::viewsOfEntry(const WallEntry& entry, bool stereo) const {
+  WallViews wall{.name = entry.wall.name};
+  wall.depth = walls_.depth;
+  wall.eyeSeparation = walls_.eyeSeparation;
+  wall.card = entry.card;
+  if (const auto projection = projections_.find(entry.wall.name); projection != projections_.end()) {
+    wall.projection = projection->second;
+    wall.views = viewsOf(*wall.projection, stereo);
+    wall.width = wall.projection->facets().width;
+    wall.height = wall.projection->facets().height;
+    return wall;
+  }
+  wall.views = viewsOf(entry.wall, stereo);
+  const PixelSize pixels = pixelsOf(entry);
+  wall.width = pixels.width;
+  wall.height = pixels.height;
+  return wall;
+}
+
 ShowParts Player::parts(StereoLayout stereo, InputDevice* instead) {
   ShowParts parts{.scene = *scene_,
                   .state = state_,
@@ -212,19 +258,11 @@ ShowParts Player::parts(StereoLayout stereo, InputDevice* instead) {
                   .fading = [this] { return loader_->fadingMeshes(); }};
   if (options_.look == Look::Plain) parts.quality = RenderQuality::plain();
   if (options_.samples > 0) parts.quality.samples = options_.samples;
-  for (const WallEntry& entry : walls_.walls) {
-    WallViews wall{.name = entry.wall.name, .views = viewsOf(entry.wall, eyeCount(stereo) == 2)};
-    wall.depth = walls_.depth;
-    wall.eyeSeparation = walls_.eyeSeparation;
-    const PixelSize pixels = pixelsOf(entry);
-    wall.width = pixels.width;
-    wall.height = pixels.height;
-    wall.card = entry.card;
-    parts.walls.push_back(std::move(wall));
-  }
+  for (const WallEntry& entry : walls_.walls)
+    parts.walls.push_back(viewsOfEntry(entry, eyeCount(stereo) == 2));
   for (const WallEntry& entry : others_) {
-    const PixelSize pixels = pixelsOf(entry);
-    parts.otherWalls.push_back({entry.wall, pixels.width, pixels.height});
+    const WallViews wall = viewsOfEntry(entry, false);
+    for (const View& view : wall.views) parts.otherWalls.push_back({view.screen, wall.width, wall.height});
   }
   return parts;
 }

@@ -20,6 +20,7 @@
 #include "show/base/standard_nodes.h"
 
 #include <atomic>
+#include <map>
 #include <memory>
 #include <string>
 #include <vector>
@@ -121,7 +122,9 @@ private:
   Player();
   bool openInput(Diagnostics& findings);
   void computeLength();
+  bool project(WallFile& room, Diagnostics& findings);
   void takeWalls(WallFile room);
+  WallViews viewsOfEntry(const WallEntry& entry, bool stereo) const;
   PixelSize pixelsOf(const WallEntry& entry) const;
 
   SharedTypes types_;
@@ -137,6 +140,7 @@ private:
   InputDevice* live_ = nullptr;    ///< used instead of input_, if there is one
   WallFile walls_;                 ///< walls that are drawn here
   std::vector<WallEntry> others_;  ///< the room's others
+  std::map<std::string, std::shared_ptr<const Projection>> projections_;  ///< by name of the projector
   ShowOptions options_;
   RunDecisions decisions_;
   double rate_ = 60;

@@ -76,8 +76,14 @@ PlayingShow::~PlayingShow() {
 ShowParts PlayingShow::parts() {
   ShowParts parts = player_->parts(around_.settings.draw.layout);
   for (std::size_t i = 0; i < parts.walls.size() && i < around_.pictureSizes.size(); ++i) {
+    const bool projected = parts.walls[i].projection != nullptr;
+    if (projected) {  // the window shows about what the audience sees
+      parts.walls[i].projection = nullptr;
+      parts.walls[i].views =
+          viewsOf(player_->walls().walls[i].wall, eyeCount(around_.settings.draw.layout) == 2);
+    }
     const bool stated = !around_.settings.show.size.empty() || player_->walls().walls[i].pixels.width > 0;
-    if (stated) continue;
+    if (stated && !projected) continue;
     parts.walls[i].width = around_.pictureSizes[i].width;
     parts.walls[i].height = around_.pictureSizes[i].height;
   }

@@ -8,6 +8,13 @@
 namespace stadion {
 namespace {
 
+/// Width by height of what is shown.
+double aspectOf(const WallEntry& entry) {
+  if (entry.projector) return static_cast<double>(entry.projector->width) / entry.projector->height;
+  const WallBasis shape = basis(entry.wall);
+  return shape.width / shape.height;
+}
+
 class PicturesPart final : public SessionPart {
 public:
   PicturesPart(SessionState& session, std::unique_ptr<OutputFolder> folder)
@@ -56,8 +63,7 @@ private:
                          {}};
     for (const WallEntry& w : session_.player->walls().walls) {
       out.wallNames.push_back(w.wall.name);
-      const WallBasis shape = basis(w.wall);
-      out.wallAspects.push_back(shape.width / shape.height);
+      out.wallAspects.push_back(aspectOf(w));
     }
     output_ = std::make_unique<RunOutput>(std::move(out));
   }

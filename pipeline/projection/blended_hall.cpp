@@ -1,0 +1,136 @@
+#include "pipeline/projection/blended_hall.h"
+
+#include "engine/maths/functions.h"
+#include "engine/maths/srgb.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace stadion {
+namespace {
+
+constexpr double kLeast = 1e-12;           ///< so that the border of a lone picture has all its light
+constexpr std::uint32_t kBlackSteps = 32;  ///< samples of a picture along each side, for its blacks
+
+/// The value from 0 to 1 that gives this part of a projector's light.
+double valueOf(double light, double gamma) {
+  if (light <= 0) return 0;
+  return gamma > 0 ? det::pow(light, 1 / gamma) : srgbFromLinear(light);
+}
+
+}  // namespace
+
+Result<std::unique_ptr<BlendedHall>> BlendedHall::create(const WallFile& hall) {
+  std::unique_ptr<BlendedHall> blended(new BlendedHall(hall));
+  if (auto problem = blended->readMasks()) return *problem;
+  return blended;
+}
+
+BlendedHall::BlendedHall(const WallFile& hall)
+    : hall_(hall), images_(hall.walls.size()), masks_(hall.walls.size()) {
+  for (const Screen& screen : hall.screens) surfaces_.push_back(std::make_unique<ScreenSurface>(screen));
+  bool first = true;
+  for (std::size_t i = 0; i < hall.walls.size(); ++i) {
+    if (!hall.walls[i].projector) continue;
+    const Projector& p = projector(i);
+    images_[i] = std::make_unique<ThrownImage>(p, *surfaces_[p.screen]);
+    for (std::size_t c = 0; c < 3; ++c)
+      white_[c] = first ? p.light.white[c] : std::min(white_[c], p.light.white[c]);
+    first = false;
+  }
+  findBrightestBlack();
+}
+
+std::optional<Diagnostic> BlendedHall::readMasks() {
+  for (std::size_t i = 0; i < hall_.walls.size(); ++i) {
+    if (!hall_.walls[i].projector || projector(i).blend.mask.empty()) continue;
+    auto mask = readPng(projector(i).blend.mask);
+    if (!mask) return mask.error();
+    masks_[i] = std::move(mask.value());
+  }
+  return std::nullopt;
+}
+
+bool BlendedHall::mayShare(std::size_t a, std::size_t b) const {
+  if (a == b || !images_[b]) return false;
+  const Projector &pa = projector(a), &pb = projector(b);
+  return pa.screen == pb.screen && (!pa.eye || !pb.eye || *pa.eye == *pb.eye);
+}
+
+/// The light of all black pixels at the point, which `entry` lights.
+double BlendedHall::blackAt(std::size_t entry, const Vec3& point) const {
+  double black = projector(entry).light.black;
+  for (std::size_t other = 0; other < images_.size(); ++other)
+    if (mayShare(entry, other) && projector(other).light.black > 0 && images_[other]->shareOf(point))
+      black += projector(other).light.black;
+  return black;
+}
+
+void BlendedHall::findBrightestBlack() {
+  for (std::size_t i = 0; i < images_.size(); ++i) {
+    if (!images_[i] || projector(i).light.black <= 0) continue;
+    for (std::uint32_t y = 0; y <= kBlackSteps; ++y)
+      for (std::uint32_t x = 0; x <= kBlackSteps; ++x)
+        if (const auto point = images_[i]->pointAt(Vec2(x, y) / kBlackSteps))
+          black_ = std::max(black_, blackAt(i, *point));
+  }
+}
+
+/// The mask lies over the whole output, whatever its size.
+Vec3 BlendedHall::maskAt(std::size_t entry, double x, double y) const {
+  const Picture& mask = masks_[entry];
+  if (mask.empty()) return Vec3::Ones();
+  const auto along = [](double place, std::uint32_t size, std::uint32_t of) {
+    return std::clamp(place * size / of - 0.5, 0.0, double(size - 1));
+  };
+  const double u = along(x, mask.width, projector(entry).width),
+               v = along(y, mask.height, projector(entry).height);
+  const auto column = static_cast<std::uint32_t>(u), row = static_cast<std::uint32_t>(v);
+  const auto at = [&](std::uint32_t c, std::uint32_t r) -> Vec3 {
+    const std::uint8_t* p = mask.at(std::min(c, mask.width - 1), std::min(r, mask.height - 1));
+    return Vec3(p[0], p[1], p[2]) / 255;
+  };
+  const double s = u - column, t = v - row;
+  return (1 - t) * ((1 - s) * at(column, row) + s * at(column + 1, row)) +
+         t * ((1 - s) * at(column, row + 1) + s * at(column + 1, row + 1));
+}
+
+std::optional<LitPoint> BlendedHall::litBy(std::size_t entry, double x, double y) const {
+  const Projector& p = projector(entry);
+  const Vec2 place(x / p.width, y / p.height);
+  const auto point = images_[entry]->pointAt(place);
+  if (!point) return std::nullopt;
+  const auto weightOf = [](double depth) { return depth * depth + kLeast; };
+  double all = weightOf(images_[entry]->depthAt(place)), share = 1;
+  if (p.blend.computed) {
+    const double own = all;
+    for (std::size_t other = 0; other < images_.size(); ++other) {
+      if (!mayShare(entry, other) || !projector(other).blend.computed) continue;
+      if (const auto there = images_[other]->shareOf(*point))
+        all += weightOf(images_[other]->depthAt(*there));
+    }
+    share = own / all;
+  }
+  LitPoint lit{*point, share * maskAt(entry, x, y), 0};
+  if (black_ > 0) lit.lift = share * std::max(0.0, black_ - blackAt(entry, *point));
+  return lit;
+}
+
+WarpLight BlendedHall::lightOf(std::size_t entry) const {
+  const ProjectorLight& light = projector(entry).light;
+  WarpLight warp;
+  for (std::size_t v = 0; v < 256; ++v)
+    warp.linear[v] = static_cast<float>(linearFromSrgb(static_cast<double>(v) / 255));
+  for (std::size_t c = 0; c < 3; ++c) {
+    const double range = light.white[c] - light.black;
+    warp.gain[c] = static_cast<float>((white_[c] - black_) / range);
+    warp.lift[c] = static_cast<float>(1 / range);
+    for (std::size_t step = 0; step <= kWarpSteps; ++step) {
+      const double root = static_cast<double>(step) / kWarpSteps;
+      warp.encoded[c][step] = static_cast<std::uint8_t>(valueOf(root * root, light.gamma[c]) * 255 + 0.5);
+    }
+  }
+  return warp;
+}
+
+}  // namespace stadion

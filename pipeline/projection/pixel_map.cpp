@@ -1,0 +1,128 @@
+#include "pipeline/projection/pixel_map.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace stadion {
+namespace {
+
+constexpr double kPointError = 0.05;  ///< of the distance between two pixels
+constexpr double kShareError = 0.002;
+constexpr double kLiftError = 1e-4;
+constexpr std::uint32_t kSide = PixelMap::kSide;
+
+using Lit = std::function<std::optional<LitPoint>(double, double)>;
+
+bool isDark(const MapPoint& p) {
+  return p.red == 0 && p.green == 0 && p.blue == 0 && p.lift == 0;
+}
+
+class MapMaking {
+public:
+  MapMaking(PixelMap& map, const Lit& lit, DrawPool& pool) : map_(map), lit_(lit), pool_(pool) {}
+
+  void run() {
+    const std::size_t across = map_.columns + 1;
+    corners_.resize(across * (map_.rows + 1));
+    pool_.run(map_.rows + 1, [&](std::size_t row) {
+      for (std::size_t c = 0; c < across; ++c)
+        corners_[row * across + c] = at(static_cast<double>(c * kSide), static_cast<double>(row * kSide));
+    });
+    std::vector<std::vector<MapPoint>> exact(map_.rows);
+    pool_.run(map_.rows, [&](std::size_t row) {
+      for (std::uint32_t c = 0; c < map_.columns; ++c) cell(static_cast<std::uint32_t>(row), c, exact[row]);
+    });
+    join(exact);
+    for (const auto& corner : corners_) map_.corners.push_back(stored(corner));
+  }
+
+private:
+  std::optional<LitPoint> at(double x, double y) const { return lit_(x + 0.5, y + 0.5); }
+
+  MapPoint stored(const std::optional<LitPoint>& p) const {
+    if (!p) return {};
+    const Eigen::Vector3f q = (p->point - map_.origin).cast<float>(), share = p->share.cast<float>();
+    return {q.x(), q.y(), q.z(), share.x(), share.y(), share.z(), static_cast<float>(p->lift)};
+  }
+
+  /// Returns true if the cell's corners give what lies between them.
+  bool isSmooth(const std::array<const LitPoint*, 4>& corners, double x, double y) const {
+    const double pixel = (corners[1]->point - corners[0]->point).norm() / kSide +
+                         (corners[2]->point - corners[0]->point).norm() / kSide;
+    for (const auto& [i, j] : {std::pair{4, 4}, {4, 0}, {0, 4}, {4, 7}, {7, 4}}) {
+      const auto exact = at(x + i, y + j);
+      if (!exact) return false;
+      const double s = i / double{kSide}, t = j / double{kSide};
+      const std::array<double, 4> weights{(1 - s) * (1 - t), s * (1 - t), (1 - s) * t, s * t};
+      LitPoint between;
+      for (std::size_t k = 0; k < 4; ++k) {
+        between.point += weights[k] * corners[k]->point;
+        between.share += weights[k] * corners[k]->share;
+        between.lift += weights[k] * corners[k]->lift;
+      }
+      if ((between.point - exact->point).norm() > 0.5 * kPointError * pixel ||
+          (between.share - exact->share).cwiseAbs().maxCoeff() > kShareError ||
+          std::abs(between.lift - exact->lift) > kLiftError)
+        return false;
+    }
+    return true;
+  }
+
+  void cell(std::uint32_t row, std::uint32_t column, std::vector<MapPoint>& exact) {
+    const std::size_t across = map_.columns + 1, first = row * across + column;
+    std::uint32_t& kind = map_.cells[std::size_t{row} * map_.columns + column];
+    std::array<const LitPoint*, 4> corners{};
+    bool whole = true;
+    for (std::size_t k = 0; k < 4; ++k) {
+      const auto& corner = corners_[first + k % 2 + k / 2 * across];
+      whole &= corner.has_value();
+      if (corner) corners[k] = &*corner;
+    }
+    const double x = column * kSide, y = row * kSide;
+    if (whole && isSmooth(corners, x, y)) {
+      kind = PixelMap::kSmooth;
+      return;
+    }
+    const auto begin = static_cast<std::uint32_t>(exact.size());
+    bool dark = true;
+    for (std::uint32_t j = 0; j < kSide; ++j)
+      for (std::uint32_t i = 0; i < kSide; ++i) {
+        exact.push_back(stored(at(x + i, y + j)));
+        dark &= isDark(exact.back());
+      }
+    kind = dark ? PixelMap::kDark : begin;
+    if (dark) exact.resize(begin);
+  }
+
+  void join(const std::vector<std::vector<MapPoint>>& exact) {
+    for (std::uint32_t row = 0; row < map_.rows; ++row) {
+      const auto begin = static_cast<std::uint32_t>(map_.pixels.size());
+      for (std::uint32_t c = 0; c < map_.columns; ++c)
+        if (std::uint32_t& kind = map_.cells[std::size_t{row} * map_.columns + c]; kind < PixelMap::kSmooth)
+          kind += begin;
+      map_.pixels.insert(map_.pixels.end(), exact[row].begin(), exact[row].end());
+    }
+  }
+
+  PixelMap& map_;
+  const Lit& lit_;
+  DrawPool& pool_;
+  std::vector<std::optional<LitPoint>> corners_;
+};
+
+}  // namespace
+
+PixelMap makePixelMap(std::uint32_t width, std::uint32_t height, const Vec3& origin, const Lit& lit,
+                      DrawPool& pool) {
+  PixelMap map;
+  map.width = width;
+  map.height = height;
+  map.columns = (width + kSide - 1) / kSide;
+  map.rows = (height + kSide - 1) / kSide;
+  map.origin = origin;
+  map.cells.resize(std::size_t{map.columns} * map.rows);
+  MapMaking(map, lit, pool).run();
+  return map;
+}
+
+}  // namespace stadion

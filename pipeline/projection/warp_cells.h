@@ -1,0 +1,115 @@
+#pragma once
+/// The functions of warp_kernel.h, compiled once for each instruction set.
+///
+/// Linkage  internal. This header includes no header with functions of external linkage.
+
+#include "pipeline/projection/warp_kernel.h"
+
+namespace stadion {
+namespace {
+
+constexpr int kCellPixels = 64, kCellSide = 8;
+
+struct CellPlaces {
+  float u[kCellPixels], v[kCellPixels], share[3][kCellPixels], lift[kCellPixels];
+};
+
+/// A place within the picture; what is not a number becomes 0.
+inline float withinPicture(float place, float last) {
+  const float above = place > 0.0f ? place : 0.0f;
+  return above < last ? above : last;
+}
+
+inline void light(const CellPlaces& at, const WarpSource& from, const WarpLight& by,
+                  std::uint32_t (&pixels)[kCellPixels]) {
+  const float lastColumn = static_cast<float>(from.width - 1), lastRow = static_cast<float>(from.height - 1);
+  const int mostColumn = static_cast<int>(from.width) - 2, mostRow = static_cast<int>(from.height) - 2;
+  int index[kCellPixels];
+  float across[kCellPixels], down[kCellPixels];
+  for (int i = 0; i < kCellPixels; ++i) {
+    const float u = withinPicture(at.u[i], lastColumn), v = withinPicture(at.v[i], lastRow);
+    int column = static_cast<int>(u), row = static_cast<int>(v);
+    column = column < mostColumn ? column : mostColumn;
+    row = row < mostRow ? row : mostRow;
+    across[i] = u - static_cast<float>(column);
+    down[i] = v - static_cast<float>(row);
+    index[i] = row * static_cast<int>(from.width) + column;
+  }
+  std::uint32_t corners[4][kCellPixels];
+  const std::size_t pitch = std::size_t{from.width} * 4;
+  for (int i = 0; i < kCellPixels; ++i) {
+    const std::uint8_t* const first = from.rgba + static_cast<std::size_t>(index[i]) * 4;
+    __builtin_memcpy(&corners[0][i], first, 4);
+    __builtin_memcpy(&corners[1][i], first + 4, 4);
+    __builtin_memcpy(&corners[2][i], first + pitch, 4);
+    __builtin_memcpy(&corners[3][i], first + pitch + 4, 4);
+  }
+  for (int i = 0; i < kCellPixels; ++i) pixels[i] = 0xff000000u;
+  for (int channel = 0; channel < 3; ++channel) {
+    const int shift = 8 * channel;
+    const float* const linear = by.linear.data();
+    const float gain = by.gain[static_cast<std::size_t>(channel)],
+                lift = by.lift[static_cast<std::size_t>(channel)];
+    int step[kCellPixels];
+    for (int i = 0; i < kCellPixels; ++i) {
+      const float a = linear[corners[0][i] >> shift & 255], b = linear[corners[1][i] >> shift & 255];
+      const float c = linear[corners[2][i] >> shift & 255], d = linear[corners[3][i] >> shift & 255];
+      const float top = a + (b - a) * across[i], bottom = c + (d - c) * across[i];
+      const float mean = top + (bottom - top) * down[i];
+      float shown = mean * at.share[channel][i] * gain + at.lift[i] * lift;
+      shown = shown < 1.0f ? shown : 1.0f;
+      shown = shown > 0.0f ? shown : 0.0f;
+      step[i] = static_cast<int>(__builtin_sqrtf(shown) * static_cast<float>(kWarpSteps) + 0.5f);
+    }
+    const std::uint8_t* const encoded = by.encoded[static_cast<std::size_t>(channel)].data();
+    for (int i = 0; i < kCellPixels; ++i) pixels[i] |= static_cast<std::uint32_t>(encoded[step[i]]) << shift;
+  }
+}
+
+inline float between(float a, float b, float s) {
+  return a + (b - a) * s;
+}
+
+inline WarpPoint between(const WarpPoint& a, const WarpPoint& b, float s) {
+  return {between(a.x, b.x, s),
+          between(a.y, b.y, s),
+          between(a.w, b.w, s),
+          {between(a.share[0], b.share[0], s), between(a.share[1], b.share[1], s),
+           between(a.share[2], b.share[2], s)},
+          between(a.lift, b.lift, s)};
+}
+
+void smoothCell(const WarpPoint (&corners)[4], const WarpSource& from, const WarpLight& by,
+                std::uint32_t (&pixels)[kCellPixels]) {
+  CellPlaces at;
+  for (int j = 0; j < kCellSide; ++j) {
+    const float t = static_cast<float>(j) / kCellSide;
+    const WarpPoint left = between(corners[0], corners[2], t), right = between(corners[1], corners[3], t);
+    for (int i = 0; i < kCellSide; ++i) {
+      const float s = static_cast<float>(i) / kCellSide;
+      const int pixel = j * kCellSide + i;
+      const float w = between(left.w, right.w, s);
+      at.u[pixel] = between(left.x, right.x, s) / w;
+      at.v[pixel] = between(left.y, right.y, s) / w;
+      for (int channel = 0; channel < 3; ++channel)
+        at.share[channel][pixel] = between(left.share[channel], right.share[channel], s);
+      at.lift[pixel] = between(left.lift, right.lift, s);
+    }
+  }
+  light(at, from, by, pixels);
+}
+
+void exactCell(const WarpPoint (&points)[kCellPixels], const WarpSource& from, const WarpLight& by,
+               std::uint32_t (&pixels)[kCellPixels]) {
+  CellPlaces at;
+  for (int i = 0; i < kCellPixels; ++i) {
+    at.u[i] = points[i].x / points[i].w;
+    at.v[i] = points[i].y / points[i].w;
+    for (int channel = 0; channel < 3; ++channel) at.share[channel][i] = points[i].share[channel];
+    at.lift[i] = points[i].lift;
+  }
+  light(at, from, by, pixels);
+}
+
+}  // namespace
+}  // namespace stadion
