@@ -36,13 +36,15 @@ vec3 lookUp(vec2 corner, float side, vec3 d) {
   return textureLod(environmentMap, place * aroundTexel.xy, 0.0).rgb;
 }
 
-vec3 mirroredFrom(vec3 d, float roughness) {
+// d: what is mirrored, n: the normal. The rougher, the nearer to the normal is what a surface mirrors most.
+vec3 mirroredFrom(vec3 d, vec3 n, float roughness) {
 #if ENVIRONMENT == 1
   return harmonicsAt(d, 1.5 - 0.5 * roughness, 2.5 - 1.5 * roughness);
 #else
   float level = roughness * 7.0;
   float fine = clamp(floor(level), 0.0, 6.0);
   vec4 sharp = aroundMaps[int(fine)], soft = aroundMaps[int(fine) + 1];
+  d = mix(d, n, roughness * roughness * roughness * roughness);
   return mix(lookUp(sharp.xy, sharp.z, d), lookUp(soft.xy, soft.z, d), level - fine) * aroundTurn.z;
 #endif
 }
@@ -54,13 +56,22 @@ void shareOf(vec3 mirror, float scale, float bias, float lost, out vec3 once, ou
   often = once * mean / (1.0 - lost * mean) * lost;
 }
 
+// What a surface that mirrors all light would mirror at once, and the part of it that is white at each colour.
+vec2 mirroredShare(float x, float roughness) {
+  float y = roughness * roughness;
+  vec4 r = vec4(0.1003, 0.9345, 1.0, 1.0) + vec4(-0.6303, -2.323, -1.765, 0.2281) * x +
+           vec4(9.748, 2.229, 8.263, 15.94) * y + vec4(-2.038, -3.748, 11.53, -55.83) * (x * y) +
+           vec4(29.34, 1.424, 28.96, 13.08) * (x * x) + vec4(-8.245, -0.7684, -7.507, 41.26) * (y * y) +
+           vec4(-26.44, 1.436, -36.11, 54.9) * (x * x * y) + vec4(19.99, 0.2913, 15.86, 300.2) * (x * y * y) +
+           vec4(-5.448, 0.6286, 33.37, -285.1) * (x * x * y * y);
+  return clamp(r.xy / r.zw, 0.0, 1.0);
+}
+
 vec3 surrounded(vec3 base, float roughness, float metallic, vec3 n, vec3 v, float nv) {
-  vec3 matt = harmonicsAt(turned(n), 1.0, 1.0), mirrored = mirroredFrom(turned(reflect(-v, n)), roughness);
-  float low = 1.0 - roughness;
-  float a = min(low * low, exp2(-9.28 * nv)) * low + (0.0425 - 0.0275 * roughness);
-  float scale = 1.04 - 0.572 * roughness - 1.04 * a;
-  float bias = max(1.04 * a + (0.022 * roughness - 0.04), 0.0);
-  float lost = 1.0 - (scale + bias);
+  vec3 matt = harmonicsAt(turned(n), 1.0, 1.0);
+  vec3 mirrored = mirroredFrom(turned(reflect(-v, n)), turned(n), roughness);
+  vec2 share = mirroredShare(nv, roughness);
+  float scale = share.x, bias = share.y, lost = 1.0 - (scale + bias);
   vec3 once, often, metalOnce, metalOften;
   shareOf(vec3(0.04), scale, bias, lost, once, often);
   shareOf(base, scale, bias, lost, metalOnce, metalOften);

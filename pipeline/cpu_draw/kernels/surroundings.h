@@ -25,12 +25,10 @@ struct SurroundingLight : DrawLanes<By> {
   /// Light of a surface: by * base colour + with. `base`: its base colour; null: it is no metal.
   [[gnu::noinline]] static void respond(const Environment& e, const Finish& m, const T& n, const T& reflected,
                                         const T* base, T& by, T& with) {
-    const T matt = mattFrom(turned(n, e), e), mirrored = mirroredFrom(turned(reflected, e), m.roughness, e);
-    const F low = 1.0f - m.roughness;
-    const F a = L::least(low * low, L::exp2(-9.28f * m.nv)) * low + (0.0425f - 0.0275f * m.roughness);
-    const F scale = 1.04f - 0.572f * m.roughness - 1.04f * a;
-    const F bias = L::most(1.04f * a + (0.022f * m.roughness - 0.04f), F{});
-    const F lost = 1.0f - (scale + bias);
+    const T normal = turned(n, e), matt = mattFrom(normal, e);
+    const T mirrored = mirroredFrom(turned(reflected, e), normal, m.roughness, e);
+    const WhiteShare white = whiteShareOf(m);
+    const F scale = white.scale, bias = white.bias, lost = 1.0f - (scale + bias);
     const Share plain = shareOf(L::all(0.04f), scale, bias, lost);
     by = matt * ((1.0f - (plain.once + plain.often)) * (1.0f - m.metallic));
     if (!base) {
@@ -53,6 +51,27 @@ struct SurroundingLight : DrawLanes<By> {
   }
 
 private:
+  /// Of the light that arrives, a surface mirrors its colour * scale + bias at once.
+  struct WhiteShare {
+    F scale, bias;
+  };
+  [[gnu::always_inline]] static inline WhiteShare whiteShareOf(const Finish& m) {
+    const F x = m.nv, y = m.roughness * m.roughness, xy = x * y, xx = x * x, yy = y * y, xxy = xx * y,
+            xyy = x * yy, xxyy = xx * yy;
+    const auto quadratic = [&](const float(&c)[9]) {
+      return c[0] + c[1] * x + c[2] * y + c[3] * xy + c[4] * xx + c[5] * yy + c[6] * xxy + c[7] * xyy +
+             c[8] * xxyy;
+    };
+    const auto within = [](F part) { return L::least(L::most(part, F{}), L::all(1)); };
+    const F scale =
+        quadratic({0.1003f, -0.6303f, 9.748f, -2.038f, 29.34f, -8.245f, -26.44f, 19.99f, -5.448f}) /
+        quadratic({1, -1.765f, 8.263f, 11.53f, 28.96f, -7.507f, -36.11f, 15.86f, 33.37f});
+    const F bias =
+        quadratic({0.9345f, -2.323f, 2.229f, -3.748f, 1.424f, -0.7684f, 1.436f, 0.2913f, 0.6286f}) /
+        quadratic({1, 0.2281f, 15.94f, -55.83f, 13.08f, 41.26f, 54.9f, 300.2f, -285.1f});
+    return {within(scale), within(bias)};
+  }
+
   /// Of the light that arrives, what is mirrored at once, and after several reflections.
   struct Share {
     F once, often;
@@ -83,13 +102,17 @@ private:
     return harmonicsAt(n, L::all(1), L::all(1), e);
   }
 
-  [[gnu::always_inline]] static inline T mirroredFrom(const T& d, F roughness, const Environment& e) {
+  /// d: what is mirrored, n: the normal. The rougher, the nearer to the normal is what a surface mirrors most.
+  [[gnu::always_inline]] static inline T mirroredFrom(const T& d, const T& n, F roughness,
+                                                      const Environment& e) {
     if (!e.texels) return harmonicsAt(d, 1.5f - 0.5f * roughness, 2.5f - 1.5f * roughness, e);
+    const F squared = roughness * roughness;
+    const T most = T::mix(d, n, squared * squared);
     const F level = roughness * static_cast<float>(Environment::kMaps - 1);
     const F fine = L::most(L::least(L::floor(level), L::all(Environment::kMaps - 2)), F{});
     const I map = L::truncated(fine);
-    const T sharp = lookUp(e.texels, d, By::entry(e.first, map), L::whole(By::entry(e.side, map)));
-    const T soft = lookUp(e.texels, d, By::entry(e.first, map + 1), L::whole(By::entry(e.side, map + 1)));
+    const T sharp = lookUp(e.texels, most, By::entry(e.first, map), L::whole(By::entry(e.side, map)));
+    const T soft = lookUp(e.texels, most, By::entry(e.first, map + 1), L::whole(By::entry(e.side, map + 1)));
     return T::mix(sharp, soft, level - fine) * L::all(e.intensity);
   }
 

@@ -21,4 +21,7 @@ struct FeatureModel {
 /// At least 60.
 std::vector<FeatureModel> featureModels();
 
+/// Balls of each roughness and metallic factor that a picture of surroundings is to light.
+std::vector<FeatureModel> surroundedBalls();
+
 }  // namespace stadion::test

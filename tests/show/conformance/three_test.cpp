@@ -1,6 +1,7 @@
 /// What studios see elsewhere: the same models with the same light and camera, drawn by three.js in Chromium.
 /// three/render.mjs draws them.
 
+#include "engine/environment/radiance_map.h"
 #include "pipeline/picture/picture.h"
 #include "tests/programs/program.h"
 #include "tests/show/conformance/feature_models.h"
@@ -9,6 +10,7 @@
 #include <cmath>
 #include <cstring>
 #include <fstream>
+#include <functional>
 #include <gtest/gtest.h>
 
 namespace stadion {
@@ -28,9 +30,16 @@ sky( zenith="0.8546,0.8546,0.8546", horizon="0.8546,0.8546,0.8546", ground="0.85
 )";
 // An intensity of 1 lights a white surface fully: three's irradiance is pi times it. sRGB 0.5 is 0.21404 in linear light.
 // With this ground, light from below is as bright as from above. three.js blends in linear light in float pictures alone.
-constexpr const char* kThree =
-    " --size 128x128 --eye 0,0,4 --target 0,0,0 --fov 43.6028190 --sun 0.5,0.8,1,2.1991149 --aa 4"
-    " --background 0.8546,0.8546,0.8546 ";
+constexpr const char* kThree = " --size 128x128 --eye 0,0,4 --target 0,0,0 --fov 43.6028190 --aa 4"
+                               " --background 0.8546,0.8546,0.8546 ";
+constexpr const char* kThreeSun = "--sun 0.5,0.8,1,2.1991149 ";
+// three.js sees the middle of a picture of surroundings at +x, which is to the right.
+constexpr const char* kSurroundedScene = R"(rig( position="0, -4, -1.7" )
+light( direction="0, 0, -1", initstate=off )
+sky( zenith="0.8546,0.8546,0.8546", horizon="0.8546,0.8546,0.8546", ground="0.8546,0.8546,0.8546" )
+environment( file=around.hdr, turn=-90, background=off )
+tones( curve=clamp )
+)";
 /// Light from all sides that surfaces reflect as well, or for matt ones that they scatter.
 constexpr const char *kMirrored = "--env 0.21404,0.21404,0.21404",
                      *kScattered = "--ambient 0.21404,0.21404,0.21404";
@@ -97,6 +106,40 @@ LightDifference lightDifferenceOf(const Picture& ours, const LightPicture& their
   return d;
 }
 
+/// Three wide lobes of light in dim surroundings; nothing is brighter than 1.
+std::array<double, 3> lobesAt(const std::array<double, 3>& d) {
+  struct Lobe {
+    std::array<double, 3> way, colour;
+    double narrow;
+  };
+  static constexpr std::array kLobes{Lobe{{0.48, -0.6, 0.64}, {0.75, 0.7, 0.55}, 4},
+                                     Lobe{{-0.8, 0.0, 0.6}, {0.2, 0.45, 0.7}, 3},
+                                     Lobe{{0.0, 0.6, -0.8}, {0.4, 0.25, 0.1}, 2}};
+  std::array<double, 3> light{0.12, 0.13, 0.15};
+  for (const Lobe& lobe : kLobes) {
+    const double cosine = lobe.way[0] * d[0] + lobe.way[1] * d[1] + lobe.way[2] * d[2];
+    for (std::size_t c = 0; c < 3; ++c) light[c] += lobe.colour[c] * std::exp(lobe.narrow * (cosine - 1));
+  }
+  return light;
+}
+
+/// A Radiance picture of the lobes, pixel by pixel.
+std::string surroundingsHdr() {
+  constexpr std::uint32_t kRows = 256;
+  std::string file = "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y " + std::to_string(kRows) + " +X " +
+                     std::to_string(2 * kRows) + "\n";
+  for (std::uint32_t y = 0; y < kRows; ++y)
+    for (std::uint32_t x = 0; x < 2 * kRows; ++x) {
+      const auto light = lobesAt(equirectangularDirection((x + 0.5) / (2 * kRows), (y + 0.5) / kRows));
+      int exponent = 0;
+      std::frexp(std::max({light[0], light[1], light[2]}), &exponent);
+      for (const double c : light)
+        file += static_cast<char>(std::min(std::lround(std::ldexp(c, 8 - exponent)), 255L));
+      file += static_cast<char>(exponent + 128);
+    }
+  return file;
+}
+
 class ProgramFullThree : public testing::Test {
 protected:
   void SetUp() override {
@@ -114,13 +157,16 @@ protected:
 
   static fs::path source() { return STADION_SOURCE_DIR "/tests/show/conformance/three"; }
 
+  /// The options of three.js for a model's light.
+  using LightOptions = std::function<std::string(const test::FeatureModel&)>;
+
   /// Draws all models by three.js.
-  void drawReference(const std::vector<test::FeatureModel>& models) const {
+  void drawReference(const std::vector<test::FeatureModel>& models, const LightOptions& light) const {
     std::ofstream list(at("list.txt"));
     for (const test::FeatureModel& m : models) {
       std::ofstream(at(m.name + ".glb"), std::ios::binary) << m.model.glb();
       list << at(m.name + ".glb") << " " << at(m.name + "-three.png") << " --float " << at(m.name + ".pfm")
-           << kThree << (m.reflects ? kMirrored : kScattered);
+           << kThree << light(m);
       if (!m.clip.empty()) list << " --clip " << m.clip << " --time " << m.time;
       list << "\n";
     }
@@ -131,10 +177,10 @@ protected:
     ASSERT_EQ(drawn.status, 0) << drawn.out << drawn.err;
   }
 
-  Picture draw(const test::FeatureModel& m) const {
+  Picture draw(const test::FeatureModel& m, const char* scene) const {
     std::ofstream(at("eye.walls")) << kEyeWall;
     std::ofstream show(at(m.name + ".evs"));
-    show << kEyeScene;
+    show << scene;
     if (m.clip.empty())
       show << "object( file=" << m.name << ".glb )\n";
     else
@@ -149,6 +195,25 @@ protected:
     return picture ? picture.value() : Picture();
   }
 
+  /// Compares ours with theirs, which are drawn.
+  void compareAll(const std::vector<test::FeatureModel>& models, const char* scene) const {
+    std::string table;
+    for (const test::FeatureModel& m : models) {
+      const LightPicture theirs = readPfm(at(m.name + ".pfm"));
+      const Picture ours = draw(m, scene);
+      ASSERT_TRUE(theirs.width > 0 && ours.width == theirs.width && ours.height == theirs.height) << m.name;
+      const LightDifference d = lightDifferenceOf(ours, theirs);
+      EXPECT_GT(d.pixels, 8000U) << m.name;
+      EXPECT_LT(d.mean, m.mean) << m.name;
+      EXPECT_LT(d.worst, m.worst) << m.name;
+      char row[120];
+      std::snprintf(row, sizeof row, "%-34s mean %6.3f  worst %6.2f  pixels %zu\n", m.name.c_str(), d.mean,
+                    d.worst, d.pixels);
+      table += row;
+    }
+    std::printf("%s", table.c_str());
+  }
+
   std::string at(const std::string& name) const { return (folder_.path() / name).string(); }
 
   TestFolder folder_;
@@ -159,22 +224,18 @@ protected:
 TEST_F(ProgramFullThree, DrawsEachFeatureAlike) {
   const std::vector<test::FeatureModel> models = test::featureModels();
   EXPECT_GE(models.size(), 60U);
-  drawReference(models);
-  std::string table;
-  for (const test::FeatureModel& m : models) {
-    const LightPicture theirs = readPfm(at(m.name + ".pfm"));
-    const Picture ours = draw(m);
-    ASSERT_TRUE(theirs.width > 0 && ours.width == theirs.width && ours.height == theirs.height) << m.name;
-    const LightDifference d = lightDifferenceOf(ours, theirs);
-    EXPECT_GT(d.pixels, 8000U) << m.name;
-    EXPECT_LT(d.mean, m.mean) << m.name;
-    EXPECT_LT(d.worst, m.worst) << m.name;
-    char row[120];
-    std::snprintf(row, sizeof row, "%-34s mean %6.3f  worst %6.2f  pixels %zu\n", m.name.c_str(), d.mean,
-                  d.worst, d.pixels);
-    table += row;
-  }
-  std::printf("%s", table.c_str());
+  drawReference(models, [](const test::FeatureModel& m) {
+    return kThreeSun + std::string(m.reflects ? kMirrored : kScattered);
+  });
+  compareAll(models, kEyeScene);
+}
+
+TEST_F(ProgramFullThree, DrawsSurroundingsAlike) {
+  const std::vector<test::FeatureModel> models = test::surroundedBalls();
+  EXPECT_EQ(models.size(), 12U);
+  std::ofstream(at("around.hdr"), std::ios::binary) << surroundingsHdr();
+  drawReference(models, [&](const test::FeatureModel&) { return "--env-map " + at("around.hdr"); });
+  compareAll(models, kSurroundedScene);
 }
 
 }  // namespace

@@ -22,6 +22,7 @@ const HELP = `usage: render.mjs MODEL.(gltf|glb|fbx|obj) OUT.png [options]
   --sun-color r,g,b       linear
   --ambient r,g,b         diffuse only; white diffuse comes out at this value (linear)
   --env none|uniform|r,g,b   uniform environment, diffuse and specular (uniform = 1,1,1)
+  --env-map FILE.hdr      equirectangular picture of the surroundings, diffuse and specular; its middle is at +x
   --no-file-lights        ignore KHR_lights_punctual lights
   --tone off|linear|aces|agx|neutral   (off)      --exposure E (1; not used when off)
   --output srgb|linear    encoding of the picture (srgb)
@@ -35,7 +36,7 @@ const HELP = `usage: render.mjs MODEL.(gltf|glb|fbx|obj) OUT.png [options]
 
 function parse(argv) {
   const o = { size: [512, 512], eye: null, target: null, up: [0, 1, 0], fov: 40, ortho: 0, near: null, far: null, camera: null, clip: null, time: 0,
-    sun: null, sunColor: [1, 1, 1], ambient: null, env: null, fileLights: true, tone: 'off', exposure: 1, output: 'srgb', background: [0, 0, 0],
+    sun: null, sunColor: [1, 1, 1], ambient: null, env: null, envMap: null, fileLights: true, tone: 'off', exposure: 1, output: 'srgb', background: [0, 0, 0],
     aa: 0, flat: false, float: null, dump: null, root: null };
   const g = { batch: null, backend: 'swiftshader', chromium: process.env.CHROMIUM || 'chromium', timeout: 120, strict: false, verbose: false };
   const pos = [];
@@ -53,6 +54,7 @@ function parse(argv) {
       case '--camera': o.camera = val(); break; case '--clip': o.clip = val(); break; case '--time': o.time = num(); break;
       case '--sun': o.sun = vec(4); break; case '--sun-color': o.sunColor = vec(3); break; case '--ambient': o.ambient = vec(3); break;
       case '--env': { const s = val(); o.env = s === 'none' ? null : s === 'uniform' ? [1, 1, 1] : vec(3, s); break; }
+      case '--env-map': o.envMap = val(); break;
       case '--no-file-lights': o.fileLights = false; break;
       case '--tone': o.tone = val(); break; case '--exposure': o.exposure = num(); break; case '--output': o.output = val(); break;
       case '--background': { const s = val(); o.background = s === 'none' ? null : vec(3, s); break; }
@@ -68,8 +70,8 @@ function parse(argv) {
 }
 function job({ o, pos }) {
   if (pos.length !== 2) throw new Error('needs MODEL and OUT.png\n' + HELP);
-  const model = fs.realpathSync(pos[0]);
-  return { ...o, model, out: pos[1], root: fs.realpathSync(o.root || path.dirname(model)), url: '/fs' + model.split('/').map(encodeURIComponent).join('/') };
+  const model = fs.realpathSync(pos[0]), urlOf = f => '/fs' + f.split('/').map(encodeURIComponent).join('/');
+  return { ...o, model, out: pos[1], root: fs.realpathSync(o.root || path.dirname(model)), url: urlOf(model), envMap: o.envMap && urlOf(fs.realpathSync(o.envMap)) };
 }
 const split = s => (s.match(/"[^"]*"|\S+/g) || []).map(x => x.replace(/^"|"$/g, ''));
 
