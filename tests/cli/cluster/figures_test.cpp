@@ -1,4 +1,4 @@
-/// Figures and painted models in a cluster: every machine shows what one machine alone would.
+/// Figures, painted models and surroundings in a cluster: every machine shows what one machine alone would.
 
 #include "tests/engine/asset/rigged_model.h"
 #include "tests/programs/played_cluster.h"
@@ -35,13 +35,9 @@ timer( period=0.1, eventmessage="timesup, walker, layer bend weight 0.6 fade 0.1
        eventmessage="timesup, walker, unlayer bend fade 0.1, 0.2", eventmessage="timesup, hall/roof, reset, 0.2" )
 )";
 
-TEST(ClusterFigures, FourMachinesShowWhatOneShows) {
-  const TestFolder folder;
-  folder.write("tube.glb", test::strollingTube().glb());
-  folder.write("pavilion.glb", pavilion().glb());
-  folder.write("box.obj", "v 0 0 0\nv 1 0 0\nv 1 0 1\nv 0 0 1\nv 0 1 0\nv 1 1 0\nv 1 1 1\nv 0 1 1\n"
-                          "f 1 2 3 4\nf 6 5 8 7\nf 5 1 4 8\nf 2 6 7 3\nf 4 3 7 8\nf 5 6 2 1\n");
-  const std::string script = folder.write("show.evs", kShow);
+/// Plays the show on four machines and on one.
+void compareFourWithOne(const TestFolder& folder, const char* show) {
+  const std::string script = folder.write("show.evs", show);
   const std::string out = folder.path() / "four", one = folder.path() / "one";
   const std::vector<std::string> same{"--size",     "48x36", "--frames",   "32",
                                       "--pictures", "4",     "--renderer", "cpu"};
@@ -61,6 +57,40 @@ TEST(ClusterFigures, FourMachinesShowWhatOneShows) {
   EXPECT_GT(different.size(), 40U) << "it moves";
   for (const char* node : {"front", "left", "right", "floor"})
     EXPECT_EQ(summaryOf(out + "/" + node)["state_hash"], summaryOf(one)["state_hash"]) << node;
+}
+
+TEST(ClusterFigures, FourMachinesShowWhatOneShows) {
+  const TestFolder folder;
+  folder.write("tube.glb", test::strollingTube().glb());
+  folder.write("pavilion.glb", pavilion().glb());
+  folder.write("box.obj", "v 0 0 0\nv 1 0 0\nv 1 0 1\nv 0 0 1\nv 0 1 0\nv 1 1 0\nv 1 1 1\nv 0 1 1\n"
+                          "f 1 2 3 4\nf 6 5 8 7\nf 5 1 4 8\nf 2 6 7 3\nf 4 3 7 8\nf 5 6 2 1\n");
+  compareFourWithOne(folder, kShow);
+}
+
+/// 8 x 4 pixels, each darker than the one before it.
+std::string stepsHdr() {
+  std::string file = "#?RADIANCE\n\n-Y 4 +X 8\n";
+  for (int i = 0; i < 32; ++i) file += {char(250 - 4 * i), char(200 - 2 * i), char(128 + i), char(129)};
+  return file;
+}
+
+/// A yard that fades and gives way to a hall, and an exposure that changes, before every wall.
+const char* const kSurroundedShow = R"(light( direction="-1, 2, -3" )
+environment( name=yard, file=yard.hdr, turn=40 )
+environment( name=hall, intensity=0.4, initstate=off )
+tones( name=camera, curve=neutral )
+object( file=pavilion.glb, position="0, 3, 0" )
+timer( period=0.1, repeat=off, eventmessage="timesup, yard, intensity 0.2 fade 0.3",
+       eventmessage="timesup, camera, exposure 1.5 fade 0.25, 0.05", eventmessage="timesup, hall, enable, 0.25" )
+timer( period=0.05, eventmessage="timesup, camera, exposure 0, 0.4" )
+)";
+
+TEST(ClusterFigures, FourMachinesHaveTheSurroundingsOfOne) {
+  const TestFolder folder;
+  folder.write("pavilion.glb", pavilion().glb());
+  folder.write("yard.hdr", stepsHdr());
+  compareFourWithOne(folder, kSurroundedShow);
 }
 
 }  // namespace
