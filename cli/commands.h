@@ -18,6 +18,7 @@ void addDoctorCommand(CLI::App& app, int& code);
 void addMergeTracesCommand(CLI::App& app, int& code);
 void addNodesCommand(CLI::App& app, int& code);
 void addHashCommand(CLI::App& app, int& code);
+void addProjectorsCommand(CLI::App& app, int& code);
 void addWallsCommand(CLI::App& app, int& code);
 void addBenchCommand(CLI::App& app, int& code);
 void addFitCommand(CLI::App& app, int& code);

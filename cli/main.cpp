@@ -26,5 +26,6 @@ int main(int argc, char** argv) {
     addClusterCommand(app, code);
     addMergeTracesCommand(app, code);
     addDoctorCommand(app, code);
+    addProjectorsCommand(app, code);
   });
 }

@@ -44,6 +44,8 @@ constexpr ValueGrammar size() {
 constexpr OptionRow kRows[] = {
     {"SHOW", file("SHOW", ValueTimes::Several), "script to play (.evs)", Inputs},
     {"WALLS", file("WALLS"), "cave4, cave6, powerwall, desktop, or a wall file", Inputs},
+    {"ORDER", word("status|on|off|open|shut"), "what the projectors are to do", Inputs},
+    {"PROJECTOR", text("NAME", ValueTimes::Several), "only projectors with these names", Inputs},
     {"CLUSTER", file("CLUSTER"), "cluster file: the hosts and their walls", Inputs},
     {"SUITE", file("SUITE"), "suite file: the shows to play and what to compare", Inputs},
     {"OBJECT", text("OBJECT"), "a model file, or SCRIPT.evs:NAME for a dynobject", Inputs},
@@ -218,6 +220,8 @@ constexpr OptionRow kRows[] = {
     {"--no-memory", flag(), "does not judge memory, handles and threads, which a short soak cannot",
      Measurement},
     {"--forget", flag(), "measures nothing; removes the stored calibration", Measurement},
+    {"--patience", number("S", 0.1, 600), "waits so long for each answer of a projector (default: 5 s)",
+     Measurement},
     {"--for", text("WHAT", ValueTimes::Repeated),
      "a show, wall file, cluster file or topic that must work on this machine", Measurement},
     {"--from", file(), "plans with the costs in this file, which --json wrote, instead of measuring",
@@ -254,7 +258,8 @@ constexpr OptionRow kRows[] = {
 
     {"--osc", whole("PORT", 0, 65535), "UDP port for the operator's commands", Operator},
 
-    {"--tracker", text("DEVICE"), "live trackers: osc:PORT (Open Sound Control over UDP), dtrack:PORT, freed:PORT or vrpn:DEVICE@HOST",
+    {"--tracker", text("DEVICE"),
+     "live trackers: osc:PORT (Open Sound Control over UDP), dtrack:PORT, freed:PORT or vrpn:DEVICE@HOST",
      Trackers},
     {"--rig", file(), "rig file: names of the trackers and the room in their coordinates", Trackers},
     {"--late-latch", flag(),

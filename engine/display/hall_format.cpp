@@ -81,6 +81,12 @@ std::string formatProjector(const WallEntry& entry, const std::string& screen, d
   return text + '\n';
 }
 
+std::string formatControl(const ProjectorControl& control) {
+  std::string text = fmt::format("pjlink {}  port {}", control.host, control.port);
+  if (!control.passwordFile.empty()) text += "  password " + control.passwordFile;
+  return text;
+}
+
 std::string formatVisitor(const VisitorPlace& visitor, double metresPerUnit) {
   return fmt::format("visitor {}  within {}\n", pointText(visitor.eye, metresPerUnit),
                      visitor.reach / metresPerUnit);

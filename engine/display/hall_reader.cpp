@@ -68,8 +68,58 @@ void HallReader::visitor() {
   hall_.visitor = visitor;
 }
 
-bool HallReader::finish() {
+constexpr StatementField<HallReader> HallReader::kControlFields[2] = {
+    {"port", &HallReader::controlPort}, {"password", &HallReader::controlPassword}};
+
+bool HallReader::controlPort() {
+  const auto port = in_.count("the port", 1, 65535);
+  if (port) controls_.back().control.port = static_cast<std::uint16_t>(*port);
+  return port.has_value();
+}
+
+bool HallReader::controlPassword() {
+  const Word* file = in_.word("the file that has the password");
+  if (file) controls_.back().control.passwordFile = std::string(file->text.substr(0, 1000));
+  return file != nullptr;
+}
+
+void HallReader::control() {
+  const auto name = in_.name("the name of a wall or projector", "a wall");
+  if (!name) return;
+  const Word nameWord = in_.last();
+  static constexpr std::string_view kProtocols[] = {"pjlink"};
+  if (!in_.choice("the protocol", kProtocols)) return;
+  const Word* host = in_.word("the projector's host");
+  if (!host) return;
+  for (const NamedControl& other : controls_)
+    if (other.wall == *name)
+      return in_.error(nameWord, fmt::format("\"{}\" has a control already, on line {}; keep one of them",
+                                             *name, other.at.where.line));
+  if (refuseMore(controls_.size(), WallFile::kMaxWalls, "controls")) return;
+  ProjectorControl control;
+  control.host = std::string(host->text.substr(0, 253));
+  controls_.push_back({*name, std::move(control), in_.place(nameWord)});
+  if (!in_.fields(*this, kControlFields, "a control")) controls_.pop_back();
+}
+
+bool HallReader::giveControls() {
   bool good = true;
+  for (NamedControl& one : controls_) {
+    const auto entry =
+        std::ranges::find_if(hall_.walls, [&](const WallEntry& e) { return e.wall.name == one.wall; });
+    if (entry != hall_.walls.end()) {
+      entry->control = std::move(one.control);
+      continue;
+    }
+    in_.errorAt(one.at, fmt::format("there is no wall or projector {}{}", quotedWord(one.wall),
+                                    didYouMeanOrKnown(one.wall, hall_.names())));
+    good = false;
+  }
+  return good;
+}
+
+bool HallReader::finish() {
+  bool good = giveControls();
   for (const ScreenOfProjector& one : links_) good = link(one) && good;
   if (good) placeRectangles(hall_);
   return good;

@@ -22,6 +22,7 @@ public:
   void screen();
   void projector();
   void visitor();
+  void control();
 
   /// Gives projectors their screens, which may stand below them. Expects the pixels of all entries. False
   /// after an error.
@@ -37,6 +38,17 @@ private:
     StatementPlace projector;  ///< of the projector's name
   };
 
+  /// A control line, which may stand above its wall.
+  struct NamedControl {
+    std::string wall;
+    ProjectorControl control;
+    StatementPlace at;
+  };
+  static const StatementField<HallReader> kControlFields[2];
+
+  bool controlPort();
+  bool controlPassword();
+  bool giveControls();
   bool link(const ScreenOfProjector& link);
   bool refuseMore(std::size_t count, std::size_t most, std::string_view what);
 
@@ -44,6 +56,7 @@ private:
   LengthReader& lengths_;
   WallFile& hall_;
   std::vector<ScreenOfProjector> links_;
+  std::vector<NamedControl> controls_;
   bool tooMany_ = false;
 };
 
@@ -51,6 +64,7 @@ private:
 /// `metresPerUnit`.
 std::string formatScreen(const Screen& screen, double metresPerUnit);
 std::string formatProjector(const WallEntry& entry, const std::string& screen, double metresPerUnit);
+std::string formatControl(const ProjectorControl& control);
 std::string formatVisitor(const VisitorPlace& visitor, double metresPerUnit);
 
 }  // namespace stadion

@@ -77,6 +77,15 @@ struct Projector {
   ProjectorBlend blend;
 };
 
+/// How the projector of an entry is switched over the network: PJLink, class 1.
+struct ProjectorControl {
+  std::string host;  ///< name or address
+  std::uint16_t port = 4352;
+  std::string passwordFile;  ///< file whose first line is the password; empty = none
+
+  bool operator==(const ProjectorControl&) const = default;
+};
+
 /// Where a hall expects its visitors' eyes.
 struct VisitorPlace {
   Vec3 eye{0, 0, 1.7};  ///< the usual place, in R [m]

@@ -48,7 +48,7 @@ public:
   }
 
 private:
-  static const Statement<WallParser> kStatements[10];
+  static const Statement<WallParser> kStatements[11];
   static const StatementField<WallParser> kFields[5];
 
   void unit() {
@@ -91,6 +91,7 @@ private:
   void screen() { hall_.screen(); }
   void projector() { hall_.projector(); }
   void visitor() { hall_.visitor(); }
+  void control() { hall_.control(); }
 
   // The fields of a wall; they fill entry_ and corners_.
 
@@ -192,7 +193,7 @@ private:
   bool tooMany_ = false;  ///< walls or outputs
 };
 
-constexpr Statement<WallParser> WallParser::kStatements[10] = {{"wall", &WallParser::wall, true},
+constexpr Statement<WallParser> WallParser::kStatements[11] = {{"wall", &WallParser::wall, true},
                                                                {"output", &WallParser::output, true},
                                                                {"unit", &WallParser::unit},
                                                                {"eye-separation", &WallParser::eyeSeparation},
@@ -201,7 +202,8 @@ constexpr Statement<WallParser> WallParser::kStatements[10] = {{"wall", &WallPar
                                                                {"pixels", &WallParser::pixels},
                                                                {"screen", &WallParser::screen, true},
                                                                {"projector", &WallParser::projector, true},
-                                                               {"visitor", &WallParser::visitor}};
+                                                               {"visitor", &WallParser::visitor},
+                                                               {"control", &WallParser::control, true}};
 
 constexpr StatementField<WallParser> WallParser::kFields[5] = {{"lower-left", &WallParser::lowerLeft},
                                                                {"lower-right", &WallParser::lowerRight},
@@ -294,6 +296,8 @@ std::string formatWalls(const WallFile& walls) {
     text += entry.projector ? formatProjector(entry, walls.screens[entry.projector->screen].name, unit)
                             : formatWall(entry, unit);
     if (entry.output) text += fmt::format("output {}{}\n", entry.wall.name, formatOutput(*entry.output));
+    if (entry.control)
+      text += fmt::format("control {}  {}\n", entry.wall.name, formatControl(*entry.control));
   }
   return text;
 }

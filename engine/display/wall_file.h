@@ -28,6 +28,7 @@
 ///               pins X Y  X Y  X Y  X Y       upper left, upper right, lower right, lower left (planes only)
 ///               warp FILE.pfm                 points of the screen that a camera system measured
 ///       LIGHT   [display-gamma G | R G B | srgb]  [white R G B]  [black L]  [no-blend]  [mask FILE.png]
+///     control NAME pjlink HOST  [port N]  [password FILE]   how the projector of a wall or projector is switched
 ///     visitor X Y Z [within R]  usual place of the eyes, and how far they go from there (0 0 1.7, 1 m)
 /// YAW turns the lens to the right, PITCH up; `roll` turns it clockwise, seen along the lens. Names of files
 /// are relative to the folder of the wall file. Points in them are in rig space, in the unit of the wall file.
@@ -61,13 +62,14 @@ struct PixelSize {
 struct WallEntry {
   /// Of a projector: its name, and a rectangle about as large as the part of the screen that it covers.
   Wall wall;
-  std::optional<Projector> projector;  ///< none: the wall is flat, and its picture fills it
-  PixelSize pixels;                    ///< size of one eye's picture, if the file states it
-  std::optional<WallOutput> output;    ///< output of the wall, if the file states one
-  std::optional<std::uint32_t> card;   ///< number of the graphics card that draws it, if the file states one
-  std::uint32_t line = 0;              ///< in the file; 0 = made by a program
-  std::uint32_t column = 0;            ///< column of the wall's name
-  std::string excerpt;                 ///< the line, for messages
+  std::optional<Projector> projector;       ///< none: the wall is flat, and its picture fills it
+  PixelSize pixels;                         ///< size of one eye's picture, if the file states it
+  std::optional<WallOutput> output;         ///< output of the wall, if the file states one
+  std::optional<ProjectorControl> control;  ///< how its projector is switched, if the file states it
+  std::optional<std::uint32_t> card;  ///< number of the graphics card that draws it, if the file states one
+  std::uint32_t line = 0;             ///< in the file; 0 = made by a program
+  std::uint32_t column = 0;           ///< column of the wall's name
+  std::string excerpt;                ///< the line, for messages
 };
 
 struct WallFile {

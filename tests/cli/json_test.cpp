@@ -124,6 +124,7 @@ TEST(ProgramJson, AMissingFileIsOneObjectInEachCommand) {
                                                                {"check", {missing}},
                                                                {"hash", {missing}},
                                                                {"walls", {missing}},
+                                                               {"projectors", {missing, "status"}},
                                                                {"tracker", {"--tracker", "nosuch"}},
                                                                {"cluster", {missing, missing}},
                                                                {"doctor", {"--for", missing}},
