@@ -126,6 +126,12 @@ constexpr OptionRow kRows[] = {
      "writes the "
      "pattern to WALL-EYE.png instead",
      Drawing},
+    {"--pattern-kind", word("room|pixels|blend|gamma|bars"),
+     "room: metres, names and a cube, or on curved screens azimuths and elevations; pixels: numbered lines "
+     "of "
+     "each output; blend: white, with the ramps between projectors; gamma: greys beside rows of black and "
+     "white; bars: full colours and greys",
+     Drawing},
     {"--wall-workers", word("thread|process|auto"),
      "what draws the walls: a thread each in this program; a process each (uses more processors for software "
      "drawing, "

@@ -2,7 +2,6 @@
 
 #include "cli/exit_code.h"
 #include "cli/terminal.h"
-#include "pipeline/picture/test_pattern.h"
 #include "show/base/stop_signal.h"
 #include "show/display/wall_displays.h"
 #include "show/player/player.h"
@@ -17,26 +16,19 @@ namespace {
 
 constexpr std::chrono::milliseconds kLookEvery{20};
 
-EyePictures patternOf(const WallFile& walls, std::size_t wall, bool stereo, std::uint32_t width,
-                      std::uint32_t height) {
-  EyePictures p;
-  if (!stereo) p.eyes.push_back(testPattern(walls, wall, {}, width, height));
-  if (stereo)
-    for (const Eye eye : kEyes) p.eyes.push_back(testPattern(walls, wall, eye, width, height));
-  return p;
-}
-
-int writePatterns(const WallFile& walls, const PatternOptions& options) {
+int writePatterns(const WallFile& walls, HallPatterns& patterns, const PatternOptions& options) {
   std::error_code none;
   std::filesystem::create_directories(options.out, none);
   for (std::size_t i = 0; i < walls.walls.size(); ++i) {
     const WallEntry& entry = walls.walls[i];
     const bool stated = entry.pixels.width > 0;
-    const EyePictures p = patternOf(walls, i, options.stereo, stated ? entry.pixels.width : options.width,
-                                    stated ? entry.pixels.height : options.height);
-    for (std::size_t e = 0; e < p.eyes.size(); ++e) {
-      const std::string path = options.out + "/" + entry.wall.name + "-" + eyeName(kEyes[e]) + ".png";
-      if (const auto wrong = writePng(path, p.eyes[e])) {
+    const std::vector<Picture> pictures =
+        patterns.pictures(i, options.pattern, stated ? entry.pixels.width : options.width,
+                          stated ? entry.pixels.height : options.height);
+    const std::size_t first = entry.projector && entry.projector->eye == Eye::Right ? 1 : 0;
+    for (std::size_t e = 0; e < pictures.size(); ++e) {
+      const std::string path = options.out + "/" + entry.wall.name + "-" + eyeName(kEyes[first + e]) + ".png";
+      if (const auto wrong = writePng(path, pictures[e])) {
         std::fprintf(stderr, "stadion: %s\n", format(*wrong).c_str());
         return kBadInput;
       }
@@ -46,11 +38,23 @@ int writePatterns(const WallFile& walls, const PatternOptions& options) {
   return kOk;
 }
 
+/// True if the pictures are there and fit the output, or have a size of their own.
+bool fits(const EyePictures& pictures, const WallEntry& entry, std::uint32_t width, std::uint32_t height) {
+  if (pictures.eyes.empty()) return false;
+  return entry.projector || (pictures.eyes[0].width == width && pictures.eyes[0].height == height);
+}
+
 }  // namespace
 
 int showPattern(const WallFile& walls, const PatternOptions& options, const std::atomic<bool>& stop) {
-  if (!options.out.empty()) return writePatterns(walls, options);
   Diagnostics findings;
+  const bool stereo = options.out.empty() ? options.windowStereo != WindowStereo::Mono : options.stereo;
+  const auto patterns = HallPatterns::create(walls, stereo);
+  if (!patterns) {
+    findings.add(patterns.error());
+    return exitWith(findings, kBadInput);
+  }
+  if (!options.out.empty()) return writePatterns(walls, *patterns.value(), options);
   const auto displays = WallDisplays::open(walls, windowSurface(false, options.windowStereo),
                                            options.windowStereo, options.width, options.height, findings);
   printFindings(findings);
@@ -61,10 +65,8 @@ int showPattern(const WallFile& walls, const PatternOptions& options, const std:
     bool changed = false;
     for (std::size_t i = 0; i < pictures.size(); ++i) {
       const auto [width, height] = displays->pictureSize(i);
-      if (!pictures[i].eyes.empty() && pictures[i].eyes[0].width == width &&
-          pictures[i].eyes[0].height == height)
-        continue;
-      pictures[i] = patternOf(walls, i, options.windowStereo != WindowStereo::Mono, width, height);
+      if (fits(pictures[i], walls.walls[i], width, height)) continue;
+      pictures[i].eyes = patterns.value()->pictures(i, options.pattern, width, height);
       changed = true;
     }
     displays->show(pictures);

@@ -1,7 +1,8 @@
 #pragma once
-/// The test pattern of a place: as files, or on its outputs until somebody presses Escape.
+/// The test patterns of a place: as files, or on its outputs until somebody presses Escape.
 
 #include "engine/display/wall_file.h"
+#include "pipeline/projection/hall_patterns.h"
 #include "show/display/show_windows.h"
 
 #include <atomic>
@@ -10,6 +11,7 @@
 namespace stadion {
 
 struct PatternOptions {
+  HallPattern pattern = HallPattern::Room;
   std::string out;     ///< folder for files; empty = on the outputs
   bool stereo = true;  ///< of files: a picture for each eye
   WindowStereo windowStereo = WindowStereo::Mono;

@@ -18,15 +18,19 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <array>
 #include <cstdio>
 #include <memory>
+#include <string_view>
 #include <tuple>
 
 namespace stadion {
 namespace {
 
+constexpr std::array<std::string_view, 5> kPatternKinds{"room", "pixels", "blend", "gamma", "bars"};
+
 struct WallsOptions {
-  std::string file, out, stereo = "off", size;
+  std::string file, out, stereo = "off", size, kind;
   bool pattern = false, json = false;
   PatternOptions shown;  ///< from the others
 
@@ -34,13 +38,15 @@ struct WallsOptions {
     CommandOptions options(command);
     options.add("WALLS", file).required();
     options.add("--pattern", pattern);
+    options.add("--pattern-kind", kind).needs("--pattern");
     options.add("--out", out);
     options.add("--json", json);
     options.add("--stereo", stereo);
     options.add("--size", size, {.least = 16});
-    command.footer("--pattern shows border, metres, the wall's name, L or R, and a cube of 1 m in the middle "
-                   "of the room. --size "
-                   "is for\nwalls whose pixels neither the file nor the output states.");
+    command.footer(
+        R"(--pattern shows border, metres, the wall's name, L or R, and a cube of 1 m in the middle of the room. Projectors show
+azimuths and elevations around the visitor instead. --pattern-kind blend is white with all ramps between projectors.
+--size is for walls whose pixels neither the file nor the output states.)");
   }
 
   bool complete(Diagnostics& findings) {
@@ -49,6 +55,8 @@ struct WallsOptions {
     if (json && pattern)
       findings.error({}, "--json describes the walls, and --pattern shows them: leave one out");
     shown.out = out;
+    for (std::size_t k = 0; k < kPatternKinds.size(); ++k)
+      if (kind == kPatternKinds[k]) shown.pattern = static_cast<HallPattern>(k);
     shown.windowStereo = windowStereo(*stereoLayout(stereo));
     return !findings.hasErrors();
   }

@@ -3,6 +3,7 @@
 #include "engine/display/wall_lint.h"
 #include "engine/maths/angles.h"
 #include "pipeline/picture/lettering.h"
+#include "pipeline/picture/sketch.h"
 
 #include <algorithm>
 #include <cmath>
@@ -10,64 +11,11 @@
 namespace stadion {
 namespace {
 
-using Colour = std::array<std::uint8_t, 3>;
+using Colour = Sketch::Colour;
 constexpr Colour kGround{24, 26, 30}, kFine{70, 76, 84}, kMetre{130, 138, 148}, kBorder{255, 255, 255},
     kLeft{90, 170, 255}, kRight{255, 110, 90}, kOne{235, 235, 235}, kCube{255, 215, 60};
 constexpr double kFineStep = 0.25;  ///< [m]
 constexpr double kNear = 0.02;      ///< nearer parts are not drawn [m]
-
-class Sketch {
-public:
-  Sketch(std::uint32_t width, std::uint32_t height) : picture_(width, height) {
-    for (std::size_t i = 0; i < picture_.rgba.size(); i += 4)
-      for (std::size_t k = 0; k < 3; ++k) picture_.rgba[i + k] = kGround[k];
-  }
-  Picture take() { return std::move(picture_); }
-  Picture& picture() { return picture_; }
-  double width() const { return picture_.width; }
-  double height() const { return picture_.height; }
-
-  /// Points are in pixels from the upper left corner.
-  void line(Vec2 a, Vec2 b, const Colour& colour, int thick = 1) {
-    if (!clip(a, b)) return;
-    const int steps = static_cast<int>(std::ceil((b - a).cwiseAbs().maxCoeff())) + 1;
-    for (int i = 0; i <= steps; ++i) {
-      const Vec2 p = a + (b - a) * (static_cast<double>(i) / steps);
-      dot(static_cast<int>(std::floor(p.x())), static_cast<int>(std::floor(p.y())), colour, thick);
-    }
-  }
-
-private:
-  void dot(int x, int y, const Colour& colour, int thick) {
-    for (int v = y - thick / 2; v < y - thick / 2 + thick; ++v)
-      for (int u = x - thick / 2; u < x - thick / 2 + thick; ++u) {
-        if (u < 0 || v < 0 || u >= static_cast<int>(picture_.width) || v >= static_cast<int>(picture_.height))
-          continue;
-        std::copy(colour.begin(), colour.end(),
-                  picture_.at(static_cast<std::uint32_t>(u), static_cast<std::uint32_t>(v)));
-      }
-  }
-
-  /// Clips the line to the picture (Liang and Barsky 1984). Returns false if nothing is left.
-  bool clip(Vec2& a, Vec2& b) const {
-    if (!a.allFinite() || !b.allFinite()) return false;
-    const Vec2 d = b - a;
-    double from = 0, to = 1;
-    const double p[] = {-d.x(), d.x(), -d.y(), d.y()};
-    const double q[] = {a.x(), width() - a.x(), a.y(), height() - a.y()};
-    for (std::size_t i = 0; i < 4; ++i) {
-      if (p[i] == 0 && q[i] < 0) return false;
-      if (p[i] < 0) from = std::max(from, q[i] / p[i]);
-      if (p[i] > 0) to = std::min(to, q[i] / p[i]);
-    }
-    if (from > to) return false;
-    b = a + to * d;
-    a = a + from * d;
-    return true;
-  }
-
-  Picture picture_;
-};
 
 void drawGrid(Sketch& sketch, const WallBasis& wall) {
   const double perMetreX = sketch.width() / wall.width, perMetreY = sketch.height() / wall.height;
@@ -93,12 +41,6 @@ void drawCircle(Sketch& sketch, const WallBasis& wall) {
                 sketch.height() * (0.5 + radius * std::sin(angle) / wall.height));
   };
   for (int i = 0; i < kParts; ++i) sketch.line(at(i), at(i + 1), kMetre, 1);
-}
-
-void drawBorder(Sketch& sketch) {
-  const double right = sketch.width() - 1, low = sketch.height() - 1;
-  const Vec2 corners[] = {{0, 0}, {right, 0}, {right, low}, {0, low}};
-  for (std::size_t i = 0; i < 4; ++i) sketch.line(corners[i], corners[(i + 1) % 4], kBorder, 1);
 }
 
 /// Returns the cube's lowest corner. The cube is in the middle of the room, so low that its edges appear on
@@ -154,11 +96,11 @@ Picture testPattern(const WallFile& walls, std::size_t index, std::optional<Eye>
                     std::uint32_t height) {
   const Wall& wall = walls.walls[index].wall;
   const WallBasis shape = basis(wall);
-  Sketch sketch(width, height);
+  Sketch sketch(width, height, kGround);
   drawGrid(sketch, shape);
   drawCircle(sketch, shape);
   drawCube(sketch, walls, wall, eye);
-  drawBorder(sketch);
+  sketch.border(kBorder);
   const Colour& ours = !eye ? kOne : *eye == Eye::Left ? kLeft : kRight;
   const std::uint32_t scale = std::max(1u, std::min(width, height) / 120);
   Picture& p = sketch.picture();
