@@ -15,20 +15,6 @@ float floatPowerOfTwo(int e) {
   return std::bit_cast<float>(static_cast<std::uint32_t>(e + 127) << 23);
 }
 
-/// The texel beside (x, y) on the sphere, for one that lies in the border: a square's edge is folded in its
-/// middle.
-std::size_t wrapped(int x, int y, int side) {
-  if (x < 0 || x >= side) {
-    x = std::clamp(x, 0, side - 1);
-    y = side - 1 - y;
-  }
-  if (y < 0 || y >= side) {
-    y = std::clamp(y, 0, side - 1);
-    x = side - 1 - x;
-  }
-  return static_cast<std::size_t>(y) * static_cast<std::size_t>(side) + static_cast<std::size_t>(x);
-}
-
 }  // namespace
 
 std::uint32_t packedLight(const Radiance& light) {
@@ -101,12 +87,6 @@ bool EnvironmentLight::isSound() const {
   return std::ranges::all_of(harmonics, [](const Radiance& c) {
     return std::ranges::all_of(c, [](float x) { return x >= -kMost && x <= kMost; });
   });
-}
-
-void writeMap(const std::vector<Radiance>& map, std::uint32_t side, std::uint32_t* texels) {
-  const int n = static_cast<int>(side);
-  for (int y = -1; y <= n; ++y)
-    for (int x = -1; x <= n; ++x) *texels++ = packedLight(map[wrapped(x, y, n)]);
 }
 
 }  // namespace stadion

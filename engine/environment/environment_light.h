@@ -7,9 +7,10 @@
 /// Mirrored  maps of the same surroundings, each blurred as a surface of one roughness mirrors them (Karis
 ///           2013, "Real Shading in Unreal Engine 4": GGX, seen square on).
 /// Picture   the surroundings themselves, for the background; of the show's own sky there is none.
-/// Layout    a map is octahedral: a square of n x n texels in a border of one texel, which repeats its
-///           neighbours on the sphere. So four texels around any place lie side by side. `texels` has the
-///           picture first, then the maps from smooth to rough, each row by row.
+/// Layout    a map is octahedral: a square of n x n steps with a texel at each of its (n + 1) x (n + 1) corners.
+///           So four texels around any place lie side by side, and the edges of the octahedron run through
+///           texels: a horizon is as sharp at its corners as elsewhere. `texels` has the picture first, then
+///           the maps from smooth to rough, each row by row.
 /// Texels    three colours with nine bits each and a common exponent, as GL_RGB9_E5: up to 65408.
 /// Frames    World axes: +X right, +Y forward, +Z up.
 /// Threads   immutable once made.
@@ -29,16 +30,16 @@ struct EnvironmentLight {
   static constexpr std::uint32_t kLeastPicture = 256, kMostPicture = 2048;  ///< sides, powers of two
 
   std::array<Radiance, 9> harmonics{};  ///< of Y(0,0), Y(1,-1), Y(1,0), Y(1,1), Y(2,-2) .. Y(2,2)
-  std::uint32_t pictureSide = 0;        ///< [texels] without the border; 0 = there is no picture
+  std::uint32_t pictureSide = 0;        ///< [steps]; 0 = there is no picture
   std::vector<std::uint32_t> texels;
 
   /// The roughness for which a map is made.
   static constexpr float roughnessOf(std::size_t map) {
     return static_cast<float>(map) / static_cast<float>(kMaps - 1);
   }
-  /// Texels of a map with this side and its border; 0 for none.
+  /// Texels of a map with this side; 0 for none.
   static constexpr std::size_t sizeOf(std::uint32_t side) {
-    return side == 0 ? 0 : std::size_t{side + 2} * (side + 2);
+    return side == 0 ? 0 : std::size_t{side + 1} * (side + 1);
   }
   /// Where a map begins in `texels`.
   std::size_t firstOf(std::size_t map) const {
@@ -69,8 +70,5 @@ std::array<double, 2> octahedralPlace(const std::array<double, 3>& d);
 
 /// Values of the nine harmonics in a direction.
 std::array<double, 9> harmonicsAt(const std::array<double, 3>& d);
-
-/// Copies a map of side x side colours into texels with their border.
-void writeMap(const std::vector<Radiance>& map, std::uint32_t side, std::uint32_t* texels);
 
 }  // namespace stadion

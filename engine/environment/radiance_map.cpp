@@ -81,13 +81,13 @@ Radiance lookedUp(const RadianceMap& map, const SphereWay& d) {
   return roundedLight(sum);
 }
 
-/// An octahedral map without a border.
+/// An octahedral map with a texel in the middle of each step.
 struct SquareMap {
   std::uint32_t side = 0;
   std::vector<Radiance> texels;
 
-  SphereWay direction(std::uint32_t x, std::uint32_t y, double inX = 0.5, double inY = 0.5) const {
-    return octahedralDirection((x + inX) * 2 / side - 1, (y + inY) * 2 / side - 1);
+  SphereWay direction(std::uint32_t x, std::uint32_t y) const {
+    return octahedralDirection((x + 0.5) * 2 / side - 1, (y + 0.5) * 2 / side - 1);
   }
   const Radiance& texel(std::int64_t x, std::int64_t y) const {
     const std::int64_t last = std::int64_t{side} - 1;
@@ -116,11 +116,60 @@ SquareMap squareMap(std::uint32_t side, const Colour& colour) {
   return map;
 }
 
-SquareMap squareMapOf(const RadianceMap& map, std::uint32_t side) {
-  return squareMap(side, [&](const SquareMap& to, std::uint32_t x, std::uint32_t y) {
+/// An octahedral map as it is kept: a texel at each corner of side x side steps.
+struct CornerMap {
+  std::uint32_t side = 0;
+  std::vector<Radiance> texels;
+
+  const Radiance& texel(std::uint32_t x, std::uint32_t y) const {
+    return texels[std::size_t{y} * (side + 1) + x];
+  }
+};
+
+/// `colour`: of a place on the square, -1 to 1.
+template <class Colour>
+CornerMap cornerMap(std::uint32_t side, const Colour& colour) {
+  CornerMap map{side, {}};
+  map.texels.reserve(EnvironmentLight::sizeOf(side));
+  for (std::uint32_t y = 0; y <= side; ++y)
+    for (std::uint32_t x = 0; x <= side; ++x)
+      map.texels.push_back(colour(2.0 * x / side - 1, 2.0 * y / side - 1));
+  return map;
+}
+
+/// The direction of a place that may lie beyond an edge of the square, which is folded in its middle.
+SphereWay directionBeyond(double x, double y) {
+  if (std::abs(x) > 1) x = (x < 0 ? -2 : 2) - x, y = -y;
+  if (std::abs(y) > 1) y = (y < 0 ? -2 : 2) - y, x = -x;
+  return octahedralDirection(x, y);
+}
+
+/// Each texel is the mean of four places around it.
+CornerMap cornerMapOf(const RadianceMap& map, std::uint32_t side) {
+  const double part = 0.5 / side;
+  return cornerMap(side, [&](double x, double y) {
     LightSum sum{};
-    for (const double inY : {0.25, 0.75})
-      for (const double inX : {0.25, 0.75}) addLight(sum, lookedUp(map, to.direction(x, y, inX, inY)), 0.25);
+    for (const double inY : {-part, part})
+      for (const double inX : {-part, part})
+        addLight(sum, lookedUp(map, directionBeyond(x + inX, y + inY)), 0.25);
+    return roundedLight(sum);
+  });
+}
+
+/// Each texel is the mean of the four corners around it.
+SquareMap squareMapOf(const CornerMap& map) {
+  return squareMap(map.side, [&](const SquareMap&, std::uint32_t x, std::uint32_t y) {
+    LightSum sum{};
+    for (std::uint32_t i = 0; i < 4; ++i) addLight(sum, map.texel(x + i % 2, y + i / 2), 0.25);
+    return roundedLight(sum);
+  });
+}
+
+/// A quarter as large: the same surroundings at fewer corners. `fine`: with two texels for each step.
+CornerMap cornerMapFrom(const SquareMap& fine) {
+  return cornerMap(fine.side / 2, [&](double x, double y) {
+    LightSum sum{};
+    fine.addAt(octahedralDirection(x, y), 1, sum);
     return roundedLight(sum);
   });
 }
@@ -179,10 +228,10 @@ std::vector<WideRay> wideRays(double roughness, const std::vector<SquareMap>& py
   return rays;
 }
 
-SquareMap mirrored(const std::vector<SquareMap>& pyramid, double roughness, std::uint32_t side) {
+CornerMap mirrored(const std::vector<SquareMap>& pyramid, double roughness, std::uint32_t side) {
   const std::vector<WideRay> rays = wideRays(roughness, pyramid);
-  return squareMap(side, [&](const SquareMap& to, std::uint32_t x, std::uint32_t y) {
-    const SphereWay n = to.direction(x, y);
+  return cornerMap(side, [&](double x, double y) {
+    const SphereWay n = octahedralDirection(x, y);
     const auto axes = axesAround(n);
     LightSum sum{};
     for (const WideRay& wide : rays) {
@@ -197,7 +246,7 @@ SquareMap mirrored(const std::vector<SquareMap>& pyramid, double roughness, std:
 }
 
 /// Of a wide lobe: the mean over all directions.
-SquareMap widelyMirrored(const SquareMap& from, double roughness, std::uint32_t side) {
+CornerMap widelyMirrored(const SquareMap& from, double roughness, std::uint32_t side) {
   struct Source {
     SphereWay direction;
     double size;
@@ -206,8 +255,8 @@ SquareMap widelyMirrored(const SquareMap& from, double roughness, std::uint32_t 
   for (std::uint32_t y = 0; y < from.side; ++y)
     for (std::uint32_t x = 0; x < from.side; ++x)
       sources.push_back({from.direction(x, y), sizeOf(from, x, y)});
-  return squareMap(side, [&](const SquareMap& to, std::uint32_t x, std::uint32_t y) {
-    const SphereWay n = to.direction(x, y);
+  return cornerMap(side, [&](double x, double y) {
+    const SphereWay n = octahedralDirection(x, y);
     LightSum sum{};
     double all = 0;
     for (std::size_t i = 0; i < sources.size(); ++i) {
@@ -263,10 +312,8 @@ std::array<Radiance, 9> harmonicsOf(const RadianceMap& map) {
   return sum.result();
 }
 
-void appendMap(const SquareMap& map, std::vector<std::uint32_t>& texels) {
-  const std::size_t first = texels.size();
-  texels.resize(first + EnvironmentLight::sizeOf(map.side));
-  writeMap(map.texels, map.side, texels.data() + first);
+void appendMap(const CornerMap& map, std::vector<std::uint32_t>& texels) {
+  for (const Radiance& light : map.texels) texels.push_back(packedLight(light));
 }
 
 std::array<double, 3> mixedLight(const Radiance& a, const LightSum& b, double t) {
@@ -317,13 +364,15 @@ EnvironmentLight environmentLight(RadianceMap map) {
   EnvironmentLight light;
   light.harmonics = harmonicsOf(map);
   light.pictureSide = std::max(std::bit_floor(map.height), EnvironmentLight::kLeastPicture);
-  std::vector<SquareMap> pyramid = pyramidOf(squareMapOf(map, light.pictureSide));
+  const CornerMap picture = cornerMapOf(map, light.pictureSide);
   map = {};
-  appendMap(pyramid[0], light.texels);
+  const std::vector<SquareMap> pyramid = pyramidOf(squareMapOf(picture));
+  appendMap(picture, light.texels);
   const auto withSide = [&](std::uint32_t side) -> const SquareMap& {
     return *std::ranges::find(pyramid, side, &SquareMap::side);
   };
-  appendMap(withSide(EnvironmentLight::kSides[0]), light.texels);
+  constexpr std::uint32_t kSharp = EnvironmentLight::kSides[0];
+  appendMap(light.pictureSide == kSharp ? picture : cornerMapFrom(withSide(2 * kSharp)), light.texels);
   constexpr std::size_t kFirstWide = 3;
   constexpr std::uint32_t kWideSource = 64;
   for (std::size_t i = 1; i < EnvironmentLight::kMaps; ++i) {
@@ -362,14 +411,13 @@ EnvironmentLight skyLight(const Radiance& zenith, const Radiance& horizon, const
   for (std::size_t i = 0; i < EnvironmentLight::kMaps; ++i) {
     const std::uint32_t side = EnvironmentLight::kSides[i];
     if (i == 0) {
-      appendMap(squareMap(side, [&](const SquareMap& to, std::uint32_t x,
-                                    std::uint32_t y) { return roundedLight(colour(to.direction(x, y)[2])); }),
+      appendMap(cornerMap(side, [&](double x,
+                                    double y) { return roundedLight(colour(octahedralDirection(x, y)[2])); }),
                 light.texels);
       continue;
     }
     const MirroredSky sky(double{EnvironmentLight::roughnessOf(i)}, colour);
-    appendMap(squareMap(side, [&](const SquareMap& to, std::uint32_t x,
-                                  std::uint32_t y) { return sky.at(to.direction(x, y)[2]); }),
+    appendMap(cornerMap(side, [&](double x, double y) { return sky.at(octahedralDirection(x, y)[2]); }),
               light.texels);
   }
   return light;

@@ -27,12 +27,13 @@ vec3 harmonicsAt(vec3 d, float first, float second) {
   return max(sum, 0.0);
 }
 
-// A map in direction d: an octahedral square within a border of one texel.
+// A map in direction d: an octahedral square with texels at the corners of its steps. 1 / 256 inside of its edge no
+// texel beyond it counts.
 vec3 lookUp(vec2 corner, float side, vec3 d) {
   vec2 p = d.xy / (abs(d.x) + abs(d.y) + abs(d.z));
   vec2 folded = (1.0 - abs(p.yx)) * vec2(p.x < 0.0 ? -1.0 : 1.0, p.y < 0.0 ? -1.0 : 1.0);
   if (d.z < 0.0) p = folded;
-  vec2 place = corner + clamp((p * 0.5 + 0.5) * side, 0.0, side) + 1.0;
+  vec2 place = corner + clamp((p * 0.5 + 0.5) * side, 0.00390625, side - 0.00390625) + 0.5;
   return textureLod(environmentMap, place * aroundTexel.xy, 0.0).rgb;
 }
 

@@ -123,13 +123,14 @@ private:
     const I below = d.z < 0.0f;
     const auto folded = [](F sign, F other) { return L::select(sign < 0.0f, other - 1.0f, 1.0f - other); };
     const auto place = [&](F at) {
-      const F on = (at * 0.5f + 0.5f) * side + 0.5f;
-      return L::least(L::most(on, L::all(0.5f)), side + 0.5f);  // also where it is no number
+      constexpr float kInside = 1.0f / 256;  // of the edge, so that no texel beyond it counts
+      const F on = (at * 0.5f + 0.5f) * side;
+      return L::least(L::most(on, L::all(kInside)), side - kInside);  // also where it is no number
     };
     const F u = place(L::select(below, folded(x, L::size(y)), x));
     const F v = place(L::select(below, folded(y, L::size(x)), y));
     const F left = L::floor(u), low = L::floor(v), right = u - left, up = v - low;
-    const I row = L::truncated(side) + 2, at = first + L::truncated(low) * row + L::truncated(left);
+    const I row = L::truncated(side) + 1, at = first + L::truncated(low) * row + L::truncated(left);
     const int* from = reinterpret_cast<const int*>(texels);
     I a, b, c, e;
     By::pairs(from, at, a, b);

@@ -20,12 +20,10 @@ void EnvironmentTexture::show(const EnvironmentRecord& record,
 }
 
 void EnvironmentTexture::upload() {
-  constexpr std::uint32_t kBorders = 2;
-  const std::uint32_t picture = light_->pictureSide == 0 ? 0 : light_->pictureSide + kBorders;
+  const std::uint32_t picture = light_->pictureSide == 0 ? 0 : light_->pictureSide + 1;
   std::uint32_t row = 0;
-  for (const std::uint32_t side : EnvironmentLight::kSides) row += side + kBorders;
-  const std::uint32_t width = std::max(picture, row),
-                      height = picture + EnvironmentLight::kSides[0] + kBorders;
+  for (const std::uint32_t side : EnvironmentLight::kSides) row += side + 1;
+  const std::uint32_t width = std::max(picture, row), height = picture + EnvironmentLight::kSides[0] + 1;
   texture_.emplace(gl_);
   gl_.BindTexture(GL_TEXTURE_2D, texture_->name());
   gl_.TexImage2D(GL_TEXTURE_2D, 0, GL_RGB9_E5, static_cast<GLsizei>(width), static_cast<GLsizei>(height), 0,
@@ -40,15 +38,15 @@ void EnvironmentTexture::upload() {
   std::uint32_t x = 0;
   for (std::size_t i = 0; i < EnvironmentLight::kMaps; ++i) {
     const std::uint32_t side = EnvironmentLight::kSides[i];
-    uploadMap(light_->firstOf(i), x, picture, side + kBorders);
+    uploadMap(light_->firstOf(i), x, picture, side + 1);
     places_.maps[i] = {static_cast<float>(x), static_cast<float>(picture), static_cast<float>(side), 0};
-    x += side + kBorders;
+    x += side + 1;
   }
   places_.texel = {1 / static_cast<float>(width), 1 / static_cast<float>(height), 0, 0};
   gl_.BindTexture(GL_TEXTURE_2D, 0);
 }
 
-/// `side`: with the border.
+/// `side`: in texels.
 void EnvironmentTexture::uploadMap(std::size_t first, std::uint32_t x, std::uint32_t y,
                                    std::uint32_t side) const {
   gl_.TexSubImage2D(GL_TEXTURE_2D, 0, static_cast<GLint>(x), static_cast<GLint>(y),

@@ -47,10 +47,8 @@ const std::array kWays{directionOf(1, 2, 0.5), directionOf(0, 0, 1),       direc
 /// The colour of a map in a direction, from its nearest texel.
 Radiance texelOf(const EnvironmentLight& light, std::size_t first, std::uint32_t side, const Way& d) {
   const auto place = octahedralPlace(d);
-  const auto at = [&](double p) {
-    return std::min(static_cast<std::uint32_t>((p + 1) * 0.5 * side), side - 1) + 1;
-  };
-  return unpackedLight(light.texels[first + std::size_t{at(place[1])} * (side + 2) + at(place[0])]);
+  const auto at = [&](double p) { return static_cast<std::uint32_t>(std::lround((p + 1) * 0.5 * side)); };
+  return unpackedLight(light.texels[first + std::size_t{at(place[1])} * (side + 1) + at(place[0])]);
 }
 
 TEST(EnvironmentTexels, ColoursKeepNineBits) {
@@ -73,20 +71,52 @@ TEST(EnvironmentTexels, PlacesAndDirectionsAreEachOthersInverse) {
   }
 }
 
-TEST(EnvironmentTexels, TheBorderContinuesTheMapOnTheSphere) {
+TEST(EnvironmentTexels, TheEdgesOfTheSquareAreFolded) {
   const EnvironmentLight light = environmentLight(surroundingsOf(64, [](const Way& d) {
     return std::array<double, 3>{2 + d[0], 2 + d[1], 2 + d[2]};
   }));
-  const std::uint32_t side = EnvironmentLight::kSides[3];
-  const std::size_t first = light.firstOf(3), row = side + 2;
-  for (std::uint32_t i = 1; i <= side; ++i)
-    for (const auto& [inside, border] : {std::pair{first + i * row + 1, first + i * row},
-                                         std::pair{first + i * row + side, first + i * row + side + 1},
-                                         std::pair{first + row + i, first + i},
-                                         std::pair{first + side * row + i, first + (side + 1) * row + i}}) {
-      const Radiance a = unpackedLight(light.texels[inside]), b = unpackedLight(light.texels[border]);
-      for (std::size_t k = 0; k < 3; ++k) EXPECT_NEAR(a[k], b[k], 0.15) << i;
+  for (const std::size_t map : {0u, 1u, 3u}) {
+    const std::uint32_t side = EnvironmentLight::kSides[map];
+    const std::size_t first = light.firstOf(map), row = side + 1;
+    for (std::uint32_t i = 0; i <= side; ++i) {
+      EXPECT_EQ(light.texels[first + i], light.texels[first + side - i]);
+      EXPECT_EQ(light.texels[first + side * row + i], light.texels[first + side * row + side - i]);
+      EXPECT_EQ(light.texels[first + i * row], light.texels[first + (side - i) * row]);
+      EXPECT_EQ(light.texels[first + i * row + side], light.texels[first + (side - i) * row + side]);
     }
+  }
+}
+
+/// A picture blended from four texels, as the renderers do.
+double blendedPicture(const EnvironmentLight& light, const Way& d) {
+  const auto place = octahedralPlace(d);
+  const double side = light.pictureSide, x = (place[0] + 1) * 0.5 * side, y = (place[1] + 1) * 0.5 * side;
+  const double left = std::min(std::floor(x), side - 1), low = std::min(std::floor(y), side - 1);
+  const auto at = [&](double column, double line) {
+    return double{unpackedLight(light.texels[static_cast<std::size_t>(line * (side + 1) + column)])[0]};
+  };
+  const double right = x - left, up = y - low;
+  return (at(left, low) * (1 - right) + at(left + 1, low) * right) * (1 - up) +
+         (at(left, low + 1) * (1 - right) + at(left + 1, low + 1) * right) * up;
+}
+
+/// In front, to the right, behind and to the left are corners of the octahedron.
+TEST(EnvironmentTexels, AHorizonIsAsSharpAtTheCornersAsElsewhere) {
+  const EnvironmentLight light = environmentLight(surroundingsOf(512, [](const Way& d) {
+    return std::array<double, 3>{d[2] > 0 ? 1.0 : 0.0, 0, 0};
+  }));
+  const auto widthAt = [&](double azimuth) {  // from 10 % to 90 %
+    double low = 0, high = 0;
+    for (double z = -0.03; z < 0.03; z += 1e-5) {
+      const double c = blendedPicture(light, directionOf(std::sin(azimuth), std::cos(azimuth), z));
+      if (c < 0.1) low = z;
+      if (c < 0.9) high = z;
+    }
+    return high - low;
+  };
+  const double usual = widthAt(0.3);
+  for (const double corner : {0.0, 0.5, 1.0, 1.5})
+    EXPECT_LT(widthAt(corner * std::numbers::pi), 1.3 * usual) << corner;
 }
 
 TEST(EnvironmentLight, HarmonicsGiveTheIrradianceOfSmoothSurroundings) {
@@ -119,13 +149,11 @@ TEST(EnvironmentLight, MapsAreTheSurroundingsInTheLobeOfTheirRoughness) {
   for (std::size_t map = 2; map < EnvironmentLight::kMaps; ++map) {
     const double spread = std::pow(double{EnvironmentLight::roughnessOf(map)}, 2), squared = spread * spread;
     for (const Way& way : kWays) {
-      // The middle of the texel in which it lies.
+      // That of the nearest texel.
       const auto place = octahedralPlace(way);
       const double side = EnvironmentLight::kSides[map];
-      const auto middle = [&](double p) {
-        return (std::min(std::floor((p + 1) * 0.5 * side), side - 1) + 0.5) * 2 / side - 1;
-      };
-      const Way n = octahedralDirection(middle(place[0]), middle(place[1]));
+      const auto nearest = [&](double p) { return std::round((p + 1) * 0.5 * side) * 2 / side - 1; };
+      const Way n = octahedralDirection(nearest(place[0]), nearest(place[1]));
       const auto exact = weightedMean(hallAt, [&](const Way& l) {
         const double cosine = dotOf(n, l);
         if (cosine <= 0) return 0.0;
