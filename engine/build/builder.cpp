@@ -1,5 +1,6 @@
 #include "engine/build/builder.h"
 
+#include "engine/build/clip_commands.h"
 #include "engine/maths/angles.h"
 #include "engine/maths/functions.h"
 #include "engine/script/object_parts.h"
@@ -7,6 +8,8 @@
 
 #include <algorithm>
 #include <cstdlib>
+
+#include <fmt/format.h>
 
 namespace stadion {
 namespace {
@@ -161,7 +164,10 @@ public:
       else
         addNode(d);
     }
-    for (const Declaration d : input_.document) noteFading(d);
+    for (const Declaration d : input_.document) {
+      noteFading(d);
+      checkClips(d);
+    }
     for (const std::uint32_t i : layout_.enterOrder())
       if (load.nodes[i]) load.enterOrder.push_back(i);
     for (const StaticObject& s : load.statics)
@@ -213,6 +219,21 @@ private:
       const std::vector<std::string> words = wordsOf(m.words);
       if (words.size() == 1)
         note(input_.document[m.target.declaration], std::strtod(words[0].c_str(), nullptr));
+    }
+  }
+
+  /// Warns of messages that ask a figure of this file for what its clips cannot do.
+  void checkClips(const Declaration& sender) {
+    for (const EventMessage& m : sender.eventMessages()) {
+      if (!m.target.resolved() || m.target.level != 0 || !m.target.inner().empty()) continue;
+      const Declaration target = input_.document[m.target.declaration];
+      const MeshId mesh = target.is(Trait::Figure) ? appearanceOf(target).mesh : kNoMesh;
+      const auto skeleton = mesh == kNoMesh ? nullptr : input_.store.find(mesh)->skeleton;
+      const std::string fault = skeleton ? faultOfClips(m, *skeleton) : std::string();
+      if (fault.empty()) continue;
+      const SourceText& source = input_.document.source();
+      findings_.warning(source.position(m.command), fmt::format("\"{}\": {}", target.name(), fault),
+                        source.excerpt(m.command));
     }
   }
 

@@ -2,7 +2,7 @@
 
 #include "engine/build/node_request.h"
 #include "engine/core/node_registry.h"
-#include "engine/nodes/clip_words.h"
+#include "engine/figure/clip_words.h"
 #include "engine/nodes/figure_node.h"
 #include "engine/scene/scene.h"
 

@@ -6,6 +6,7 @@
 #include "engine/script/object_parts.h"
 #include "engine/script/script.h"
 
+#include <charconv>
 #include <unordered_map>
 #include <unordered_set>
 
@@ -19,7 +20,7 @@ constexpr std::size_t kMostCandidates = 20'000;  // for suggestions
 constexpr std::size_t kMostSuggestions = 20;
 
 std::string withArticle(const std::string& words) {
-  return fmt::format("{} {}", words.starts_with('o') ? "an" : "a", words);
+  return fmt::format("{} {}", words.starts_with('o') || words.starts_with('e') ? "an" : "a", words);
 }
 std::string withArticle(const RegisteredType& type) {
   return withArticle(std::string(type.name()));
@@ -112,13 +113,27 @@ private:
                       reference.name, node.name(), withArticle(node.type())));
   }
 
+  /// A number that a command sets must be in the range of the attribute that has the command's name.
+  bool mayBe(const RegisteredType& type, const EventMessage& message) {
+    const CommandSpec& command = *document_.types().command(message.commandId);
+    const AttributeSpec* spec =
+        command.argument == ArgumentKind::Faded ? type.find(Attr::of(command.name)) : nullptr;
+    if (spec == nullptr) return true;
+    double number = 0;
+    std::from_chars(message.words.data(), message.words.data() + message.words.size(), number);
+    if (number >= spec->range.least && number <= spec->range.most) return true;
+    report_.error(message.command, fmt::format("{} must be {}, not {}", command.name,
+                                               describe(spec->range, spec->unit), number));
+    return false;
+  }
+
   bool mayUse(const Declaration& user, Attr attr, const NodeReference& reference, const RegisteredType& type,
               const EventMessage* message) {
     const NodeRegistry& types = document_.types();
     const bool field = attr == "hook" && message != nullptr;  // the argument of a hook or unhook command
     const auto commandName = [&] { return types.command(message->commandId)->name; };
     if (message != nullptr && !field) {
-      if (type.takes(message->commandId)) return true;
+      if (type.takes(message->commandId)) return mayBe(type, *message);
       report_.error(message->command,
                     fmt::format("\"{}\" is {}, which does not take \"{}\"; it takes {}", reference.name,
                                 withArticle(type), commandName(), commandsOf(type)));

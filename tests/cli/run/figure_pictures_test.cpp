@@ -104,5 +104,30 @@ TEST(ProgramFigures, WrongClipsAndBonesAreErrorsThatListTheRightOnes) {
       stadionProgram({"check", folder.write("show.evs", figure + "bone( parent=f, bone=upper )")}).status, 0);
 }
 
+TEST(ProgramFigures, CommandsThatNoClipCanCarryOutAreWarnedOf) {
+  const TestFolder folder;
+  folder.write("tube.glb", test::riggedTube().glb());
+  const auto checked = [&](const std::string& command) {
+    const ProgramResult r = stadionProgram(
+        {"check", folder.write("show.evs", "figure( name=f, file=tube.glb )\n"
+                                           "timer( name=t, period=1, eventmessage=\"timesup, f, " +
+                                               command + ", latency=0.02\" )")});
+    EXPECT_EQ(r.status, 0);
+    return r.out + r.err;
+  };
+  const std::string place = "show.evs:2:52: warning: \"f\": ";
+  EXPECT_TRUE(has(checked("play run"),
+                  place + "\"run\" begins with no clip of its model; there are \"bend\", \"lift\""));
+  EXPECT_TRUE(has(checked("layer"), place + "no clip is named; there are \"bend\", \"lift\""));
+  EXPECT_TRUE(has(checked("layer bend weight 2"), place + "\"weight\" needs a number from 0 to 1 after it"));
+  EXPECT_TRUE(
+      has(checked("layer lift from 0.6"), place + "the clip is 0.5 s long, so it cannot begin at 0.6 s"));
+  EXPECT_TRUE(has(checked("unlayer run"), place + "\"run\" begins with no clip"));
+  EXPECT_TRUE(has(checked("pose bend"), place + "it needs a clip, and a time of it"));
+  for (const char* right : {"play", "play bend fade 0.1", "layer bend weight 0.5", "unlayer",
+                            "unlayer fade 1", "pose bend 0.1", "pause"})
+    EXPECT_FALSE(has(checked(right), "warning")) << right;
+}
+
 }  // namespace
 }  // namespace stadion

@@ -1,4 +1,4 @@
-#include "engine/nodes/clip_words.h"
+#include "engine/figure/clip_words.h"
 
 #include <algorithm>
 #include <charconv>
@@ -53,6 +53,7 @@ std::optional<Found> clipIn(const Words& words, const Skeleton& skeleton) {
 
 std::string noSuchClip(std::string_view words, const Skeleton& skeleton) {
   if (skeleton.clips.empty()) return "its model has no clips";
+  if (words.empty()) return fmt::format("no clip is named; there are {}", clipNames(skeleton));
   return fmt::format("\"{}\" begins with no clip of its model; there are {}", words, clipNames(skeleton));
 }
 
@@ -113,7 +114,8 @@ ClipWords readStart(std::string_view text, const Skeleton& skeleton, const ClipP
     at += taken;
   }
   if (start.at > start.length)
-    return {{}, fmt::format("the clip is {} s long, so it cannot begin at {} s", start.length, start.at)};
+    return {{},
+            fmt::format("the clip is {:.6g} s long, so it cannot begin at {:.6g} s", start.length, start.at)};
   return {start, {}};
 }
 
