@@ -85,7 +85,7 @@ ImportedModel importModel(const Request& request) {
   const NodeChoice choice(scene, figure ? NodeSelection{} : request.nodes);
   Flat flat = figure ? flattenFigure(scene, limits, result) : flatten(scene, choice, limits);
   result.mesh.place = choice.place();
-  readLightsAndCameras(scene, choice, limits.mesh, result.mesh);
+  readLightsAndCameras(scene, choice, limits.mesh, result.mesh, result.inventory);
   const DroppedTriangles dropped = dropBadTriangles(flat);
   addDropped(dropped, result.inventory);
   if (flat.triangles.empty() && !choice.hasGaps())

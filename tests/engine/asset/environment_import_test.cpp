@@ -116,6 +116,15 @@ TEST(EnvironmentImport, ReadsRowsWithoutRuns) {
   EXPECT_NEAR(got.mesh->environment->matt({0, 1, 0})[1], 0.5, 0.01);
 }
 
+TEST(EnvironmentImport, LinesMayEndInTwoBytes) {
+  std::string file = smallHdr();
+  for (std::size_t at = 0, lines = 0; lines < 4; at += 2, ++lines)
+    file.insert(at = file.find('\n', at), 1, '\r');
+  const Imported got = surroundings("small.hdr", file);
+  ASSERT_TRUE(got.mesh) << got.error;
+  EXPECT_NEAR(got.mesh->environment->matt({0, 0, 1})[0], 1, 0.01);
+}
+
 TEST(EnvironmentImport, ReadsExr) {
   const Imported got = surroundings("hall.exr", exrOf(64, 32, [](std::uint32_t, std::uint32_t y) {
                                       return Radiance{y < 16 ? 100000.0f : 0.0f, 0.25f, -3};

@@ -129,6 +129,16 @@ TEST(LightImport, NumbersThatAreNoneGiveLightsThatCanBeDrawn) {
   }
 }
 
+TEST(LightImport, ALightThatLiesNowhereIsToldOf) {
+  for (const char* place : {R"({"translation": [1e30, 0, 0]})", R"({"scale": [0, 0, 0]})"}) {
+    GltfBuilder b = litModel();
+    b.json["nodes"][2].update(Json::parse(place));
+    const Imported got = imported(b);
+    ASSERT_TRUE(got.mesh) << got.error;
+    EXPECT_TRUE(got.leftOut("the light \"lamp\": its node is too far away, or of no size")) << got.all();
+  }
+}
+
 TEST(LightImport, ANodeOfASceneThatIsNotShownIsReachedAsAPart) {
   GltfBuilder b;
   b.square();

@@ -34,13 +34,15 @@ public:
   }
 
 private:
+  /// Up to the end of the line, which some programs write in two bytes.
   std::string_view line() {
     constexpr std::size_t kLongest = 4096;
     const auto end = std::ranges::find(rest_.first(std::min(rest_.size(), kLongest)), '\n');
     const auto size = static_cast<std::size_t>(end - rest_.begin());
     if (size >= std::min(rest_.size(), kLongest)) refuseDamaged("its head has no end");
-    const std::string_view text(reinterpret_cast<const char*>(rest_.data()), size);
+    std::string_view text(reinterpret_cast<const char*>(rest_.data()), size);
     rest_ = rest_.subspan(size + 1);
+    if (text.ends_with('\r')) text.remove_suffix(1);
     return text;
   }
 

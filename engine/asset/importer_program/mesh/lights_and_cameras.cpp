@@ -7,11 +7,14 @@
 #include <utility>
 #include <vector>
 
+#include <fmt/format.h>
+
 namespace stadion::importer {
 namespace {
 
 constexpr float kBrightest = 1e9f;
 constexpr double kFarthestFromShow = 1e7;  // [m]
+constexpr std::size_t kMostTold = 20;
 
 std::array<float, 3> floats(const Vec3& v) {
   return {static_cast<float>(v.x()), static_cast<float>(v.y()), static_cast<float>(v.z())};
@@ -37,8 +40,9 @@ float rangeOf(const SourceLight& from, const Affine& toShow) {
 
 class LightsAndCameras {
 public:
-  LightsAndCameras(const SourceScene& scene, const NodeChoice& choice, const MeshLimits& limits, Mesh& mesh)
-      : scene_(scene), choice_(choice), limits_(limits), mesh_(mesh) {}
+  LightsAndCameras(const SourceScene& scene, const NodeChoice& choice, const MeshLimits& limits, Mesh& mesh,
+                   ModelInventory& inventory)
+      : scene_(scene), choice_(choice), limits_(limits), mesh_(mesh), inventory_(inventory) {}
 
   /// Without recursion: files nest deep.
   void read() {
@@ -59,17 +63,26 @@ public:
 
 private:
   void take(const SourceNode& node, const Affine& X) {
-    if (node.light >= 0 && mesh_.lights.size() < limits_.lights)
-      takeLight(scene_.lights[static_cast<std::size_t>(node.light)], node.name, X);
-    if (node.camera >= 0 && mesh_.cameras.size() < limits_.cameras)
-      takeCamera(scene_.cameras[static_cast<std::size_t>(node.camera)], node.name, X);
+    if (node.light >= 0) takeLight(scene_.lights[static_cast<std::size_t>(node.light)], node.name, X);
+    if (node.camera >= 0) takeCamera(scene_.cameras[static_cast<std::size_t>(node.camera)], node.name, X);
+  }
+
+  void leaveOut(const char* what, const std::string& name, bool tooMany) {
+    if (told_ == kMostTold) return;
+    ++told_;
+    inventory_.add(ContentUse::LeftOut, fmt::format("the {} \"{}\": {}", what, name,
+                                                    tooMany ? "the model has too many"
+                                                            : "its node is too far away, or of no size"));
   }
 
   void takeLight(const SourceLight& from, const std::string& name, const Affine& X) {
     const auto kind = lightKind(from.kind);
     ModelLight to;
-    if (!kind || !move(X, from.position, from.direction, to.position, to.direction)) return;
+    if (!kind) return;
     to.name = name.empty() ? from.name : name;
+    const bool tooMany = mesh_.lights.size() == limits_.lights;
+    if (tooMany || !move(X, from.position, from.direction, to.position, to.direction))
+      return leaveOut("light", to.name, tooMany);
     to.kind = *kind;
     for (std::size_t k = 0; k < 3; ++k) {
       const float c = from.colour[k] * from.intensity;
@@ -84,8 +97,10 @@ private:
 
   void takeCamera(const SourceCamera& from, const std::string& name, const Affine& X) {
     ModelCamera to;
-    if (!move(X, from.position, from.direction, to.position, to.direction)) return;
     to.name = name.empty() ? from.name : name;
+    const bool tooMany = mesh_.cameras.size() == limits_.cameras;
+    if (tooMany || !move(X, from.position, from.direction, to.position, to.direction))
+      return leaveOut("camera", to.name, tooMany);
     mesh_.cameras.push_back(std::move(to));
   }
 
@@ -93,13 +108,15 @@ private:
   const NodeChoice& choice_;
   const MeshLimits& limits_;
   Mesh& mesh_;
+  ModelInventory& inventory_;
+  std::size_t told_ = 0;
 };
 
 }  // namespace
 
 void readLightsAndCameras(const SourceScene& scene, const NodeChoice& choice, const MeshLimits& limits,
-                          Mesh& mesh) {
-  LightsAndCameras(scene, choice, limits, mesh).read();
+                          Mesh& mesh, ModelInventory& inventory) {
+  LightsAndCameras(scene, choice, limits, mesh, inventory).read();
 }
 
 }  // namespace stadion::importer
