@@ -21,7 +21,7 @@ ClipPlayer::Layer ClipPlayer::layerOf(const Start& start, Nanoseconds when) {
   layer.length = start.length;
   layer.speed = start.speed;
   layer.start = start.speed < 0 && start.at == 0 ? start.length : start.at;
-  layer.loop = start.loop && start.length >= kShortest;
+  layer.loop = start.loop && start.length >= kShortest * std::max(1.0, std::fabs(start.speed));
   layer.since = when;
   layer.fade = std::max<Nanoseconds>(start.fade, 0);
   return layer;

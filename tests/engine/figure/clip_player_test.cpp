@@ -127,6 +127,19 @@ TEST(ClipPlayer, AtMostFourClipsFadeAtATime) {
   EXPECT_EQ(r.layers[3].clip, 6u);
 }
 
+TEST(ClipPlayer, PassesThatWouldBeTooShortDoNotRepeat) {
+  for (const double speed : {1000.0, -1000.0}) {
+    ClipPlayer player;
+    ClipPlayer::Start s = clip(0, 0.25);
+    s.speed = speed;
+    player.play(s, 0);
+    const auto end = player.takeEnd(1.0_s);
+    ASSERT_TRUE(end);
+    EXPECT_FALSE(end->loops);
+    EXPECT_FALSE(player.takeEnd(100.0_s));
+  }
+}
+
 TEST(ClipPlayer, ShortClipsDoNotRepeat) {
   ClipPlayer player;
   player.play(clip(0, 0), 0);
