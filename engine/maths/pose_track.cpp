@@ -45,6 +45,10 @@ T valueAt(const std::array<T, 5>& c, double s) {
 
 }  // namespace
 
+Pose QuarterTime::between(const Pose& at, const Pose& next) const {
+  return det::interpolate(at, next, part);
+}
+
 PoseCurve::PoseCurve(const Pose& first, const CurvePoses& between, const Pose& last) {
   const std::array<const Pose*, 5> X{&first, &between[0], &between[1], &between[2], &last};
   std::array<Vec3, 5> positions;

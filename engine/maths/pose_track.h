@@ -65,13 +65,30 @@ struct PoseCurve {
 /// A curve over a shorter time is taken as straight: whole nanoseconds are too coarse for its quarters [ns].
 constexpr Nanoseconds kShortestCurve = 10'000;
 
+/// A quarter of the time between two others, which may lie between two whole nanoseconds. Taken at the one
+/// before, a velocity at the end of a frame would be off by 5e-6 of it.
+struct QuarterTime {
+  Nanoseconds time = 0;  ///< whole [ns]
+  double part = 0;       ///< [ns] from there, below 1
+
+  static QuarterTime of(Nanoseconds from, Nanoseconds to, std::size_t k) {
+    const Nanoseconds quarters = (to - from) * static_cast<Nanoseconds>(k + 1);
+    return {from + quarters / 4, 0.25 * static_cast<double>(quarters % 4)};
+  }
+  /// `at`: the pose at `time`; `next`: a nanosecond later.
+  Pose between(const Pose& at, const Pose& next) const;
+};
+
 /// Returns the poses between two times of a motion; nothing if these are too near to each other.
 template <class PoseAt>
 std::optional<CurvePoses> poseBetween(Nanoseconds from, Nanoseconds to, PoseAt poseAt) {
   if (to - from < kShortestCurve) return {};
   CurvePoses poses;
-  for (std::size_t k = 0; k < poses.size(); ++k)
-    poses[k] = poseAt(from + (to - from) * static_cast<Nanoseconds>(k + 1) / 4);
+  for (std::size_t k = 0; k < poses.size(); ++k) {
+    const QuarterTime quarter = QuarterTime::of(from, to, k);
+    poses[k] = poseAt(quarter.time);
+    if (quarter.part > 0) poses[k] = quarter.between(poses[k], poseAt(quarter.time + 1));
+  }
   return poses;
 }
 

@@ -285,6 +285,15 @@ std::vector<Pose> FigureNode::posesAt(Nanoseconds time, const std::vector<Watche
   return poses;
 }
 
+std::vector<Pose> FigureNode::posesAt(const QuarterTime& quarter, const std::vector<Watched>& watched,
+                                      Scene& scene) {
+  std::vector<Pose> poses = posesAt(quarter.time, watched, scene);
+  if (quarter.part == 0) return poses;
+  const std::vector<Pose> next = posesAt(quarter.time + 1, watched, scene);
+  for (std::size_t i = 0; i < poses.size(); ++i) poses[i] = quarter.between(poses[i], next[i]);
+  return poses;
+}
+
 /// Reports the motion within the frame to nodes that watch: curves between the times at which it may bend.
 void FigureNode::traceCarried(FrameContext& frame) {
   const Placements& placements = frame.scene.placements();
@@ -302,11 +311,10 @@ void FigureNode::traceCarried(FrameContext& frame) {
   }
   Nanoseconds before = from;
   for (const Nanoseconds t : turnsWithin(from, to)) {
+    const bool curved = t - before >= kShortestCurve;
     std::array<std::vector<Pose>, 3> between;
-    const bool curved = poseBetween(before, t, [&, k = between.begin()](Nanoseconds time) mutable {
-                          *k++ = posesAt(time, watched, frame.scene);
-                          return Pose{};
-                        }).has_value();
+    for (std::size_t k = 0; curved && k < between.size(); ++k)
+      between[k] = posesAt(QuarterTime::of(before, t, k), watched, frame.scene);
     // One moment before: a clip may jump at t.
     const std::vector<Pose> last = posesAt(t - 1, watched, frame.scene),
                             now = posesAt(t, watched, frame.scene);

@@ -103,6 +103,7 @@ private:
   std::vector<Watched> watchedNodes(Scene& scene);
   std::vector<Nanoseconds> turnsWithin(Nanoseconds from, Nanoseconds to) const;
   std::vector<Pose> posesAt(Nanoseconds time, const std::vector<Watched>& watched, Scene& scene);
+  std::vector<Pose> posesAt(const QuarterTime& quarter, const std::vector<Watched>& watched, Scene& scene);
   void traceCarried(FrameContext& frame);
   const Playing& playingAt(Nanoseconds time) const;
   FigureRecord recordOf(const ClipPlayer& player, Nanoseconds time) const;

@@ -92,8 +92,9 @@ PoseTrack PoseTracks::within(PlacementId id, const Pose& before, Nanoseconds sta
     const bool late = way.front().time > start;
     const Pose X_CN1 = itself ? Pose{} : way.back().X.inverse() * now;
     const Pose X_CN0 = itself ? Pose{} : late ? X_CN1 : way.front().X.inverse() * before;
-    const auto at = [&](Nanoseconds time, const Pose& X) {
-      const double s = end > start ? static_cast<double>(time - start) / static_cast<double>(end - start) : 1;
+    const auto at = [&](Nanoseconds time, const Pose& X, double part = 0) {  // so many ns later
+      const double since = static_cast<double>(time - start) + part;
+      const double s = end > start ? since / static_cast<double>(end - start) : 1;
       return itself ? X : X * det::interpolate(X_CN0, X_CN1, s);
     };
     const PoseKnot* last = nullptr;
@@ -105,9 +106,13 @@ PoseTrack PoseTracks::within(PlacementId id, const Pose& before, Nanoseconds sta
           track.push_back({t, at(t, poseOn(way, t, Limit::Before)), false});
       const Pose X = at(knot.time, knot.X);
       std::optional<CurvePoses> between;
-      if (last && knot.between)
-        between = poseBetween(last->time, knot.time,
-                              [&, k = knot.between->begin()](Nanoseconds t) mutable { return at(t, *k++); });
+      if (last && knot.between) {
+        between.emplace();
+        for (std::size_t k = 0; k < between->size(); ++k) {
+          const QuarterTime quarter = QuarterTime::of(last->time, knot.time, k);
+          (*between)[k] = at(quarter.time, (*knot.between)[k], quarter.part);
+        }
+      }
       if (last || !near(X, before)) track.push_back({knot.time, X, knot.jump || (!last && !late), between});
       last = &knot;
     }

@@ -192,5 +192,30 @@ TEST(SwingingHand, ItHitsAtTheExactTimeWithItsTrueVelocity) {
     }
 }
 
+/// A frame that does not last a whole number of 8 ns ends the last curve of its motion between quarters that lie
+/// between nanoseconds.
+TEST(SwingingHand, AnImpactAtTheEndOfAFrameHasItsTrueVelocity) {
+  const Swing truth;
+  for (const Mover mover : {Mover::Path, Mover::Bone})
+    for (const int frames : {2, 3, 5, 7}) {
+      SwingShow show(frames / truth.time, mover);
+      show.play(truth.time * (1 + 1.5 / frames));
+      ASSERT_EQ(show.impacts.size(), 1U) << frames;
+      EXPECT_NEAR(toSeconds(show.impacts[0]), truth.time, 1e-7) << frames;
+      EXPECT_NEAR(show.target->state().v.y(), 2 * truth.speed, 1e-5) << frames;
+    }
+}
+
+TEST(WalkingFigure, AnImpactAtTheEndOfAFrameHasItsVelocity) {
+  const double time = (kHeight - kHalf) / WalkShow::kSpeed;
+  for (const int frames : {7, 11, 13}) {
+    WalkShow show(frames / time);
+    show.play(time * (1 + 1.5 / frames));
+    ASSERT_EQ(show.impacts.size(), 1U) << frames;
+    EXPECT_NEAR(toSeconds(show.impacts[0]), time, 1e-7) << frames;
+    EXPECT_NEAR(show.target->state().v.y(), 2 * WalkShow::kSpeed, 1e-5) << frames;
+  }
+}
+
 }  // namespace
 }  // namespace stadion
