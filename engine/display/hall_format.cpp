@@ -40,7 +40,9 @@ struct ImageText {
                        turn.pitch / kDegree, turn.roll / kDegree);
   }
   std::string operator()(const LensImage& i) const {
-    return fmt::format("{}  throw {}  shift {} {}", place(i.X_RP), i.throwRatio, i.shift.x(), i.shift.y());
+    const std::string text =
+        fmt::format("{}  throw {}  shift {} {}", place(i.X_RP), i.throwRatio, i.shift.x(), i.shift.y());
+    return i.pixelAspect == 1 ? text : fmt::format("{}  pixel-aspect {}", text, i.pixelAspect);
   }
   std::string operator()(const FisheyeImage& i) const {
     return fmt::format("{}  fisheye {}", place(i.X_RP), i.angle / kDegree);

@@ -22,10 +22,12 @@
 namespace stadion {
 
 /// A lens that maps lines to lines. The pixel at (u, v) lights along the direction
-/// ((u - 0.5 + shift.x) w, 1, (0.5 - v + shift.y) h) of P, where w = 1 / throwRatio and h = w H / W.
+/// ((u - 0.5 + shift.x) w, 1, (0.5 - v + shift.y) h) of P, where w = 1 / throwRatio and
+/// h = pixelAspect w H / W.
 struct LensImage {
   Pose X_RP;
   double throwRatio = 1;      ///< distance to a picture / width of that picture
+  double pixelAspect = 1;     ///< height of a pixel's light / its width; not 1 for an anamorphic lens
   Vec2 shift = Vec2::Zero();  ///< lens shift to the right and up, as shares of the picture's width and height
 };
 
@@ -60,12 +62,26 @@ struct ProjectorLight {
   double black = 0;                      ///< light of a black pixel, below `white`
 };
 
-/// How a projector's picture fades out towards its neighbours.
+/// A picture of shares of light, laid over the whole output. Between the centres of its pixels it is
+/// interpolated.
+struct LightMap {
+  std::uint32_t width = 0, height = 0;
+  std::uint32_t channels = 1;         ///< 1, or 3: red, green, blue
+  std::vector<std::uint16_t> values;  ///< (height x width x channels), from the upper left
+  double gamma = 1;                   ///< share of light = (value / 65535)^gamma
+
+  bool operator==(const LightMap&) const = default;
+};
+
+/// How a projector's picture fades out towards its neighbours. By channel, the light of a pixel whose picture
+/// has the light p is p alpha (1 - beta) + beta, after the computed ramps.
 struct ProjectorBlend {
   bool computed = true;  ///< ramps follow from what the projectors of the hall cover
   /// A file whose pixels multiply the light, by channel, on top of that (0 = none, 255 = all; in proportion to
   /// light). Empty = none.
   std::string mask;
+  std::optional<LightMap> alpha;  ///< of a file that holds its masks inside; none: 1
+  std::optional<LightMap> beta;   ///< lifts black where fewer projectors light the screen; none: 0
 };
 
 struct Projector {

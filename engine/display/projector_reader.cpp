@@ -26,12 +26,12 @@ public:
   }
 
 private:
-  static const StatementField<ProjectorReader> kFields[18];
+  static const StatementField<ProjectorReader> kFields[19];
 
   /// What the line says about its image.
   struct Given {
     bool at = false, lookAt = false, turn = false, roll = false, throwRatio = false, shift = false,
-         fisheye = false, pins = false, warp = false;
+         pixelAspect = false, fisheye = false, pins = false, warp = false;
   };
 
   bool missing(std::string_view what) {
@@ -77,6 +77,11 @@ private:
     const auto ratio = in_.number("the throw ratio", 0.05, 100);
     if (ratio) lens_.throwRatio = *ratio;
     return given_.throwRatio = ratio.has_value();
+  }
+  bool pixelAspect() {
+    const auto aspect = in_.number("the height of a pixel's light by its width", 0.1, 10);
+    if (aspect) lens_.pixelAspect = *aspect;
+    return given_.pixelAspect = aspect.has_value();
   }
   bool shift() {
     const auto right = in_.number("the shift to the right", -10, 10);
@@ -152,7 +157,7 @@ private:
     const Given& g = given_;
     if (g.at + g.pins + g.warp > 1)
       return missing("has more than one image; keep one of: at with a lens, pins, warp");
-    if (!g.at && (g.lookAt || g.turn || g.roll || g.throwRatio || g.shift || g.fisheye))
+    if (!g.at && (g.lookAt || g.turn || g.roll || g.throwRatio || g.shift || g.pixelAspect || g.fisheye))
       return missing("has a lens but no place; add: at X Y Z");
     if (g.pins)
       projector_.image = pins_;
@@ -175,6 +180,8 @@ private:
       return missing(g.fisheye ? "has throw and fisheye; keep one of them"
                                : "has no lens; add: throw RATIO, or fisheye DEGREES");
     if (g.shift && g.fisheye) return missing("has a fisheye with a shift; leave shift out");
+    if (g.pixelAspect && g.fisheye)
+      return missing("has a fisheye with a pixel-aspect; leave pixel-aspect out");
     if (g.lookAt) {
       if ((lookedAt_ - at_).norm() < 1e-6) {
         in_.error(aim_, "look-at is the place of the lens; give the point at which the lens points");
@@ -216,7 +223,7 @@ private:
 };
 
 using ProjectorField = StatementField<ProjectorReader>;
-constexpr ProjectorField ProjectorReader::kFields[18] = {{"screen", &ProjectorReader::screen},
+constexpr ProjectorField ProjectorReader::kFields[19] = {{"screen", &ProjectorReader::screen},
                                                          {"pixels", &ProjectorReader::pixels},
                                                          {"eye", &ProjectorReader::eye},
                                                          {"card", &ProjectorReader::card},
@@ -226,6 +233,7 @@ constexpr ProjectorField ProjectorReader::kFields[18] = {{"screen", &ProjectorRe
                                                          {"roll", &ProjectorReader::roll},
                                                          {"throw", &ProjectorReader::throwRatio},
                                                          {"shift", &ProjectorReader::shift},
+                                                         {"pixel-aspect", &ProjectorReader::pixelAspect},
                                                          {"fisheye", &ProjectorReader::fisheye},
                                                          {"pins", &ProjectorReader::pins},
                                                          {"warp", &ProjectorReader::warp},

@@ -122,7 +122,7 @@ bool LightTest::throughLens(const Vec3& p) const {
   const Vec3 local = X_RP.q.conjugate() * (p - X_RP.p);
   if (lens) {
     if (!(local.y() > 0)) return false;
-    const double w = 1 / lens->throwRatio, h = w * height / width;
+    const double w = 1 / lens->throwRatio, h = lens->pixelAspect * w * height / width;
     if (!inOutput(local.x() / local.y() / w + 0.5 - lens->shift.x(),
                   0.5 + lens->shift.y() - local.z() / local.y() / h))
       return false;

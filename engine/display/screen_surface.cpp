@@ -117,7 +117,7 @@ const Pose* PixelRays::lens() const {
 std::optional<Vec3> PixelRays::direction(const Vec2& share) const {
   const double width = projector_.width, height = projector_.height;
   if (const auto* image = std::get_if<LensImage>(&projector_.image)) {
-    const double w = 1 / image->throwRatio, h = w * height / width;
+    const double w = 1 / image->throwRatio, h = image->pixelAspect * w * height / width;
     return image->X_RP.q *
            Vec3((share.x() - 0.5 + image->shift.x()) * w, 1, (0.5 - share.y() + image->shift.y()) * h);
   }

@@ -24,6 +24,7 @@
 ///     screen NAME mesh      file FILE.obj|FILE.pfm
 ///     projector NAME  screen SCREEN  [pixels W H]  [eye left|right|both]  [card N]  IMAGE  [LIGHT]
 ///       IMAGE   at X Y Z  look-at X Y Z | turn YAW PITCH  [roll A]  throw RATIO  [shift RIGHT UP]
+///               [pixel-aspect HEIGHT/WIDTH]   of an anamorphic lens (1)
 ///               at X Y Z  look-at X Y Z | turn YAW PITCH  [roll A]  fisheye A
 ///               pins X Y  X Y  X Y  X Y       upper left, upper right, lower right, lower left (planes only)
 ///               warp FILE.pfm                 points of the screen that a camera system measured

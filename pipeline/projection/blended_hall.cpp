@@ -18,6 +18,41 @@ double valueOf(double light, double gamma) {
   return gamma > 0 ? det::pow(light, 1 / gamma) : srgbFromLinear(light);
 }
 
+/// The parts of a projector's range that give light 1.
+Vec3 liftOf(const ProjectorLight& light) {
+  return {1 / (light.white[0] - light.black), 1 / (light.white[1] - light.black),
+          1 / (light.white[2] - light.black)};
+}
+
+/// The share that the map, which lies over the whole output, has at a place.
+Vec3 shareIn(const LightMap& map, const Vec2& place) {
+  const auto along = [](double share, std::uint32_t size) {
+    return std::clamp(share * size - 0.5, 0.0, double(size - 1));
+  };
+  const double u = along(place.x(), map.width), v = along(place.y(), map.height);
+  const auto column = static_cast<std::uint32_t>(u), row = static_cast<std::uint32_t>(v);
+  const auto at = [&](std::uint32_t c, std::uint32_t r) -> Vec3 {
+    const std::size_t first =
+        (std::size_t{std::min(r, map.height - 1)} * map.width + std::min(c, map.width - 1)) * map.channels;
+    const auto value = [&](std::size_t channel) {
+      const double share = map.values[first + (map.channels == 3 ? channel : 0)] / 65535.0;
+      return map.gamma == 1 || share == 0 ? share : det::pow(share, map.gamma);
+    };
+    return {value(0), value(1), value(2)};
+  };
+  const double s = u - column, t = v - row;
+  return (1 - t) * ((1 - s) * at(column, row) + s * at(column + 1, row)) +
+         t * ((1 - s) * at(column, row + 1) + s * at(column + 1, row + 1));
+}
+
+LightMap mapOf(const Picture& picture) {
+  LightMap map{picture.width, picture.height, 3, {}, 1};
+  for (std::size_t i = 0; i < picture.rgba.size(); i += 4)
+    for (std::size_t c = 0; c < 3; ++c)
+      map.values.push_back(static_cast<std::uint16_t>(257 * picture.rgba[i + c]));
+  return map;
+}
+
 }  // namespace
 
 Result<std::unique_ptr<BlendedHall>> BlendedHall::create(const WallFile& hall) {
@@ -46,7 +81,7 @@ std::optional<Diagnostic> BlendedHall::readMasks() {
     if (!hall_.walls[i].projector || projector(i).blend.mask.empty()) continue;
     auto mask = readPng(projector(i).blend.mask);
     if (!mask) return mask.error();
-    masks_[i] = std::move(mask.value());
+    masks_[i] = mapOf(mask.value());
   }
   return std::nullopt;
 }
@@ -76,23 +111,17 @@ void BlendedHall::findBrightestBlack() {
   }
 }
 
-/// The mask lies over the whole output, whatever its size.
-Vec3 BlendedHall::maskAt(std::size_t entry, double x, double y) const {
-  const Picture& mask = masks_[entry];
-  if (mask.empty()) return Vec3::Ones();
-  const auto along = [](double place, std::uint32_t size, std::uint32_t of) {
-    return std::clamp(place * size / of - 0.5, 0.0, double(size - 1));
-  };
-  const double u = along(x, mask.width, projector(entry).width),
-               v = along(y, mask.height, projector(entry).height);
-  const auto column = static_cast<std::uint32_t>(u), row = static_cast<std::uint32_t>(v);
-  const auto at = [&](std::uint32_t c, std::uint32_t r) -> Vec3 {
-    const std::uint8_t* p = mask.at(std::min(c, mask.width - 1), std::min(r, mask.height - 1));
-    return Vec3(p[0], p[1], p[2]) / 255;
-  };
-  const double s = u - column, t = v - row;
-  return (1 - t) * ((1 - s) * at(column, row) + s * at(column + 1, row)) +
-         t * ((1 - s) * at(column, row + 1) + s * at(column + 1, row + 1));
+/// Returns the product of the masks.
+Vec3 BlendedHall::maskAt(std::size_t entry, const Vec2& place) const {
+  const ProjectorBlend& blend = projector(entry).blend;
+  Vec3 mask = blend.alpha ? shareIn(*blend.alpha, place) : Vec3(Vec3::Ones());
+  if (masks_[entry].width > 0) mask = mask.cwiseProduct(shareIn(masks_[entry], place));
+  return mask;
+}
+
+Vec3 BlendedHall::betaAt(std::size_t entry, const Vec2& place) const {
+  const auto& beta = projector(entry).blend.beta;
+  return beta ? shareIn(*beta, place) : Vec3(Vec3::Zero());
 }
 
 std::optional<LitPoint> BlendedHall::litBy(std::size_t entry, double x, double y) const {
@@ -111,8 +140,9 @@ std::optional<LitPoint> BlendedHall::litBy(std::size_t entry, double x, double y
     }
     share = own / all;
   }
-  LitPoint lit{*point, share * maskAt(entry, x, y), 0};
-  if (black_ > 0) lit.lift = share * std::max(0.0, black_ - blackAt(entry, *point));
+  const Vec3 beta = betaAt(entry, place);
+  LitPoint lit{*point, share * maskAt(entry, place).cwiseProduct(Vec3::Ones() - beta), beta};
+  if (black_ > 0) lit.lift += share * std::max(0.0, black_ - blackAt(entry, *point)) * liftOf(p.light);
   return lit;
 }
 
@@ -124,7 +154,6 @@ WarpLight BlendedHall::lightOf(std::size_t entry) const {
   for (std::size_t c = 0; c < 3; ++c) {
     const double range = light.white[c] - light.black;
     warp.gain[c] = static_cast<float>((white_[c] - black_) / range);
-    warp.lift[c] = static_cast<float>(1 / range);
     for (std::size_t step = 0; step <= kWarpSteps; ++step) {
       const double root = static_cast<double>(step) / kWarpSteps;
       warp.encoded[c][step] = static_cast<std::uint8_t>(valueOf(root * root, light.gamma[c]) * 255 + 0.5);

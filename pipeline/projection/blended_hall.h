@@ -43,12 +43,13 @@ private:
   bool mayShare(std::size_t a, std::size_t b) const;
   double blackAt(std::size_t entry, const Vec3& point) const;
   void findBrightestBlack();
-  Vec3 maskAt(std::size_t entry, double x, double y) const;
+  Vec3 maskAt(std::size_t entry, const Vec2& place) const;
+  Vec3 betaAt(std::size_t entry, const Vec2& place) const;
 
   const WallFile& hall_;
   std::vector<std::unique_ptr<ScreenSurface>> surfaces_;  ///< by screen
   std::vector<std::unique_ptr<ThrownImage>> images_;      ///< by entry; null: a flat wall
-  std::vector<Picture> masks_;                            ///< by entry; empty: none
+  std::vector<LightMap> masks_;                           ///< by entry, of files; without a width: none
   std::array<double, 3> white_{1, 1, 1};                  ///< of the hall
   double black_ = 0;                                      ///< of the hall: the brightest sum
 };

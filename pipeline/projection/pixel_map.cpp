@@ -14,7 +14,8 @@ constexpr std::uint32_t kSide = PixelMap::kSide;
 using Lit = std::function<std::optional<LitPoint>(double, double)>;
 
 bool isDark(const MapPoint& p) {
-  return p.red == 0 && p.green == 0 && p.blue == 0 && p.lift == 0;
+  constexpr std::array<float, 3> kNone{};
+  return p.share == kNone && p.lift == kNone;
 }
 
 class MapMaking {
@@ -41,8 +42,9 @@ private:
 
   MapPoint stored(const std::optional<LitPoint>& p) const {
     if (!p) return {};
-    const Eigen::Vector3f q = (p->point - map_.origin).cast<float>(), share = p->share.cast<float>();
-    return {q.x(), q.y(), q.z(), share.x(), share.y(), share.z(), static_cast<float>(p->lift)};
+    const Eigen::Vector3f q = (p->point - map_.origin).cast<float>(), share = p->share.cast<float>(),
+                          lift = p->lift.cast<float>();
+    return {q.x(), q.y(), q.z(), {share.x(), share.y(), share.z()}, {lift.x(), lift.y(), lift.z()}};
   }
 
   /// Returns true if the cell's corners give what lies between them.
@@ -62,7 +64,7 @@ private:
       }
       if ((between.point - exact->point).norm() > 0.5 * kPointError * pixel ||
           (between.share - exact->share).cwiseAbs().maxCoeff() > kShareError ||
-          std::abs(between.lift - exact->lift) > kLiftError)
+          (between.lift - exact->lift).cwiseAbs().maxCoeff() > kLiftError)
         return false;
     }
     return true;

@@ -24,14 +24,13 @@ namespace stadion {
 struct LitPoint {
   Vec3 point = Vec3::Zero();  ///< in R [m]
   Vec3 share = Vec3::Zero();  ///< of its light by channel, from 0 to 1
-  double lift = 0;            ///< light that it adds so that black is as bright everywhere, from 0 to 1
+  Vec3 lift = Vec3::Zero();   ///< light that it adds so that black is as bright everywhere, by channel
 };
 
 /// A LitPoint as the map keeps it.
 struct MapPoint {
-  float x = 0, y = 0, z = 0;           ///< relative to the map's origin [m]
-  float red = 0, green = 0, blue = 0;  ///< shares
-  float lift = 0;
+  float x = 0, y = 0, z = 0;  ///< relative to the map's origin [m]
+  std::array<float, 3> share{}, lift{};
 };
 
 struct PixelMap {

@@ -31,7 +31,7 @@ PlaceMatrix placesOf(const FacetPicture& facet, const Vec3& origin) {
 
 WarpPoint placed(const PlaceMatrix& m, const MapPoint& p) {
   const auto row = [&](std::size_t r) { return m[r][0] * p.x + m[r][1] * p.y + m[r][2] * p.z + m[r][3]; };
-  return {row(0), row(1), row(2), {p.red, p.green, p.blue}, p.lift};
+  return {row(0), row(1), row(2), {p.share[0], p.share[1], p.share[2]}, {p.lift[0], p.lift[1], p.lift[2]}};
 }
 
 }  // namespace

@@ -46,7 +46,7 @@ std::optional<Vec2> ThrownImage::shareInLens(const Vec3& point) const {
   if (const auto* lens = std::get_if<LensImage>(&projector_.image)) {
     const Vec3 p_P = lens->X_RP.inverse() * point;
     if (p_P.y() <= 0) return std::nullopt;
-    return shareByLens(*lens, static_cast<double>(projector_.height) / projector_.width, p_P);
+    return shareByLens(*lens, lens->pixelAspect * projector_.height / projector_.width, p_P);
   }
   const auto& fisheye = std::get<FisheyeImage>(projector_.image);
   const Vec3 p_P = fisheye.X_RP.inverse() * point;

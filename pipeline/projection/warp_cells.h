@@ -11,7 +11,7 @@ namespace {
 constexpr int kCellPixels = 64, kCellSide = 8;
 
 struct CellPlaces {
-  float u[kCellPixels], v[kCellPixels], share[3][kCellPixels], lift[kCellPixels];
+  float u[kCellPixels], v[kCellPixels], share[3][kCellPixels], lift[3][kCellPixels];
 };
 
 /// A place within the picture; what is not a number becomes 0.
@@ -48,15 +48,14 @@ inline void light(const CellPlaces& at, const WarpSource& from, const WarpLight&
   for (int channel = 0; channel < 3; ++channel) {
     const int shift = 8 * channel;
     const float* const linear = by.linear.data();
-    const float gain = by.gain[static_cast<std::size_t>(channel)],
-                lift = by.lift[static_cast<std::size_t>(channel)];
+    const float gain = by.gain[static_cast<std::size_t>(channel)];
     int step[kCellPixels];
     for (int i = 0; i < kCellPixels; ++i) {
       const float a = linear[corners[0][i] >> shift & 255], b = linear[corners[1][i] >> shift & 255];
       const float c = linear[corners[2][i] >> shift & 255], d = linear[corners[3][i] >> shift & 255];
       const float top = a + (b - a) * across[i], bottom = c + (d - c) * across[i];
       const float mean = top + (bottom - top) * down[i];
-      float shown = mean * at.share[channel][i] * gain + at.lift[i] * lift;
+      float shown = mean * at.share[channel][i] * gain + at.lift[channel][i];
       shown = shown < 1.0f ? shown : 1.0f;
       shown = shown > 0.0f ? shown : 0.0f;
       step[i] = static_cast<int>(__builtin_sqrtf(shown) * static_cast<float>(kWarpSteps) + 0.5f);
@@ -71,12 +70,13 @@ inline float between(float a, float b, float s) {
 }
 
 inline WarpPoint between(const WarpPoint& a, const WarpPoint& b, float s) {
-  return {between(a.x, b.x, s),
-          between(a.y, b.y, s),
-          between(a.w, b.w, s),
-          {between(a.share[0], b.share[0], s), between(a.share[1], b.share[1], s),
-           between(a.share[2], b.share[2], s)},
-          between(a.lift, b.lift, s)};
+  return {
+      between(a.x, b.x, s),
+      between(a.y, b.y, s),
+      between(a.w, b.w, s),
+      {between(a.share[0], b.share[0], s), between(a.share[1], b.share[1], s),
+       between(a.share[2], b.share[2], s)},
+      {between(a.lift[0], b.lift[0], s), between(a.lift[1], b.lift[1], s), between(a.lift[2], b.lift[2], s)}};
 }
 
 void smoothCell(const WarpPoint (&corners)[4], const WarpSource& from, const WarpLight& by,
@@ -91,9 +91,10 @@ void smoothCell(const WarpPoint (&corners)[4], const WarpSource& from, const War
       const float w = between(left.w, right.w, s);
       at.u[pixel] = between(left.x, right.x, s) / w;
       at.v[pixel] = between(left.y, right.y, s) / w;
-      for (int channel = 0; channel < 3; ++channel)
+      for (int channel = 0; channel < 3; ++channel) {
         at.share[channel][pixel] = between(left.share[channel], right.share[channel], s);
-      at.lift[pixel] = between(left.lift, right.lift, s);
+        at.lift[channel][pixel] = between(left.lift[channel], right.lift[channel], s);
+      }
     }
   }
   light(at, from, by, pixels);
@@ -105,8 +106,10 @@ void exactCell(const WarpPoint (&points)[kCellPixels], const WarpSource& from, c
   for (int i = 0; i < kCellPixels; ++i) {
     at.u[i] = points[i].x / points[i].w;
     at.v[i] = points[i].y / points[i].w;
-    for (int channel = 0; channel < 3; ++channel) at.share[channel][i] = points[i].share[channel];
-    at.lift[i] = points[i].lift;
+    for (int channel = 0; channel < 3; ++channel) {
+      at.share[channel][i] = points[i].share[channel];
+      at.lift[channel][i] = points[i].lift[channel];
+    }
   }
   light(at, from, by, pixels);
 }

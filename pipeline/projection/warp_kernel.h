@@ -22,7 +22,6 @@ struct WarpLight {
   /// By channel: the value for the light whose root is step / kWarpSteps.
   std::array<std::array<std::uint8_t, kWarpSteps + 1>, 3> encoded{};
   std::array<float, 3> gain{1, 1, 1};  ///< by channel, for shared light
-  std::array<float, 3> lift{1, 1, 1};  ///< by channel, for the lift
 };
 
 /// The picture of a facet (height x width x 4), sRGB.
@@ -33,9 +32,8 @@ struct WarpSource {
 
 /// A pixel or a corner of a cell.
 struct WarpPoint {
-  float x, y, w;   ///< its place in the picture, homogeneous [pixels; the middle of a pixel is whole]
-  float share[3];  ///< by channel
-  float lift;
+  float x, y, w;  ///< its place in the picture, homogeneous [pixels; the middle of a pixel is whole]
+  float share[3], lift[3];  ///< by channel
 };
 
 struct WarpKernels {

@@ -264,6 +264,35 @@ TEST(Projection, MaskMultipliesTheLightByChannel) {
   EXPECT_FALSE(HallPictures::create(hall));
 }
 
+TEST(Projection, MapsInsideAFileScaleLightAndLiftBlack) {
+  WallFile hall = roundHall(1, 30 * kDegree, 0.1);
+  hall.walls[0].projector->blend.alpha = LightMap{1, 1, 1, {32768}, 1};
+  hall.walls[0].projector->blend.beta = LightMap{1, 1, 3, {6554, 0, 0}, 1};
+  auto pictures = HallPictures::create(hall);
+  ASSERT_TRUE(pictures) << pictures.error().message;
+  for (const double light : {0.0, 1.0}) {
+    const auto shown = pictures.value()->draw(0, headAt({0, 0, 1.6}),
+                                              byDirection([&](const Vec3&) { return grey(light); }))[0];
+    EXPECT_NEAR(lightOf(shown.at(320, 200)[0]), 0.5 * 0.9 * light + 0.1, 0.006);
+    EXPECT_NEAR(lightOf(shown.at(320, 200)[1]), 0.5 * light, 0.006);
+  }
+}
+
+TEST(Projection, PointsOfAnAnamorphicLensLeadBack) {
+  WallFile hall = roundHall(1, 30 * kDegree, 0.1);
+  auto& lens = std::get<LensImage>(hall.walls[0].projector->image);
+  lens.pixelAspect = 1.25;
+  const ScreenSurface surface(hall.screens[0]);
+  const ThrownImage image(*hall.walls[0].projector, surface);
+  for (const Vec2& share : {Vec2(0.5, 0.5), Vec2(0.3, 0.6), Vec2(0.7, 0.4)}) {
+    const auto point = image.pointAt(share);
+    ASSERT_TRUE(point);
+    const auto back = image.shareOf(*point);
+    ASSERT_TRUE(back);
+    EXPECT_LT((*back - share).norm(), 1e-9);
+  }
+}
+
 TEST(Projection, FisheyeOfADomeTakesAFewFacets) {
   WallFile hall;
   Screen screen;
