@@ -11,8 +11,9 @@
 namespace stadion {
 namespace {
 
-constexpr Sketch::Colour kDark{16, 18, 20}, kLine{110, 118, 128}, kEdge{255, 255, 255}, kText{235, 235, 235},
-    kLeftName{90, 170, 255}, kRightName{255, 110, 90}, kBlack{0, 0, 0}, kWhite{255, 255, 255};
+constexpr Sketch::Colour kDark{16, 18, 20}, kLine{110, 118, 128}, kEdgeLine{255, 255, 255},
+    kText{235, 235, 235}, kLeftName{90, 170, 255}, kRightName{255, 110, 90}, kNoLight{0, 0, 0},
+    kAllLight{255, 255, 255};
 constexpr std::uint32_t kEvery = 100;  ///< between lines [pixels]
 
 Sketch::Colour greyOf(std::uint32_t value) {
@@ -34,7 +35,7 @@ Picture pixelPattern(const std::string& name, std::optional<Eye> eye, std::uint3
   for (std::uint32_t y = 0; y < height; y += kEvery)
     for (std::uint32_t x = 0; x < width; x += kEvery)
       letter(sketch.picture(), x + 3, y + 3, fmt::format("{},{}", x, y), kText, 1);
-  sketch.border(kEdge);
+  sketch.border(kEdgeLine);
   const std::uint32_t scale = std::max(1u, std::min(width, height) / 100);
   const std::string text = eye ? fmt::format("{} {}", name, *eye == Eye::Left ? "L" : "R") : name;
   const auto letters = static_cast<std::uint32_t>(text.size()) * kLetterWidth * scale;
@@ -47,8 +48,8 @@ Picture pixelPattern(const std::string& name, std::optional<Eye> eye, std::uint3
 }
 
 Picture gammaPattern(std::uint32_t width, std::uint32_t height) {
-  Sketch sketch(width, height, kBlack);
-  for (std::uint32_t y = 0; y < height; y += 2) sketch.fill(0, y, width, 1, kWhite);
+  Sketch sketch(width, height, kNoLight);
+  for (std::uint32_t y = 0; y < height; y += 2) sketch.fill(0, y, width, 1, kAllLight);
   constexpr std::uint32_t kSteps = 9;
   for (std::uint32_t i = 0; i < kSteps; ++i) {
     const double gamma = 1.6 + 0.15 * i;
@@ -56,14 +57,14 @@ Picture gammaPattern(std::uint32_t width, std::uint32_t height) {
     const std::uint32_t left = width * (2 * i + 1) / (2 * kSteps + 1),
                         right = width * (2 * i + 2) / (2 * kSteps + 1);
     sketch.fill(left, height / 6, right - left, height * 2 / 3, greyOf(value));
-    letter(sketch.picture(), left + 2, height / 2, fmt::format("{:.2f}", gamma), kBlack,
+    letter(sketch.picture(), left + 2, height / 2, fmt::format("{:.2f}", gamma), kNoLight,
            std::max(1u, (right - left) / 40));
   }
   return sketch.take();
 }
 
 Picture barPattern(std::uint32_t width, std::uint32_t height) {
-  Sketch sketch(width, height, kBlack);
+  Sketch sketch(width, height, kNoLight);
   constexpr std::uint32_t kBars = 8, kGreys = 11;
   for (std::uint32_t i = 0; i < kBars; ++i) {
     const std::uint32_t bits = kBars - 1 - i;  // white, yellow, cyan, green, magenta, red, blue, black

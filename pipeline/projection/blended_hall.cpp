@@ -9,7 +9,7 @@
 namespace stadion {
 namespace {
 
-constexpr double kLeast = 1e-12;           ///< so that the border of a lone picture has all its light
+constexpr double kLeastWeight = 1e-12;     ///< so that the border of a lone picture has all its light
 constexpr std::uint32_t kBlackSteps = 32;  ///< samples of a picture along each side, for its blacks
 
 /// The value from 0 to 1 that gives this part of a projector's light.
@@ -129,7 +129,7 @@ std::optional<LitPoint> BlendedHall::litBy(std::size_t entry, double x, double y
   const Vec2 place(x / p.width, y / p.height);
   const auto point = images_[entry]->pointAt(place);
   if (!point) return std::nullopt;
-  const auto weightOf = [](double depth) { return depth * depth + kLeast; };
+  const auto weightOf = [](double depth) { return depth * depth + kLeastWeight; };
   double all = weightOf(images_[entry]->depthAt(place)), share = 1;
   if (p.blend.computed) {
     const double own = all;

@@ -11,11 +11,11 @@
 namespace stadion {
 namespace {
 
-constexpr std::uint32_t kSteps = 24;         ///< samples of a part of the output, along each side
-constexpr std::uint32_t kRound = 8;          ///< borders between facets lie at multiples of so many pixels
-constexpr std::uint32_t kMostPixels = 8192;  ///< a side of a facet's picture
-constexpr double kFlattest = 0.2;            ///< cosine of the flattest ray to a facet
-constexpr double kBorder = 3;                ///< around a facet's picture, for the filter [pixels]
+constexpr std::uint32_t kSteps = 24;  ///< samples of a part of the output, along each side
+constexpr std::uint32_t kRound = 8;   ///< borders between facets lie at multiples of so many pixels
+constexpr std::uint32_t kMostFacetPixels = 8192;  ///< a side of a facet's picture
+constexpr double kFlattest = 0.2;                 ///< cosine of the flattest ray to a facet
+constexpr double kFilterBorder = 3;               ///< around a facet's picture, for the filter [pixels]
 constexpr double kDensest = 0.1;   ///< share of the samples where the facet may be coarser than the output
 constexpr double kViewCost = 2e5;  ///< of a further view, in pixels
 
@@ -196,8 +196,8 @@ std::optional<Fitted> fit(const Part& part, const Sampled& s, const VisitorPlace
     if (!e) continue;
     const Vec2 pitch = pitchOn(sheet, s, visitor.eye), size = e->high - e->low;
     if (!(size.minCoeff() > 0) || !(pitch.maxCoeff() < 1e300)) continue;
-    e->low -= kBorder * pitch;
-    e->high += kBorder * pitch;
+    e->low -= kFilterBorder * pitch;
+    e->high += kFilterBorder * pitch;
     return Fitted{{rectangleOn(sheet, *e), part.left, part.top, part.right, part.bottom},
                   (e->high - e->low).cwiseQuotient(pitch)};
   }
@@ -226,7 +226,7 @@ std::optional<Facets> split(const Projector& projector, const ThrownImage& image
       pixels = pixels.cwiseMax(fitted->pixels);
     }
   const auto side = [](double p) {
-    return static_cast<std::uint32_t>(std::clamp(std::ceil(p), 16.0, double{kMostPixels}));
+    return static_cast<std::uint32_t>(std::clamp(std::ceil(p), 16.0, double{kMostFacetPixels}));
   };
   facets.width = side(pixels.x());
   facets.height = side(pixels.y());

@@ -15,9 +15,9 @@ namespace {
 
 constexpr Sketch::Colour kSpace{24, 26, 30}, kThin{90, 98, 108}, kHeavy{200, 205, 210},
     kHorizon{90, 230, 120}, kEdges{255, 215, 60};
-constexpr double kFar = 20;              ///< of the lines, from the usual place [m]
-constexpr double kLeast = 1e-3;          ///< of w: nearer parts are not drawn [m]
-constexpr int kFine = 10, kCoarse = 30;  ///< between lines [degrees]
+constexpr double kFar = 20;                            ///< of the lines, from the usual place [m]
+constexpr double kLeastDepth = 1e-3;                   ///< of w: nearer parts are not drawn [m]
+constexpr int kFineDegrees = 10, kCoarseDegrees = 30;  ///< between lines [degrees]
 
 /// Draws lines of the room into a view.
 class RoomSketch {
@@ -26,11 +26,11 @@ public:
       : view_(view), from_(visitor.eye), sketch_(width, height, kSpace) {}
 
   Picture run() {
-    for (int angle = 0; angle < 360; angle += kFine) meridian(angle);
-    for (int elevation = -80; elevation <= 80; elevation += kFine) parallel(elevation);
+    for (int angle = 0; angle < 360; angle += kFineDegrees) meridian(angle);
+    for (int elevation = -80; elevation <= 80; elevation += kFineDegrees) parallel(elevation);
     cube();
-    for (int azimuth = -180; azimuth < 180; azimuth += kCoarse)
-      for (int elevation = -60; elevation <= 60; elevation += kCoarse) label(azimuth, elevation);
+    for (int azimuth = -180; azimuth < 180; azimuth += kCoarseDegrees)
+      for (int elevation = -60; elevation <= 60; elevation += kCoarseDegrees) label(azimuth, elevation);
     return sketch_.take();
   }
 
@@ -50,19 +50,19 @@ private:
     Vec4 a = view_.clipFromRig * Vec4(from.x(), from.y(), from.z(), 1),
          b = view_.clipFromRig * Vec4(to.x(), to.y(), to.z(), 1);
     if (a.w() < b.w()) std::swap(a, b);
-    if (!(a.w() > kLeast)) return;
-    if (b.w() < kLeast) b = a + (b - a) * ((a.w() - kLeast) / (a.w() - b.w()));
+    if (!(a.w() > kLeastDepth)) return;
+    if (b.w() < kLeastDepth) b = a + (b - a) * ((a.w() - kLeastDepth) / (a.w() - b.w()));
     sketch_.line(onPicture(a), onPicture(b), colour, thick);
   }
 
   void meridian(int azimuth) {
-    const bool heavy = azimuth % kCoarse == 0;
+    const bool heavy = azimuth % kCoarseDegrees == 0;
     for (int e = -80; e < 80; e += 2)
       line(at(azimuth, e), at(azimuth, e + 2), heavy ? kHeavy : kThin, heavy ? 3 : 1);
   }
 
   void parallel(int elevation) {
-    const bool heavy = elevation % kCoarse == 0;
+    const bool heavy = elevation % kCoarseDegrees == 0;
     const Sketch::Colour& colour = elevation == 0 ? kHorizon : heavy ? kHeavy : kThin;
     for (int a = 0; a < 360; a += 2) line(at(a, elevation), at(a + 2, elevation), colour, heavy ? 3 : 1);
   }
@@ -80,7 +80,7 @@ private:
   void label(int azimuth, int elevation) {
     const Vec3 p = at(azimuth, elevation);
     const Vec4 clip = view_.clipFromRig * Vec4(p.x(), p.y(), p.z(), 1);
-    if (!(clip.w() > kLeast)) return;
+    if (!(clip.w() > kLeastDepth)) return;
     const Vec2 place = onPicture(clip);
     if (!(place.minCoeff() >= 0) || place.x() >= sketch_.width() || place.y() >= sketch_.height()) return;
     const auto scale = static_cast<std::uint32_t>(std::max(1.0, sketch_.height() / 400));

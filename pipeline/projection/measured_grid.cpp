@@ -7,9 +7,9 @@ namespace stadion {
 namespace {
 
 constexpr double kCellsPerCube = 2;
-constexpr double kNear = 0.5;            ///< greatest distance of a point from its triangle, in cubes
-constexpr double kWidest = 8;            ///< of a cell, in cubes
-constexpr double kEdge = 1e-6;           ///< of a triangle, so that no point falls between two
+constexpr double kNearCell = 0.5;        ///< greatest distance of a point from its triangle, in cubes
+constexpr double kWidestCell = 8;        ///< of a cell, in cubes
+constexpr double kTriangleEdge = 1e-6;   ///< of a triangle, so that no point falls between two
 constexpr std::int64_t kAxis = 1 << 20;  ///< cubes along an axis
 
 constexpr std::uint32_t kMostCells = 256;  ///< along each side
@@ -116,10 +116,10 @@ void MeasuredGrid::add(std::uint32_t cell) {
     low = low.cwiseMin(p);
     high = high.cwiseMax(p);
   }
-  low.array() -= kNear * side_;
-  high.array() += kNear * side_;
+  low.array() -= kNearCell * side_;
+  high.array() += kNearCell * side_;
   // A cell that spans many cubes is a jump from one part of the screen to another.
-  if ((high - low).maxCoeff() > kWidest * side_) return;
+  if ((high - low).maxCoeff() > kWidestCell * side_) return;
   for (std::int64_t x = cubeAlong(low.x(), side_); x <= cubeAlong(high.x(), side_); ++x)
     for (std::int64_t y = cubeAlong(low.y(), side_); y <= cubeAlong(high.y(), side_); ++y)
       for (std::int64_t z = cubeAlong(low.z(), side_); z <= cubeAlong(high.z(), side_); ++z)
@@ -134,9 +134,9 @@ void MeasuredGrid::tryTriangle(const Vec3& point, const std::array<Corner, 3>& c
   const double area = uu * vv - uv * uv;
   if (!(area > 0)) return;
   const double s = (vv * wu - uv * wv) / area, t = (uu * wv - uv * wu) / area;
-  if (s < -kEdge || t < -kEdge || s + t > 1 + kEdge) return;
+  if (s < -kTriangleEdge || t < -kTriangleEdge || s + t > 1 + kTriangleEdge) return;
   const double distance = (w - s * u - t * v).norm();
-  if (distance > kNear * side_ || (best && best->distance <= distance)) return;
+  if (distance > kNearCell * side_ || (best && best->distance <= distance)) return;
   const Vec2& place = corners[0].place;
   best = Found{place + s * (corners[1].place - place) + t * (corners[2].place - place), distance};
 }

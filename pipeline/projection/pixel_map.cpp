@@ -9,7 +9,7 @@ namespace {
 constexpr double kPointError = 0.05;  ///< of the distance between two pixels
 constexpr double kShareError = 0.002;
 constexpr double kLiftError = 1e-4;
-constexpr std::uint32_t kSide = PixelMap::kSide;
+constexpr std::uint32_t kCellPixels = PixelMap::kSide;
 
 using Lit = std::function<std::optional<LitPoint>(double, double)>;
 
@@ -27,7 +27,8 @@ public:
     corners_.resize(across * (map_.rows + 1));
     pool_.run(map_.rows + 1, [&](std::size_t row) {
       for (std::size_t c = 0; c < across; ++c)
-        corners_[row * across + c] = at(static_cast<double>(c * kSide), static_cast<double>(row * kSide));
+        corners_[row * across + c] =
+            at(static_cast<double>(c * kCellPixels), static_cast<double>(row * kCellPixels));
     });
     std::vector<std::vector<MapPoint>> exact(map_.rows);
     pool_.run(map_.rows, [&](std::size_t row) {
@@ -49,12 +50,12 @@ private:
 
   /// Returns true if the cell's corners give what lies between them.
   bool isSmooth(const std::array<const LitPoint*, 4>& corners, double x, double y) const {
-    const double pixel = (corners[1]->point - corners[0]->point).norm() / kSide +
-                         (corners[2]->point - corners[0]->point).norm() / kSide;
+    const double pixel = (corners[1]->point - corners[0]->point).norm() / kCellPixels +
+                         (corners[2]->point - corners[0]->point).norm() / kCellPixels;
     for (const auto& [i, j] : {std::pair{4, 4}, {4, 0}, {0, 4}, {4, 7}, {7, 4}}) {
       const auto exact = at(x + i, y + j);
       if (!exact) return false;
-      const double s = i / double{kSide}, t = j / double{kSide};
+      const double s = i / double{kCellPixels}, t = j / double{kCellPixels};
       const std::array<double, 4> weights{(1 - s) * (1 - t), s * (1 - t), (1 - s) * t, s * t};
       LitPoint between;
       for (std::size_t k = 0; k < 4; ++k) {
@@ -80,15 +81,15 @@ private:
       whole &= corner.has_value();
       if (corner) corners[k] = &*corner;
     }
-    const double x = column * kSide, y = row * kSide;
+    const double x = column * kCellPixels, y = row * kCellPixels;
     if (whole && isSmooth(corners, x, y)) {
       kind = PixelMap::kSmooth;
       return;
     }
     const auto begin = static_cast<std::uint32_t>(exact.size());
     bool dark = true;
-    for (std::uint32_t j = 0; j < kSide; ++j)
-      for (std::uint32_t i = 0; i < kSide; ++i) {
+    for (std::uint32_t j = 0; j < kCellPixels; ++j)
+      for (std::uint32_t i = 0; i < kCellPixels; ++i) {
         exact.push_back(stored(at(x + i, y + j)));
         dark &= isDark(exact.back());
       }
@@ -119,8 +120,8 @@ PixelMap makePixelMap(std::uint32_t width, std::uint32_t height, const Vec3& ori
   PixelMap map;
   map.width = width;
   map.height = height;
-  map.columns = (width + kSide - 1) / kSide;
-  map.rows = (height + kSide - 1) / kSide;
+  map.columns = (width + kCellPixels - 1) / kCellPixels;
+  map.rows = (height + kCellPixels - 1) / kCellPixels;
   map.origin = origin;
   map.cells.resize(std::size_t{map.columns} * map.rows);
   MapMaking(map, lit, pool).run();
