@@ -10,6 +10,7 @@
 #include "engine/base/installed_files.h"
 #include "engine/base/plain_file.h"
 #include "engine/display/wall_file.h"
+#include "engine/hall_formats/hall_import.h"
 #include "engine/plain_text/number_text.h"
 #include "profiling/plan/diagram.h"
 #include "profiling/plan/report.h"
@@ -79,7 +80,7 @@ std::optional<plan::ShowCosts> measure(PlanOptions& o, Diagnostics& findings) {
     show.seconds = 0;
   }
   if (!show.complete(findings)) return {};
-  const auto walls = loadWalls(show.walls, shareFolder() + "/walls", findings);
+  const auto walls = loadHall(show.walls, shareFolder() + "/walls", findings);
   if (!walls) return {};
   const RendererSettings settings = o.renderer.settings(findings);
   if (findings.hasErrors()) return {};
@@ -143,7 +144,7 @@ plan::Question questionOf(const PlanOptions& o, const plan::ShowCosts& costs) {
 
 /// What was measured elsewhere is planned for as many walls as a room has: by number alone.
 void countWallsOf(PlanOptions& o, Diagnostics& findings) {
-  if (const auto walls = loadWalls(o.run.show.walls, shareFolder() + "/walls", findings))
+  if (const auto walls = loadHall(o.run.show.walls, shareFolder() + "/walls", findings))
     o.count = walls->walls.size();
 }
 

@@ -156,6 +156,7 @@ constexpr OptionRow kRows[] = {
      Drawing},
 
     {"--out", folder(), "folder for everything that the command writes", Output},
+    {"--write", file(), "writes the hall as a wall file (.walls, with its files beside it) or as MPCDI (.mpcdi)", Output},
     {"--json", flag(),
      "prints JSON on standard output, all else on standard error: one object; a bench, hash and tracker "
      "print one a line",

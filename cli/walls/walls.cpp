@@ -8,6 +8,7 @@
 #include "cli/walls/wall_pattern.h"
 #include "engine/base/installed_files.h"
 #include "engine/display/wall_lint.h"
+#include "engine/hall_formats/hall_import.h"
 #include "engine/plain_text/number_text.h"
 #include "pipeline/platform/processor_set.h"
 #include "pipeline/target/graphics_card.h"
@@ -30,7 +31,7 @@ namespace {
 constexpr std::array<std::string_view, 5> kPatternKinds{"room", "pixels", "blend", "gamma", "bars"};
 
 struct WallsOptions {
-  std::string file, out, stereo = "off", size, kind;
+  std::string file, out, stereo = "off", size, kind, write;
   bool pattern = false, json = false;
   PatternOptions shown;  ///< from the others
 
@@ -40,6 +41,7 @@ struct WallsOptions {
     options.add("--pattern", pattern);
     options.add("--pattern-kind", kind).needs("--pattern");
     options.add("--out", out);
+    options.add("--write", write);
     options.add("--json", json);
     options.add("--stereo", stereo);
     options.add("--size", size, {.least = 16});
@@ -54,6 +56,8 @@ azimuths and elevations around the visitor instead. --pattern-kind blend is whit
     if (!out.empty() && !pattern) findings.error({}, "--out needs --pattern: the floor plan is printed");
     if (json && pattern)
       findings.error({}, "--json describes the walls, and --pattern shows them: leave one out");
+    if (!write.empty() && (pattern || json))
+      findings.error({}, "--write converts the walls: leave out --pattern and --json");
     shown.out = out;
     for (std::size_t k = 0; k < kPatternKinds.size(); ++k)
       if (kind == kPatternKinds[k]) shown.pattern = static_cast<HallPattern>(k);
@@ -94,13 +98,21 @@ nlohmann::ordered_json describe(const WallFile& walls, const ThreadCount& thread
           {"findings", jsonOf(findings)}};
 }
 
+int convert(const WallFile& walls, const std::string& path) {
+  Diagnostics findings;
+  if (const auto fault = writeHall(walls, path, findings)) findings.add(*fault);
+  printFindings(findings);
+  return findings.hasErrors() ? kBadInput : kOk;
+}
+
 int lookAtWalls(WallsOptions o) {
   Diagnostics findings;
   const bool settled = o.complete(findings);
-  const auto walls = settled ? loadWalls(o.file, shareFolder() + "/walls", findings) : std::nullopt;
+  const auto walls = settled ? loadHall(o.file, shareFolder() + "/walls", findings) : std::nullopt;
   printFindings(findings);
   if (o.json && !walls) printJson({{"ok", false}, {"findings", jsonOf(findings)}});
   if (!walls) return kBadInput;
+  if (!o.write.empty()) return convert(*walls, o.write);
   if (o.pattern) return showPattern(*walls, o.shown, catchStopSignals());
   Diagnostics ofMachine;
   const std::size_t processors = std::max<std::size_t>(1, processorsOfThisThread().size());

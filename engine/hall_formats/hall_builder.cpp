@@ -30,7 +30,7 @@ std::string HallBuilder::goodName(const std::string& name, const std::string& ot
   if (good.empty()) good = otherwise;
   const std::string stem = good.substr(0, kMostNameCharacters - 6);
   for (int n = 2; !taken.insert(good).second; ++n) good = fmt::format("{}-{}", stem, n);
-  if (good != name && !name.empty())
+  if (good != name && !name.empty() && renamed_.emplace(name, good).second)
     note(fmt::format("{} is named {} here", quotedWord(name), quotedWord(good)));
   return good;
 }

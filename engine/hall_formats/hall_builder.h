@@ -12,6 +12,7 @@
 #include <set>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace stadion {
@@ -47,6 +48,7 @@ private:
   WallFile hall_;
   Diagnostics& out_;
   std::set<std::string> wallNames_, screenNames_, notOfHall_;
+  std::set<std::pair<std::string, std::string>> renamed_;
   std::size_t unknown_ = 0;
   bool failed_ = false;
 };

@@ -146,7 +146,8 @@ Result<ReadLightMap> readLightMap(std::string_view png) {
   job.rows = &rows;
   job.starts = &starts;
   if (decodeLightMap(&job)) return read;
-  return Result<ReadLightMap>::failure(fmt::format("this is not a PNG file that can be read: {}", job.problem));
+  return Result<ReadLightMap>::failure(
+      fmt::format("this is not a PNG file that can be read: {}", job.problem));
 }
 
 Result<std::string> lightMapAsPng(const LightMap& map) {

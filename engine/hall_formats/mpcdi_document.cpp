@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 #include <pugixml.hpp>
+#include <xxhash.h>
 
 #include <algorithm>
 #include <cmath>
@@ -29,28 +30,78 @@ std::string_view trimmed(std::string_view text) {
   return text.substr(first, text.find_last_not_of(" \t\r\n") - first + 1);
 }
 
-/// Elements and attributes of the standard, in lower case; those that begin with a minus have no effect here.
+/// Elements and attributes of the standard that have an effect or need none, in lower case.
 const std::set<std::string>& knownPaths() {
-  static const std::set<std::string> kKnown{
-      "mpcdi", "mpcdi@profile", "mpcdi@level", "mpcdi@geometry", "mpcdi@color", "mpcdi@date", "mpcdi@version",
-      "mpcdi/display", "mpcdi/display/buffer", "mpcdi/display/buffer@id", "mpcdi/display/buffer@xresolution",
-      "mpcdi/display/buffer@yresolution", "region", "region@id", "region@xresolution", "region@yresolution",
-      "region@x", "region@y", "region@xsize", "region@ysize", "region/frustum", "region/frustum/yaw",
-      "region/frustum/pitch", "region/frustum/roll", "region/frustum/rightangle", "region/frustum/leftangle",
-      "region/frustum/upangle", "region/frustum/downangle", "region/coordinateframe",
-      "region/coordinateframe/posx", "region/coordinateframe/posy", "region/coordinateframe/posz",
-      "region/coordinateframe/yawx", "region/coordinateframe/yawy", "region/coordinateframe/yawz",
-      "region/coordinateframe/pitchx", "region/coordinateframe/pitchy", "region/coordinateframe/pitchz",
-      "region/coordinateframe/rollx", "region/coordinateframe/rolly", "region/coordinateframe/rollz",
-      "region/color", "region/color/decode", "region/color/decode@type", "region/color/decode@gamma",
-      "region/color/encode", "region/color/encode@type", "region/color/encode@gamma", "region/color/correct",
-      "region/color/correct@type", "mpcdi/files", "fileset", "fileset@region", "fileset/geometrywarpfile",
-      "fileset/geometrywarpfile/path", "fileset/geometrywarpfile/geometricunit",
-      "fileset/geometrywarpfile/originof3ddata", "fileset/geometrywarpfile/interpolation", "fileset/alphamap",
-      "fileset/alphamap/path", "fileset/alphamap/bitdepth", "fileset/alphamap/componentdepth",
-      "fileset/alphamap/gammaembedded", "fileset/betamap", "fileset/betamap/path", "fileset/betamap/bitdepth",
-      "fileset/betamap/componentdepth", "fileset/distortionmap", "fileset/distortionmap/path",
-      "mpcdi/extensionset"};
+  static const std::set<std::string> kKnown{"mpcdi",
+                                            "mpcdi@profile",
+                                            "mpcdi@level",
+                                            "mpcdi@geometry",
+                                            "mpcdi@color",
+                                            "mpcdi@date",
+                                            "mpcdi@version",
+                                            "mpcdi/display",
+                                            "mpcdi/display/buffer",
+                                            "mpcdi/display/buffer@id",
+                                            "mpcdi/display/buffer@xresolution",
+                                            "mpcdi/display/buffer@yresolution",
+                                            "region",
+                                            "region@id",
+                                            "region@xresolution",
+                                            "region@yresolution",
+                                            "region@x",
+                                            "region@y",
+                                            "region@xsize",
+                                            "region@ysize",
+                                            "region/frustum",
+                                            "region/frustum/yaw",
+                                            "region/frustum/pitch",
+                                            "region/frustum/roll",
+                                            "region/frustum/rightangle",
+                                            "region/frustum/leftangle",
+                                            "region/frustum/upangle",
+                                            "region/frustum/downangle",
+                                            "region/coordinateframe",
+                                            "region/coordinateframe/posx",
+                                            "region/coordinateframe/posy",
+                                            "region/coordinateframe/posz",
+                                            "region/coordinateframe/yawx",
+                                            "region/coordinateframe/yawy",
+                                            "region/coordinateframe/yawz",
+                                            "region/coordinateframe/pitchx",
+                                            "region/coordinateframe/pitchy",
+                                            "region/coordinateframe/pitchz",
+                                            "region/coordinateframe/rollx",
+                                            "region/coordinateframe/rolly",
+                                            "region/coordinateframe/rollz",
+                                            "region/color",
+                                            "region/color/decode",
+                                            "region/color/decode@type",
+                                            "region/color/decode@gamma",
+                                            "region/color/encode",
+                                            "region/color/encode@type",
+                                            "region/color/encode@gamma",
+                                            "region/color/correct",
+                                            "region/color/correct@type",
+                                            "mpcdi/files",
+                                            "fileset",
+                                            "fileset@region",
+                                            "fileset/geometrywarpfile",
+                                            "fileset/geometrywarpfile/path",
+                                            "fileset/geometrywarpfile/geometricunit",
+                                            "fileset/geometrywarpfile/originof3ddata",
+                                            "fileset/geometrywarpfile/interpolation",
+                                            "fileset/alphamap",
+                                            "fileset/alphamap/path",
+                                            "fileset/alphamap/bitdepth",
+                                            "fileset/alphamap/componentdepth",
+                                            "fileset/alphamap/gammaembedded",
+                                            "fileset/betamap",
+                                            "fileset/betamap/path",
+                                            "fileset/betamap/bitdepth",
+                                            "fileset/betamap/componentdepth",
+                                            "fileset/distortionmap",
+                                            "fileset/distortionmap/path",
+                                            "mpcdi/extensionset"};
   return kKnown;
 }
 
@@ -83,7 +134,8 @@ public:
 private:
   std::uint32_t lineAt(std::ptrdiff_t offset) const {
     if (offset < 0) return 0;
-    const auto end = xml_.begin() + std::min<std::ptrdiff_t>(offset, static_cast<std::ptrdiff_t>(xml_.size()));
+    const auto end =
+        xml_.begin() + std::min<std::ptrdiff_t>(offset, static_cast<std::ptrdiff_t>(xml_.size()));
     return static_cast<std::uint32_t>(std::count(xml_.begin(), end, '\n') + 1);
   }
   std::uint32_t lineOf(const pugi::xml_node& node) const { return lineAt(node.offset_debug()); }
@@ -127,10 +179,12 @@ private:
     read_.profile = attribute(root, "profile");
     static const std::set<std::string> kProfiles{"2d", "3d", "a3", "sl"};
     if (!kProfiles.contains(read_.profile))
-      refuse(root, fmt::format("the profile {} is not known; known are 2d, 3d, a3, sl", quotedWord(read_.profile)));
+      refuse(root,
+             fmt::format("the profile {} is not known; known are 2d, 3d, a3, sl", quotedWord(read_.profile)));
     const std::string version = attribute(root, "version");
     if (version != "1.0" && version != "1.0a" && version != "2.0")
-      builder_.warning(fmt::format("version {} is not known; it is read as 2.0", quotedWord(version)), lineOf(root));
+      builder_.warning(fmt::format("version {} is not known; it is read as 2.0", quotedWord(version)),
+                       lineOf(root));
   }
 
   std::uint32_t pixels(const pugi::xml_node& node, std::string_view name) {
@@ -203,16 +257,20 @@ private:
   }
 
   void readColor(const pugi::xml_node& node, MpcdiRegion& region) {
-    const auto encode = child(node, "encode"), correct = child(node, "correct"), decode = child(node, "decode");
+    const auto encode = child(node, "encode"), correct = child(node, "correct"),
+               decode = child(node, "decode");
     const std::string type = lower(attribute(encode, "type")), of = lower(attribute(correct, "type"));
     if (type == "gamma") {
       region.encodeGamma = attributeNumber(encode, "gamma");
-      if (!(*region.encodeGamma >= 0.1 && *region.encodeGamma <= 10)) refuse(encode, "gamma must be from 0.1 to 10");
+      if (!(*region.encodeGamma >= 0.1 && *region.encodeGamma <= 10))
+        refuse(encode, "gamma must be from 0.1 to 10");
     } else if (!type.empty() && type != "none") {
       notUnderstood(encode, "region/color/encode type " + type);
     }
     if (!of.empty() && of != "none") notUnderstood(correct, "region/color/correct type " + of);
-    if (decode) builder_.notOfHall("color/decode");
+    // Pictures are drawn in linear light: a gamma to decode them has no use.
+    const std::string by = lower(attribute(decode, "type"));
+    if (!by.empty() && by != "none" && by != "gamma") notUnderstood(decode, "region/color/decode type " + by);
   }
 
   void fileSets(const pugi::xml_node& parent) {
@@ -242,17 +300,22 @@ private:
     files.distortion = childText(child(node, "distortionmap"), "path");
     if (const auto gamma = child(alpha, "gammaembedded")) {
       files.alphaGamma = number(gamma, gamma.text().get(), "gammaEmbedded");
-      if (!(files.alphaGamma >= 0.1 && files.alphaGamma <= 10)) refuse(gamma, "gammaEmbedded must be from 0.1 to 10");
+      if (!(files.alphaGamma >= 0.1 && files.alphaGamma <= 10))
+        refuse(gamma, "gammaEmbedded must be from 0.1 to 10");
     }
   }
 
   void readExtensions(const pugi::xml_node& set) {
     for (const pugi::xml_node& node : set.children()) {
       const std::string name = attribute(node, "name");
-      if (name == "Stadion") readOurs(node);
-      else if (name == "BufferExtension") readLenses(node);
-      else if (name == "MystiqueExtension") builder_.notOfHall("extension MystiqueExtension");
-      else notUnderstood(node, fmt::format("the extension {}", quotedWord(name)));
+      if (name == "Stadion")
+        readOurs(node);
+      else if (name == "BufferExtension")
+        readLenses(node);
+      else if (name == "MystiqueExtension")
+        builder_.notOfHall("extension MystiqueExtension");
+      else
+        notUnderstood(node, fmt::format("the extension {}", quotedWord(name)));
     }
   }
 
@@ -281,7 +344,8 @@ private:
             std::ranges::find_if(read_.regions, [&id](const MpcdiRegion& r) { return r.id == id; });
         if (region == read_.regions.end()) continue;
         for (const pugi::xml_node& part : lens.children()) {
-          notUnderstood(part, fmt::format("the lens of {} in BufferExtension: {}", quotedWord(id), printable(part.name(), 40)));
+          notUnderstood(part, fmt::format("the lens of {} in BufferExtension: {}", quotedWord(id),
+                                          printable(part.name(), 40)));
           region->unknownLens = region->unknownLens || lower(part.name()) == "fisheye";
         }
       }
@@ -291,19 +355,24 @@ private:
     builder_.notUnderstood({builder_.file(), lineOf(node), 0}, what, "it has no effect");
   }
 
-  void nameUnknown(const pugi::xml_node& node, const std::string& shown, const std::string& path, std::size_t depth) {
+  void nameUnknown(const pugi::xml_node& node, const std::string& shown, const std::string& path,
+                   std::size_t depth) {
     const std::string here = shown + "/" + printable(node.name(), 60);
     for (const pugi::xml_attribute& a : node.attributes())
-      if (!knownPaths().contains(path + "@" + lower(a.name()))) notUnderstood(node, here + " " + printable(a.name(), 60));
+      if (!knownPaths().contains(path + "@" + lower(a.name())))
+        notUnderstood(node, here + " " + printable(a.name(), 60));
     for (const pugi::xml_node& c : node.children()) {
       if (c.type() != pugi::node_element) continue;
       const std::string name = lower(c.name());
       const std::string next = name == "region" && path == "mpcdi/display/buffer" ? "region"
-                               : name == "fileset" && (path == "mpcdi/files" || path == "mpcdi") ? "fileset"
-                                                                                              : path + "/" + name;
+                               : name == "fileset" && (path == "mpcdi/files" || path == "mpcdi")
+                                   ? "fileset"
+                                   : path + "/" + name;
       if (next == "mpcdi/extensionset") continue;
-      if (!knownPaths().contains(next) || depth > kMostXmlDepth) notUnderstood(c, here + "/" + printable(c.name(), 60));
-      else nameUnknown(c, here, next, depth + 1);
+      if (!knownPaths().contains(next) || depth > kMostXmlDepth)
+        notUnderstood(c, here + "/" + printable(c.name(), 60));
+      else
+        nameUnknown(c, here, next, depth + 1);
     }
   }
 
@@ -313,7 +382,27 @@ private:
   bool failed_ = false;
 };
 
+std::string textOf(const Vec3& v) {
+  return fmt::format("{} {} {} ", v.x(), v.y(), v.z());
+}
+
 }  // namespace
+
+std::string digestOf(const MpcdiRegion& region, const MpcdiContent& content) {
+  std::string text =
+      fmt::format("{} {} {} {} {} {} {} {} ", region.columns, region.rows, region.x, region.y, region.width,
+                  region.height, region.encodeGamma.value_or(0), region.files.unit);
+  if (const auto& f = region.frustum)
+    text += fmt::format("{} {} {} {} {} {} {} ", f->yaw, f->pitch, f->roll, f->rightAngle, f->leftAngle,
+                        f->upAngle, f->downAngle);
+  if (const auto& f = region.frame)
+    text += textOf(f->position) + textOf(f->yaw) + textOf(f->pitch) + textOf(f->roll);
+  text += fmt::format("{} {} ", region.files.origin, region.files.alphaGamma);
+  std::uint64_t digest = XXH3_64bits(text.data(), text.size());
+  for (const std::string* bytes : {&content.warp, &content.alpha, &content.beta})
+    digest = XXH3_64bits_withSeed(bytes->data(), bytes->size(), digest);
+  return fmt::format("{:016x}", digest);
+}
 
 std::optional<MpcdiDocument> readMpcdiDocument(const std::string& xml, HallBuilder& builder) {
   return MpcdiParser(xml, builder).run();

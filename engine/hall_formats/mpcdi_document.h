@@ -17,7 +17,7 @@
 namespace stadion {
 
 struct MpcdiFrustum {
-  double yaw = 0, pitch = 0, roll = 0;                      ///< to the right, up, clockwise, in this order
+  double yaw = 0, pitch = 0, roll = 0;  ///< to the right, up, clockwise, in this order
   double rightAngle = 0, leftAngle = 0, upAngle = 0, downAngle = 0;  ///< left and down below 0
 };
 
@@ -53,9 +53,9 @@ struct MpcdiBuffer {
 
 /// The extension that MPCDI files of this program have.
 struct MpcdiHallExtension {
-  std::string hall;                               ///< name of the wall file in the archive
-  std::map<std::string, std::string> digests;     ///< of the standard's part, by region
-  std::map<std::string, double> pixelAspects;     ///< of lenses, by region
+  std::string hall;                            ///< name of the wall file in the archive
+  std::map<std::string, std::string> digests;  ///< of the standard's part, by region
+  std::map<std::string, double> pixelAspects;  ///< of lenses, by region
 };
 
 struct MpcdiDocument {
@@ -64,6 +64,14 @@ struct MpcdiDocument {
   std::vector<MpcdiRegion> regions;
   std::optional<MpcdiHallExtension> extension;
 };
+
+/// The bytes of a region's files; empty where there are none.
+struct MpcdiContent {
+  std::string warp, alpha, beta;
+};
+
+/// A digest of what the standard's part says about a region.
+std::string digestOf(const MpcdiRegion& region, const MpcdiContent& content);
 
 /// Reads the XML; nothing after an error.
 std::optional<MpcdiDocument> readMpcdiDocument(const std::string& xml, HallBuilder& builder);

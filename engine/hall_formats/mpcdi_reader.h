@@ -32,7 +32,7 @@ inline constexpr std::size_t kMostMpcdiBytes = 512U << 20;
 /// Reads the bytes of an archive.
 std::optional<WallFile> readMpcdi(const std::string& bytes, const std::string& file, Diagnostics& out);
 /// Reads the XML file; its files lie beside it.
-std::optional<WallFile> readMpcdiXml(const std::string& xml, const std::string& file, const NeighbourFiles& files,
-                                     Diagnostics& out);
+std::optional<WallFile> readMpcdiXml(const std::string& xml, const std::string& file,
+                                     const NeighbourFiles& files, Diagnostics& out);
 
 }  // namespace stadion

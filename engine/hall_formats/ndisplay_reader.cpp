@@ -34,7 +34,8 @@ bool placeViewport(WallEntry& entry, double x, double y, double width, double he
 
 class NdisplayJson {
 public:
-  NdisplayJson(HallBuilder& builder, const NeighbourFiles& files) : builder_(builder), scene_(builder, files) {}
+  NdisplayJson(HallBuilder& builder, const NeighbourFiles& files)
+      : builder_(builder), scene_(builder, files) {}
 
   void run(JsonPlace root) {
     auto top = root.part("nDisplay");
@@ -66,7 +67,8 @@ private:
     NdisplayTransform t;
     t.parent = place.text("parentId", place.text("parent"));
     if (auto location = place.part("location")) {
-      t.location = kCentimetre * Vec3(location->number("x", 0), location->number("y", 0), location->number("z", 0));
+      t.location =
+          kCentimetre * Vec3(location->number("x", 0), location->number("y", 0), location->number("z", 0));
       location->done();
     }
     if (auto rotation = place.part("rotation")) {
@@ -104,8 +106,11 @@ private:
   }
 
   void readNode(JsonPlace& node, bool several) {
-    if (several) node.note(fmt::format("belongs to the host {}; a cluster file says so here", printable(node.text("host"), 80)));
-    node.ignore({"host", "sound", "fullScreen", "graphicsAdapter", "textureShare", "postprocess", "renderHeadless"});
+    if (several)
+      node.note(fmt::format("belongs to the host {}; a cluster file says so here",
+                            printable(node.text("host"), 80)));
+    node.ignore(
+        {"host", "sound", "fullScreen", "graphicsAdapter", "textureShare", "postprocess", "renderHeadless"});
     Corner corner;
     if (auto window = node.part("window")) {
       corner = {window->number("x", 0), window->number("y", 0)};
@@ -178,7 +183,8 @@ bool readLetters(const std::string& text, std::map<char, double>& values) {
     std::string_view part = rest.substr(0, end);
     rest.remove_prefix(std::min(end + 1, rest.size()));
     while (part.starts_with(' ')) part.remove_prefix(1);
-    const auto value = part.size() > 2 && part[1] == '=' ? NumberLine::numberIn(part.substr(2)) : std::nullopt;
+    const auto value =
+        part.size() > 2 && part[1] == '=' ? NumberLine::numberIn(part.substr(2)) : std::nullopt;
     if (!value || std::fabs(*value) > 1e6) return false;
     values[part[0]] = *value;
   }
@@ -187,7 +193,8 @@ bool readLetters(const std::string& text, std::map<char, double>& values) {
 
 class NdisplayCfg {
 public:
-  NdisplayCfg(HallBuilder& builder, const NeighbourFiles& files) : builder_(builder), scene_(builder, files) {}
+  NdisplayCfg(HallBuilder& builder, const NeighbourFiles& files)
+      : builder_(builder), scene_(builder, files) {}
 
   void run(std::string_view text) {
     for (std::uint32_t number = 1; !text.empty(); ++number) {
@@ -273,9 +280,7 @@ private:
     return nullptr;
   }
 
-  double pixels(CfgLine& line, const char* key) {
-    return NumberLine::numberIn(line.get(key)).value_or(0);
-  }
+  double pixels(CfgLine& line, const char* key) { return NumberLine::numberIn(line.get(key)).value_or(0); }
 
   void readViewport(CfgLine& line) {
     NdisplayViewport viewport;
@@ -293,7 +298,8 @@ private:
       return builder_.error("width and height must be from 1 to 16384 pixels", line.line);
     CfgLine* projection = find("projection", line.get("projection"));
     if (!projection)
-      return builder_.error(fmt::format("there is no [projection] {}", quotedWord(line.get("projection"))), line.line);
+      return builder_.error(fmt::format("there is no [projection] {}", quotedWord(line.get("projection"))),
+                            line.line);
     viewport.policy = projection->get("type");
     for (const auto& [key, value] : projection->values) {
       projection->get(key);
@@ -303,13 +309,14 @@ private:
   }
 
   void nameRest(CfgLine& line) {
-    static const std::set<std::string> kOfRun{"info",   "cluster_node", "general", "network", "render", "nvidia",
-                                              "custom", "input",        "input_setup", "stereo", "debug",
-                                              "projection", "postprocess"};
+    static const std::set<std::string> kOfRun{"info",   "cluster_node", "general",    "network",     "render",
+                                              "nvidia", "custom",       "input",      "input_setup", "stereo",
+                                              "debug",  "projection",   "postprocess"};
     if (kOfRun.contains(line.section)) return builder_.notOfHall("[" + line.section + "]");
     static const std::set<std::string> kRead{"screen", "scene_node", "camera", "viewport", "window"};
     if (!kRead.contains(line.section))
-      return builder_.notUnderstood({builder_.file(), line.line, 0}, "[" + line.section + "]", "it has no effect");
+      return builder_.notUnderstood({builder_.file(), line.line, 0}, "[" + line.section + "]",
+                                    "it has no effect");
     for (const auto& [key, value] : line.values)
       if (!line.used.contains(key))
         builder_.notUnderstood({builder_.file(), line.line, 0}, fmt::format("[{}] {}", line.section, key),

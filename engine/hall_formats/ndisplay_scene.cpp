@@ -25,10 +25,12 @@ Vec3 fromUnreal(const Vec3& v) {
 
 /// The axes of a rotator, in its parent's: yaw about Z to the right, then pitch up, then roll clockwise.
 Mat3 axesOfRotator(const NdisplayTransform& t) {
-  const auto p = det::sincos(t.pitch * kDegree), y = det::sincos(t.yaw * kDegree), r = det::sincos(t.roll * kDegree);
+  const auto p = det::sincos(t.pitch * kDegree), y = det::sincos(t.yaw * kDegree),
+             r = det::sincos(t.roll * kDegree);
   Mat3 axes;
   axes.col(0) = Vec3(p.cos * y.cos, p.cos * y.sin, p.sin);
-  axes.col(1) = Vec3(r.sin * p.sin * y.cos - r.cos * y.sin, r.sin * p.sin * y.sin + r.cos * y.cos, -r.sin * p.cos);
+  axes.col(1) =
+      Vec3(r.sin * p.sin * y.cos - r.cos * y.sin, r.sin * p.sin * y.sin + r.cos * y.cos, -r.sin * p.cos);
   axes.col(2) =
       Vec3(-(r.cos * p.sin * y.cos + r.sin * y.sin), y.cos * r.sin - r.cos * p.sin * y.sin, r.cos * p.cos);
   return axes;
@@ -41,7 +43,8 @@ std::string parameterOf(const NdisplayViewport& viewport, const std::string& key
 
 }  // namespace
 
-std::optional<NdisplayScene::Axes> NdisplayScene::axesOf(const std::string& name, const NdisplayViewport& viewport) {
+std::optional<NdisplayScene::Axes> NdisplayScene::axesOf(const std::string& name,
+                                                         const NdisplayViewport& viewport) {
   Axes axes;
   std::string at = name;
   for (int depth = 0; !at.empty(); ++depth) {
@@ -51,8 +54,10 @@ std::optional<NdisplayScene::Axes> NdisplayScene::axesOf(const std::string& name
       for (const auto& [known, transform] : transforms) names.push_back(known);
       const std::string why = depth == kMostParents ? "the parents of {1} form a circle or are too many"
                                                     : "there is no screen or transform {0}{2}";
-      builder_.error(viewport.place + ": " + fmt::format(fmt::runtime(why), quotedWord(at), quotedWord(name), didYouMean(at, names)),
-                     viewport.line);
+      builder_.error(
+          viewport.place + ": " +
+              fmt::format(fmt::runtime(why), quotedWord(at), quotedWord(name), didYouMean(at, names)),
+          viewport.line);
       return std::nullopt;
     }
     const NdisplayTransform& t = found->second;
@@ -67,8 +72,9 @@ std::optional<NdisplayScene::Axes> NdisplayScene::axesOf(const std::string& name
 void NdisplayScene::build() {
   for (NdisplayViewport& viewport : viewports) {
     std::string policy = viewport.policy;
-    std::ranges::transform(policy, policy.begin(),
-                           [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
+    std::ranges::transform(policy, policy.begin(), [](char c) {
+      return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+    });
     viewport.entry.wall.name = viewport.name;
     if (policy == "simple") {
       nameRest(viewport, {"screen", "mesh_component"});
@@ -77,12 +83,15 @@ void NdisplayScene::build() {
       const std::string component = parameterOf(viewport, "mesh_component");
       nameRest(viewport, {"mesh_component"});
       const auto screen = transforms.find(component);
-      if (screen != transforms.end() && screen->second.width > 0) buildScreen(viewport, component);
-      else leaveOut(viewport, fmt::format("the mesh {} is an asset of the game engine", quotedWord(component)));
+      if (screen != transforms.end() && screen->second.width > 0)
+        buildScreen(viewport, component);
+      else
+        leaveOut(viewport, fmt::format("the mesh {} is an asset of the game engine", quotedWord(component)));
     } else if (policy == "mpcdi") {
       buildMpcdi(viewport);
     } else {
-      leaveOut(viewport, fmt::format("the projection policy {} is not understood", quotedWord(viewport.policy)));
+      leaveOut(viewport,
+               fmt::format("the projection policy {} is not understood", quotedWord(viewport.policy)));
     }
   }
 }
@@ -91,10 +100,12 @@ void NdisplayScene::leaveOut(const NdisplayViewport& viewport, const std::string
   builder_.warning(fmt::format("{}: {}; the viewport is left out", viewport.place, why), viewport.line);
 }
 
-void NdisplayScene::nameRest(const NdisplayViewport& viewport, std::initializer_list<std::string_view> known) {
+void NdisplayScene::nameRest(const NdisplayViewport& viewport,
+                             std::initializer_list<std::string_view> known) {
   for (const auto& [key, value] : viewport.parameters)
     if (std::ranges::find(known, key) == known.end() && !value.empty())
-      builder_.notUnderstood({builder_.file(), viewport.line, 0}, viewport.place + "/" + key, "it has no effect");
+      builder_.notUnderstood({builder_.file(), viewport.line, 0}, viewport.place + "/" + key,
+                             "it has no effect");
 }
 
 void NdisplayScene::buildScreen(NdisplayViewport& viewport, const std::string& screen) {
@@ -102,8 +113,10 @@ void NdisplayScene::buildScreen(NdisplayViewport& viewport, const std::string& s
   const auto axes = axesOf(screen, viewport);
   if (!axes) return;
   if (found == transforms.end() || !(found->second.width > 1e-6 && found->second.height > 1e-6))
-    return builder_.error(fmt::format("{}: the screen {} has no size", viewport.place, quotedWord(screen)), viewport.line);
-  const Vec3 right = found->second.width * axes->unreal.col(1), up = found->second.height * axes->unreal.col(2);
+    return builder_.error(fmt::format("{}: the screen {} has no size", viewport.place, quotedWord(screen)),
+                          viewport.line);
+  const Vec3 right = found->second.width * axes->unreal.col(1),
+             up = found->second.height * axes->unreal.col(2);
   const std::string name = viewport.entry.wall.name;
   viewport.entry.wall =
       wallOfEdges(fromUnreal(axes->origin - 0.5 * right - 0.5 * up), fromUnreal(right), fromUnreal(up));
@@ -116,18 +129,23 @@ void NdisplayScene::buildMpcdi(NdisplayViewport& viewport) {
   nameRest(viewport, {"file", "buffer", "region", "origin"});
   const std::string file = parameterOf(viewport, "file"), region = parameterOf(viewport, "region");
   const auto bytes = files_(file, kMostMpcdiBytes);
-  if (!bytes) return builder_.error(fmt::format("{}: {}", viewport.place, bytes.error().message), viewport.line);
+  if (!bytes)
+    return builder_.error(fmt::format("{}: {}", viewport.place, bytes.error().message), viewport.line);
   Diagnostics findings;
   const auto hall = readMpcdi(bytes.value(), file, findings);
   builder_.out().append(findings);
-  if (!hall) return builder_.error(fmt::format("{}: {} is not read", viewport.place, quotedWord(file)), viewport.line);
+  if (!hall)
+    return builder_.error(fmt::format("{}: {} is not read", viewport.place, quotedWord(file)), viewport.line);
   const auto entry =
       std::ranges::find_if(hall->walls, [&region](const WallEntry& e) { return e.wall.name == region; });
   if (entry == hall->walls.end() || !entry->projector)
-    return builder_.error(fmt::format("{}: {} has no region {}{}", viewport.place, quotedWord(file), quotedWord(region),
-                                      didYouMean(region, hall->names())), viewport.line);
+    return builder_.error(fmt::format("{}: {} has no region {}{}", viewport.place, quotedWord(file),
+                                      quotedWord(region), didYouMean(region, hall->names())),
+                          viewport.line);
   if (!parameterOf(viewport, "origin").empty())
-    builder_.warning(viewport.place + ": the origin of the points has no effect; they stand as the MPCDI file says", viewport.line);
+    builder_.warning(viewport.place +
+                         ": the origin of the points has no effect; they stand as the MPCDI file says",
+                     viewport.line);
   viewport.entry.projector = entry->projector;
   viewport.entry.projector->screen = builder_.addScreen(hall->screens[entry->projector->screen]);
   builder_.add(viewport.entry);
@@ -139,12 +157,15 @@ void NdisplayScene::buildPfm(NdisplayViewport& viewport, const std::string& file
   const auto scale = stated.empty() ? std::optional(1.0) : NumberLine::numberIn(stated);
   const auto bytes = files_(file, std::size_t{256} << 20);
   if (!bytes || !scale || !(*scale > 0 && *scale < 1e6))
-    return builder_.error(fmt::format("{}: {}", viewport.place, bytes ? "scale must be a number above 0" : bytes.error().message), viewport.line);
+    return builder_.error(fmt::format("{}: {}", viewport.place,
+                                      bytes ? "scale must be a number above 0" : bytes.error().message),
+                          viewport.line);
   Diagnostics findings;
   const auto grid = readPointGrid(bytes.value(), file, *scale * 0.01, findings);
   auto mesh = grid ? meshOfGrid(*grid, file, findings) : std::nullopt;
   builder_.out().append(findings);
-  if (!mesh) return builder_.error(fmt::format("{}: {} is not read", viewport.place, quotedWord(file)), viewport.line);
+  if (!mesh)
+    return builder_.error(fmt::format("{}: {} is not read", viewport.place, quotedWord(file)), viewport.line);
   for (Vec3& p : mesh->points) p = fromUnreal(p);
   Screen screen;
   screen.name = viewport.name;
@@ -155,12 +176,15 @@ void NdisplayScene::buildPfm(NdisplayViewport& viewport, const std::string& file
   projector.image = std::move(image);
   projector.blend.computed = false;
   const auto gamma = NumberLine::numberIn(parameterOf(viewport, "alpha_gamma"));
-  for (const auto& [key, map] : {std::pair{"alpha", &ProjectorBlend::alpha}, std::pair{"beta", &ProjectorBlend::beta}}) {
+  for (const auto& [key, map] :
+       {std::pair{"alpha", &ProjectorBlend::alpha}, std::pair{"beta", &ProjectorBlend::beta}}) {
     const std::string name = parameterOf(viewport, key);
     if (name.empty()) continue;
     const auto png = files_(name, kMostLightMapBytes);
     const auto read = png ? readLightMap(png.value()) : Result<ReadLightMap>(png.error());
-    if (!read) return builder_.error(fmt::format("{}/{}: {}", viewport.place, key, read.error().message), viewport.line);
+    if (!read)
+      return builder_.error(fmt::format("{}/{}: {}", viewport.place, key, read.error().message),
+                            viewport.line);
     projector.blend.*map = read.value().map;
     (projector.blend.*map)->gamma = gamma && *gamma > 0 && *gamma < 10 ? *gamma : 1;
   }

@@ -15,10 +15,10 @@ namespace stadion {
 
 struct NdisplayTransform {
   std::string parent;
-  Vec3 location = Vec3::Zero();              ///< in the parent's axes [m]
-  double pitch = 0, yaw = 0, roll = 0;       ///< up, to the right, clockwise [degrees]
-  double width = 0, height = 0;              ///< of a screen [m]
-  double eyeSeparation = 0;                  ///< of a view point [m]
+  Vec3 location = Vec3::Zero();         ///< in the parent's axes [m]
+  double pitch = 0, yaw = 0, roll = 0;  ///< up, to the right, clockwise [degrees]
+  double width = 0, height = 0;         ///< of a screen [m]
+  double eyeSeparation = 0;             ///< of a view point [m]
 };
 
 struct NdisplayViewport {

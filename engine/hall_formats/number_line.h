@@ -54,7 +54,8 @@ public:
     if (text.starts_with('+')) text.remove_prefix(1);
     double value = 0;
     const auto [end, fault] = std::from_chars(text.data(), text.data() + text.size(), value);
-    if (fault != std::errc() || end != text.data() + text.size() || !std::isfinite(value)) return std::nullopt;
+    if (fault != std::errc() || end != text.data() + text.size() || !std::isfinite(value))
+      return std::nullopt;
     return value;
   }
 

@@ -12,13 +12,16 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <tuple>
 
 namespace stadion {
 namespace {
 
-constexpr double kSgctPlaneDistance = 10;    ///< [m]
-constexpr double kSgctDomeDiameter = 14.8;   ///< [m]
-constexpr double kSgctCylinderRadius = 5;    ///< [m]
+constexpr double kSgctPlaneDistance = 10;   ///< [m]
+constexpr double kSgctWidestPlane = 20;     ///< of a plane whose distance is not stated [m]
+constexpr double kSgctCubeSide = 10;        ///< [m]
+constexpr double kSgctDomeDiameter = 14.8;  ///< [m]
+constexpr double kSgctCylinderRadius = 5;   ///< [m]
 constexpr std::uint32_t kRoundGridColumns = 720;
 constexpr std::uint32_t kRoundGridRows = 360;
 
@@ -120,7 +123,8 @@ private:
 
   void readNode(JsonPlace& node, bool several) {
     const std::string address = node.text("address");
-    if (several) node.note(fmt::format("belongs to the host {}; a cluster file says so here", printable(address, 80)));
+    if (several)
+      node.note(fmt::format("belongs to the host {}; a cluster file says so here", printable(address, 80)));
     node.ignore({"port", "datatransferport", "swaplock"});
     if (auto windows = node.part("windows"))
       for (auto& [number, window] : windows->parts()) readWindow(window);
@@ -150,12 +154,35 @@ private:
     window.shape.flipV = place.flag("mirrory", false);
     const std::string stereo = place.text("stereo", "none");
     if (stereo != "none" && stereo != "no_stereo")
-      place.warn(fmt::format("stereo {} is an option of the run here, not of the hall: --stereo", printable(stereo, 40)));
-    for (const char* key : {"res", "spout", "ndi", "blitwindowid", "scalablemesh"})
+      place.warn(fmt::format("stereo {} is an option of the run here, not of the hall: --stereo",
+                             printable(stereo, 40)));
+    if (place.has("blitwindowid")) {
+      place.ignore({"blitwindowid"});
+      return place.warn("copies the picture of another window and is left out");
+    }
+    for (const char* key : {"res", "spout", "ndi", "scalablemesh"})
       if (place.has(key)) place.warn(fmt::format("{} has no effect here", key));
-    place.ignore({"res", "spout", "ndi", "blitwindowid", "scalablemesh", "id", "tags", "bufferbitdepth",
-                  "autoiconify", "hidemousecursor", "floating", "alwaysrender", "hidden", "takescreenshot",
-                  "alpha", "msaa", "fxaa", "border", "resizable", "draw2d", "draw3d", "noerror"});
+    place.ignore({"res",
+                  "spout",
+                  "ndi",
+                  "scalablemesh",
+                  "id",
+                  "tags",
+                  "bufferbitdepth",
+                  "autoiconify",
+                  "hidemousecursor",
+                  "floating",
+                  "alwaysrender",
+                  "hidden",
+                  "takescreenshot",
+                  "alpha",
+                  "msaa",
+                  "fxaa",
+                  "border",
+                  "resizable",
+                  "draw2d",
+                  "draw3d",
+                  "noerror"});
     const auto viewports = place.part("viewports");
     if (viewports)
       for (auto& [number, viewport] : viewports->parts()) readViewport(viewport, window);
@@ -186,8 +213,10 @@ private:
     viewport.mesh = place.text("mesh");
     viewport.entry.wall.name = fmt::format("{}-{}", window.name, ++views_);
     auto projection = place.part("projection");
-    if (projection) project(viewport, *projection);
-    else place.warn("has no projection and is left out");
+    if (projection)
+      project(viewport, *projection);
+    else
+      place.warn("has no projection and is left out");
     place.done();
   }
 
@@ -231,27 +260,67 @@ private:
       viewport.blend.*map = read.value().map;
       (viewport.blend.*map)->gamma = kDisplayGamma;
       viewport.blend.computed = false;
-      viewport.place.note(fmt::format("{} multiplies pixel values there; here it is read with gamma {}", key, kDisplayGamma));
+      viewport.place.note(
+          fmt::format("{} multiplies pixel values there; here it is read with gamma {}", key, kDisplayGamma));
     }
   }
 
   void project(SgctViewport& v, JsonPlace& p) {
     const std::string type = p.text("type");
-    if (type == "ProjectionPlane") plane(v, p);
-    else if (type == "PlanarProjection" || type == "TextureMappedProjection") planar(v, p);
-    else if (type == "FisheyeProjection") fisheye(v, p);
-    else if (type == "EquirectangularProjection") equirectangular(v, p);
-    else if (type == "CylindricalProjection") cylindrical(v, p);
-    else if (type == "SphericalMirrorProjection") mirror(v, p);
-    else if (type == "CubemapProjection") {
-      p.warn("gives its pictures to other programs only and is left out");
-      return;
-    } else {
+    if (type == "ProjectionPlane")
+      plane(v, p);
+    else if (type == "PlanarProjection" || type == "TextureMappedProjection")
+      planar(v, p);
+    else if (type == "FisheyeProjection")
+      fisheye(v, p);
+    else if (type == "EquirectangularProjection")
+      equirectangular(v, p);
+    else if (type == "CylindricalProjection")
+      cylindrical(v, p);
+    else if (type == "SphericalMirrorProjection")
+      mirror(v, p);
+    else if (type == "CubemapProjection")
+      cube(v, p);
+    else {
       builder_.notUnderstood({builder_.file(), 0, 0}, fmt::format("{}/type {}", p.path(), quotedWord(type)),
                              "the viewport is left out");
       return;
     }
     p.done();
+  }
+
+  /// Six views around the user, each of a quarter turn.
+  void cube(SgctViewport& v, JsonPlace& p) {
+    const std::uint32_t side = cubePixels(p.text("quality", "512"));
+    p.warn("its pictures go to other programs there; here they are six walls of a cube around the user");
+    p.ignore({"spout", "ndi"});
+    const Quat turn = turnIn(p);
+    auto channels = p.part("channels");
+    const std::tuple<const char*, const char*, Vec3> kFaces[] = {
+        {"right", "right", {0, -90, 0}},   {"left", "left", {0, 90, 0}},   {"top", "top", {90, 0, 0}},
+        {"bottom", "bottom", {-90, 0, 0}}, {"zright", "front", {0, 0, 0}}, {"zleft", "back", {0, 180, 0}}};
+    for (const auto& [channel, name, degrees] : kFaces) {
+      if (channels && !channels->flag(channel, true)) continue;
+      WarpView view;
+      view.q_RP = turn * fromGlAxes(turnAbout(1, degrees.y()) * turnAbout(0, degrees.x()));
+      view.right = view.up = kPi / 4;
+      view.left = view.down = -kPi / 4;
+      WallEntry entry;
+      entry.wall = wallOfView(view, v.eye, kSgctCubeSide / 2);
+      entry.wall.name = fmt::format("{}-{}", v.entry.wall.name, name);
+      entry.pixels = {side, side};
+      builder_.add(std::move(entry));
+    }
+    if (channels) channels->done();
+  }
+
+  static std::uint32_t cubePixels(const std::string& quality) {
+    static const std::map<std::string, std::uint32_t> kQualities{
+        {"low", 256},   {"256", 256},   {"medium", 512}, {"512", 512},   {"high", 1024},  {"1k", 1024},
+        {"1024", 1024}, {"1.5k", 1536}, {"1536", 1536},  {"2k", 2048},   {"2048", 2048},  {"4k", 4096},
+        {"4096", 4096}, {"8k", 8192},   {"8192", 8192},  {"16k", 16384}, {"16384", 16384}};
+    const auto known = kQualities.find(quality);
+    return known == kQualities.end() ? 512 : known->second;
   }
 
   void plane(SgctViewport& v, JsonPlace& p) {
@@ -262,7 +331,7 @@ private:
 
   void planar(SgctViewport& v, JsonPlace& p) {
     WarpView view;
-    double distance = p.number("distance", kSgctPlaneDistance);
+    double distance = p.number("distance", 0);
     if (auto fov = p.part("fov")) {
       if (fov->has("hfov")) {
         view.right = fov->number("hfov", 0) * kDegree / 2;
@@ -280,9 +349,19 @@ private:
     }
     view.q_RP = turnIn(p);
     const Vec3 offset = glPointIn(p, "offset");
-    if (!isFlatView(view)) return p.refuse("fov must be angles of a flat picture, each below 89.9 degrees from the middle");
+    if (!isFlatView(view))
+      return p.refuse("fov must be angles of a flat picture, each below 89.9 degrees from the middle");
+    if (distance == 0) distance = usualDistance(view);
     if (!(distance > 0.01 && distance < 1e5)) return p.refuse("distance must be from 0.01 to 1e5");
     flat(v, wallOfView(view, v.eye + offset, distance));
+  }
+
+  /// How far a plane stands whose distance is not stated: it matters for two eyes only.
+  static double usualDistance(const WarpView& view) {
+    const Wall at1 = wallOfView(view, Vec3::Zero(), 1);
+    const double side =
+        std::max((at1.lowerRight - at1.lowerLeft).norm(), (at1.upperLeft - at1.lowerLeft).norm());
+    return std::min(kSgctPlaneDistance, kSgctWidestPlane / side);
   }
 
   void flat(SgctViewport& v, Wall wall) {
@@ -298,7 +377,7 @@ private:
     if (warp && warp->view) {
       const Vec3 eye = warp->view->hasEye ? warp->view->eye : v.eye;
       if (!isFlatView(*warp->view)) return v.place.refuse("the mesh's view is no flat picture");
-      wall = wallOfView(*warp->view, eye, kSgctPlaneDistance);
+      wall = wallOfView(*warp->view, eye, usualDistance(*warp->view));
     }
     Screen screen;
     screen.name = v.entry.wall.name;
@@ -338,7 +417,8 @@ private:
 
   void warped(SgctViewport& v, Projector projector, const WarpFile& warp, const SourceView& view) {
     auto image = warpedImage(warp.mesh, view, v.mesh, v.entry.pixels.width, v.entry.pixels.height);
-    if (!image) return v.place.refuse(fmt::format("the triangles of {} overlap too much", quotedWord(v.mesh)));
+    if (!image)
+      return v.place.refuse(fmt::format("the triangles of {} overlap too much", quotedWord(v.mesh)));
     projector.image = std::move(image->image);
     if (image->light && v.blend.alpha) v.place.warn("the light of the mesh has no effect beside a mask");
     if (image->light && !v.blend.alpha) {
@@ -475,7 +555,8 @@ private:
       auto part = warpedImage(warp->mesh, view, name, v.entry.pixels.width, v.entry.pixels.height);
       if (!part) return p.refuse(fmt::format("the triangles of {} overlap too much", quotedWord(name)));
       if (part->light) p.warn(fmt::format("the light of {} has no effect", quotedWord(name)));
-      if (whole.points.empty()) whole = std::move(part->image);
+      if (whole.points.empty())
+        whole = std::move(part->image);
       else
         for (std::size_t i = 0; i < whole.points.size(); ++i)
           if (part->image.points[i].allFinite()) whole.points[i] = part->image.points[i];
@@ -499,8 +580,8 @@ private:
 
 }  // namespace
 
-std::optional<WallFile> readSgct(const std::string& text, const std::string& file, const NeighbourFiles& files,
-                                 Diagnostics& out) {
+std::optional<WallFile> readSgct(const std::string& text, const std::string& file,
+                                 const NeighbourFiles& files, Diagnostics& out) {
   HallBuilder builder(file, out);
   const auto json = parseJson(text, builder);
   if (!json) return std::nullopt;

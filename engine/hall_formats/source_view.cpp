@@ -27,9 +27,8 @@ std::optional<WarpedImage> warpedImage(const WarpMesh& mesh, const SourceView& v
   warped.image.rows = rows;
   warped.image.points.reserve(grid->source.size());
   for (const Vec2& share : grid->source)
-    warped.image.points.push_back(share.allFinite()
-                                      ? view(share)
-                                      : Vec3(Vec3::Constant(std::numeric_limits<double>::quiet_NaN())));
+    warped.image.points.push_back(
+        share.allFinite() ? view(share) : Vec3(Vec3::Constant(std::numeric_limits<double>::quiet_NaN())));
   warped.light = lightOf(*grid);
   return warped;
 }

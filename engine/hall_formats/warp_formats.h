@@ -28,7 +28,9 @@ public:
   void warn(std::string what);
 
   /// True if the file can have so many lines or records of at least `bytesEach` bytes yet.
-  bool canHave(std::size_t count, std::size_t bytesEach) const { return count <= rest_.size() / bytesEach + 1; }
+  bool canHave(std::size_t count, std::size_t bytesEach) const {
+    return count <= rest_.size() / bytesEach + 1;
+  }
 
 private:
   std::string_view rest_;

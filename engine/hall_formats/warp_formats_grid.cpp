@@ -51,12 +51,13 @@ bool readPaulBourkeWarp(WarpSource& source, WarpFile& file) {
   const auto columns = sizes.count(kMostGridSide), rows = sizes.count(kMostGridSide);
   if (!columns || !rows || *columns < 2 || *rows < 2 || tooMany(*columns, *rows))
     return source.refuse("the second line must be columns and rows, from 2 to 8192, such as 100 60");
-  if (!source.canHave(*columns * *rows, 10)) return source.refuseFile("the file ends too early; copy it again");
+  if (!source.canHave(*columns * *rows, 10))
+    return source.refuseFile("the file ends too early; copy it again");
   for (std::size_t i = 0; i < *columns * *rows; ++i) {
     double n[5];
     if (!source.line(line) || !NumberLine(line).numbers(n))
-      return source.refuse(fmt::format("five numbers must stand here, x y s t light, for vertex {} of {}", i + 1,
-                                       *columns * *rows));
+      return source.refuse(fmt::format("five numbers must stand here, x y s t light, for vertex {} of {}",
+                                       i + 1, *columns * *rows));
     WarpMesh::Vertex v;
     v.at = {0.5 + 0.5 * n[0] / source.aspect(), 0.5 - 0.5 * n[1]};
     v.source = {n[2], 1 - n[3]};
@@ -72,7 +73,8 @@ bool readPaulBourkeWarp(WarpSource& source, WarpFile& file) {
 bool readPfmWarp(WarpSource& source, WarpFile& file) {
   const auto grid = readPointGrid(source.rest(), source.file(), 1, source.out());
   if (!grid) return false;
-  if (grid->points.size() > WarpMesh::kMostVertices) return source.refuseFile("the grid is too fine for a warp");
+  if (grid->points.size() > WarpMesh::kMostVertices)
+    return source.refuseFile("the grid is too fine for a warp");
   for (std::size_t row = 0; row < grid->rows; ++row)
     for (std::size_t column = 0; column < grid->columns; ++column) {
       WarpMesh::Vertex v;

@@ -31,9 +31,10 @@ public:
       source_.warn(fmt::format("{} lines are not understood and have no effect", quotedWord(word)));
     WarpMesh& mesh = file_.mesh;
     if (sources_.size() != mesh.vertices.size())
-      return source_.refuseFile(fmt::format("the file has {} v lines and {} vt lines; a warp needs one vt line "
-                                            "for each v line",
-                                            mesh.vertices.size(), sources_.size()));
+      return source_.refuseFile(
+          fmt::format("the file has {} v lines and {} vt lines; a warp needs one vt line "
+                      "for each v line",
+                      mesh.vertices.size(), sources_.size()));
     for (std::size_t i = 0; i < sources_.size(); ++i) mesh.vertices[i].source = sources_[i];
     file_.ofWindow = true;
     return true;
@@ -78,8 +79,9 @@ private:
       const auto number = NumberLine::numberIn(word.substr(0, word.find('/')));
       if (!number || *number < 1 || *number > static_cast<double>(file_.mesh.vertices.size()) ||
           *number != std::floor(*number))
-        return source_.refuse(fmt::format("{} is no corner of a face; the file has {} v lines up to this line",
-                                          quotedWord(word), file_.mesh.vertices.size()));
+        return source_.refuse(
+            fmt::format("{} is no corner of a face; the file has {} v lines up to this line",
+                        quotedWord(word), file_.mesh.vertices.size()));
       t[std::min<std::size_t>(corners, 2)] = static_cast<std::uint32_t>(*number) - 1;
       if (corners < 2) continue;
       if (file_.mesh.triangles.size() == WarpMesh::kMostTriangles)
@@ -117,9 +119,12 @@ private:
     const std::size_t equals = line.find('=');
     const std::string name(line.substr(0, equals));
     const auto value = NumberLine(line.substr(equals + 1)).number();
-    if (!values_.contains(name)) source_.warn(fmt::format("{} is not understood and has no effect", quotedWord(name)));
-    else if (!value) return source_.refuse(fmt::format("{} must be a number", name));
-    else values_[name] = *value;
+    if (!values_.contains(name))
+      source_.warn(fmt::format("{} is not understood and has no effect", quotedWord(name)));
+    else if (!value)
+      return source_.refuse(fmt::format("{} must be a number", name));
+    else
+      values_[name] = *value;
     return true;
   }
 
@@ -136,7 +141,8 @@ private:
     }
     double n[4];
     if (!words.numbers(n)) return source_.refuse("four numbers must stand here: x y u v");
-    if (file_.mesh.vertices.size() == columns_ * rows_) return source_.refuse("there are more vertices than columns x rows");
+    if (file_.mesh.vertices.size() == columns_ * rows_)
+      return source_.refuse("there are more vertices than columns x rows");
     WarpMesh::Vertex v;
     v.at = {n[0], n[1]};
     v.source = {n[2] * tweak("U Tweak"), n[3] * tweak("V Tweak")};
@@ -149,11 +155,13 @@ private:
 
   bool view() {
     double across = values_.at("Horizontal FOV") * kDegree, up = values_.at("Vertical FOV") * kDegree;
-    if (!(across > 0 && across < kPi)) return source_.refuseFile("Horizontal FOV is missing or no angle of a flat picture");
+    if (!(across > 0 && across < kPi))
+      return source_.refuseFile("Horizontal FOV is missing or no angle of a flat picture");
     if (up <= 0) up = 2 * det::atan(1200.0 / 2048 * det::tan(across / 2));
     if (values_.at("Horizontal Tweak") > 0) across *= values_.at("Horizontal Tweak");
     if (values_.at("Vertical Tweak") > 0) up *= values_.at("Vertical Tweak");
-    if (!(across < kPi && up < kPi)) return source_.refuseFile("the view is wider than a flat picture can be");
+    if (!(across < kPi && up < kPi))
+      return source_.refuseFile("the view is wider than a flat picture can be");
     WarpView v;
     v.q_RP = turnAbout(2, -values_.at("Dome Azimuth")) * turnAbout(0, values_.at("Dome Elevation"));
     v.right = across / 2;
@@ -167,9 +175,9 @@ private:
 
   WarpSource& source_;
   WarpFile& file_;
-  std::map<std::string, double> values_{{"Dome Azimuth", 0},     {"Dome Elevation", 0}, {"Horizontal FOV", 0},
-                                        {"Vertical FOV", 0},     {"Horizontal Tweak", 1}, {"Vertical Tweak", 1},
-                                        {"U Tweak", 1},          {"V Tweak", 1}};
+  std::map<std::string, double> values_{{"Dome Azimuth", 0}, {"Dome Elevation", 0},   {"Horizontal FOV", 0},
+                                        {"Vertical FOV", 0}, {"Horizontal Tweak", 1}, {"Vertical Tweak", 1},
+                                        {"U Tweak", 1},      {"V Tweak", 1}};
   std::size_t columns_ = 0, rows_ = 0;
 };
 
@@ -182,7 +190,9 @@ public:
     for (std::string_view line; source_.line(line);) {
       NumberLine words(line);
       const std::string keyword(words.word());
-      if (keyword == "[" ? !face(words) : NumberLine::numberIn(keyword) ? !vertex(line) : !setting(keyword, words))
+      if (keyword == "["                  ? !face(words)
+          : NumberLine::numberIn(keyword) ? !vertex(line)
+                                          : !setting(keyword, words))
         return false;
     }
     if (values_["VERTICES"] != static_cast<double>(file_.mesh.vertices.size()) ||
@@ -203,7 +213,8 @@ private:
     text.remove_prefix(std::min(text.find_first_not_of(' '), text.size()));
     if (const auto known = kWords.find(keyword); known != kWords.end()) {
       if (text != known->second)
-        source_.warn(fmt::format("{} {} is not understood; it is read as {}", keyword, quotedWord(text), known->second));
+        source_.warn(fmt::format("{} {} is not understood; it is read as {}", keyword, quotedWord(text),
+                                 known->second));
       return true;
     }
     if (keyword == "LABEL" || keyword == "SUBVERSION") return true;
@@ -257,7 +268,8 @@ private:
     const double left = values_["ORTHO_LEFT"], bottom = values_["ORTHO_BOTTOM"];
     const double across = values_["ORTHO_RIGHT"] - left, up = values_["ORTHO_TOP"] - bottom;
     if (!(width > 0 && height > 0) || across == 0 || up == 0)
-      return source_.refuseFile("NATIVEXRES and NATIVEYRES must be above 0, and the ORTHO_ rectangle have an area");
+      return source_.refuseFile(
+          "NATIVEXRES and NATIVEYRES must be above 0, and the ORTHO_ rectangle have an area");
     for (WarpMesh::Vertex& v : file_.mesh.vertices)
       v.at = {(v.at.x() / width - left) / across, 1 - (v.at.y() / height - bottom) / up};
     return true;
@@ -275,21 +287,42 @@ private:
     file_.view = v;
     const bool moved = values_["PERSPECTIVE_XOFFSET"] != 0 || values_["PERSPECTIVE_YOFFSET"] != 0 ||
                        values_["PERSPECTIVE_ZOFFSET"] != 0;
-    if (moved) source_.warn("PERSPECTIVE_XOFFSET, _YOFFSET and _ZOFFSET are not understood and have no effect");
+    if (moved)
+      source_.warn("PERSPECTIVE_XOFFSET, _YOFFSET and _ZOFFSET are not understood and have no effect");
     return true;
   }
 
   WarpSource& source_;
   WarpFile& file_;
   bool hasView_ = false;
-  std::map<std::string, double> values_{
-      {"VERTICES", 0}, {"FACES", 0}, {"ORTHO_LEFT", 0}, {"ORTHO_RIGHT", 1}, {"ORTHO_TOP", 1},
-      {"ORTHO_BOTTOM", 0}, {"PERSPECTIVE_XOFFSET", 0}, {"PERSPECTIVE_YOFFSET", 0}, {"PERSPECTIVE_ZOFFSET", 0},
-      {"PERSPECTIVE_ROLL", 0}, {"PERSPECTIVE_PITCH", 0}, {"PERSPECTIVE_YAW", 0}, {"PERSPECTIVE_LEFT", 0},
-      {"PERSPECTIVE_RIGHT", 0}, {"PERSPECTIVE_TOP", 0}, {"PERSPECTIVE_BOTTOM", 0}, {"NATIVEXRES", 0},
-      {"NATIVEYRES", 0}, {"GAMMA", 2.2}, {"DO_NO_WARP", 0}, {"USE_SPHERE_SAMPLE_COORDINATE_SYSTEM", 0},
-      {"FRUSTUM_EULER_ANGLES", 0}, {"FRUSTUM_EULER_YAW", 0}, {"FRUSTUM_EULER_PITCH", 0},
-      {"FRUSTUM_EULER_ROLL", 0}, {"APPLY_MASK", 0}, {"APPLY_BLACK_LEVEL", 0}, {"APPLY_COLOR", 0}};
+  std::map<std::string, double> values_{{"VERTICES", 0},
+                                        {"FACES", 0},
+                                        {"ORTHO_LEFT", 0},
+                                        {"ORTHO_RIGHT", 1},
+                                        {"ORTHO_TOP", 1},
+                                        {"ORTHO_BOTTOM", 0},
+                                        {"PERSPECTIVE_XOFFSET", 0},
+                                        {"PERSPECTIVE_YOFFSET", 0},
+                                        {"PERSPECTIVE_ZOFFSET", 0},
+                                        {"PERSPECTIVE_ROLL", 0},
+                                        {"PERSPECTIVE_PITCH", 0},
+                                        {"PERSPECTIVE_YAW", 0},
+                                        {"PERSPECTIVE_LEFT", 0},
+                                        {"PERSPECTIVE_RIGHT", 0},
+                                        {"PERSPECTIVE_TOP", 0},
+                                        {"PERSPECTIVE_BOTTOM", 0},
+                                        {"NATIVEXRES", 0},
+                                        {"NATIVEYRES", 0},
+                                        {"GAMMA", 2.2},
+                                        {"DO_NO_WARP", 0},
+                                        {"USE_SPHERE_SAMPLE_COORDINATE_SYSTEM", 0},
+                                        {"FRUSTUM_EULER_ANGLES", 0},
+                                        {"FRUSTUM_EULER_YAW", 0},
+                                        {"FRUSTUM_EULER_PITCH", 0},
+                                        {"FRUSTUM_EULER_ROLL", 0},
+                                        {"APPLY_MASK", 0},
+                                        {"APPLY_BLACK_LEVEL", 0},
+                                        {"APPLY_COLOR", 0}};
 };
 
 struct ScissHead {
@@ -380,12 +413,13 @@ bool readScissWarp(WarpSource& source, WarpFile& file) {
   if (!bytes.get(head) || std::string_view(head.name, 3) != "SGC")
     return source.refuseFile("this is not an SGC file; one begins with the letters SGC");
   if (head.version != 1 && head.version != 2)
-    return source.refuseFile(fmt::format("version {} of the format is not read; known are 1 and 2", head.version));
+    return source.refuseFile(
+        fmt::format("version {} of the format is not read; known are 1 and 2", head.version));
   if (head.mapping != 0)
     return source.refuseFile("the file warps a cube map; only flat sources (mapping 0) are read");
-  if (!finiteFloats(head.rotation, 11)) return source.refuseFile("the view of the file is not made of numbers");
-  const std::uint64_t count =
-      head.version == 2 ? head.size[1] : std::uint64_t{head.size[0]} * head.size[1];
+  if (!finiteFloats(head.rotation, 11))
+    return source.refuseFile("the view of the file is not made of numbers");
+  const std::uint64_t count = head.version == 2 ? head.size[1] : std::uint64_t{head.size[0]} * head.size[1];
   std::vector<ScissVertex> vertices;
   std::uint32_t cornerCount = 0;
   std::vector<std::uint32_t> corners;

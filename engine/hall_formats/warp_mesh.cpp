@@ -98,7 +98,9 @@ std::optional<LightMap> lightOf(const SourceGrid& grid) {
 }
 
 std::array<std::uint32_t, 2> gridSizeFor(std::uint32_t width, std::uint32_t height) {
-  const auto points = [](std::uint32_t pixels) { return std::clamp<std::uint32_t>((pixels + 3) / 4, 32, 1024); };
+  const auto points = [](std::uint32_t pixels) {
+    return std::clamp<std::uint32_t>((pixels + 3) / 4, 32, 1024);
+  };
   return {points(width), points(height)};
 }
 

@@ -29,9 +29,9 @@ struct WarpMesh {
 
 /// A view that a warp file states for its source picture.
 struct WarpView {
-  Quat q_RP = Quat::Identity();                        ///< axes as in projector.h
-  double left = 0, right = 0, up = 0, down = 0;        ///< angles from the axis [rad]; left and down below 0
-  Vec3 eye = Vec3::Zero();                             ///< in R [m]
+  Quat q_RP = Quat::Identity();                  ///< axes as in projector.h
+  double left = 0, right = 0, up = 0, down = 0;  ///< angles from the axis [rad]; left and down below 0
+  Vec3 eye = Vec3::Zero();                       ///< in R [m]
   bool hasEye = false;
 };
 

@@ -14,9 +14,9 @@ struct WarpFormat {
 };
 
 constexpr WarpFormat kWarpFormats[] = {
-    {".data", readPaulBourkeWarp}, {".obj", readObjWarp},      {".pfm", readPfmWarp},
+    {".data", readPaulBourkeWarp},    {".obj", readObjWarp},       {".pfm", readPfmWarp},
     {".csv", readDomeprojectionWarp}, {".simcad", readSimcadWarp}, {".skyskan", readSkyskanWarp},
-    {".txt", readSkyskanWarp},     {".ol", readScalableWarp},  {".sgc", readScissWarp}};
+    {".txt", readSkyskanWarp},        {".ol", readScalableWarp},   {".sgc", readScissWarp}};
 
 /// Returns what is wrong with the numbers of a mesh, if anything is.
 std::string faultOf(const WarpMesh& mesh) {

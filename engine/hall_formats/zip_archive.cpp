@@ -75,8 +75,8 @@ Result<std::string> ZipArchive::file(const std::string& name, std::size_t limit)
     bytes.resize(std::min(before + kUnpackedAtOnce, most + 1));
     const zip_int64_t count = zip_fread(entry.get(), bytes.data() + before, bytes.size() - before);
     if (count < 0)
-      return Bytes::failure(fmt::format("{} cannot be unpacked: {}", shown,
-                                        printable(zip_file_strerror(entry.get()), 200)));
+      return Bytes::failure(
+          fmt::format("{} cannot be unpacked: {}", shown, printable(zip_file_strerror(entry.get()), 200)));
     bytes.resize(before + static_cast<std::size_t>(count));
     if (count == 0) break;
     if (bytes.size() > most)

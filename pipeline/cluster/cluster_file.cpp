@@ -1,6 +1,7 @@
 #include "pipeline/cluster/cluster_file.h"
 
 #include "engine/base/plain_file.h"
+#include "engine/hall_formats/hall_import.h"
 #include "engine/plain_text/statement_reader.h"
 #include "engine/plain_text/suggestion.h"
 
@@ -175,7 +176,7 @@ std::optional<ClusterFile> loadCluster(const std::string& file, Diagnostics& out
 
 std::optional<WallFile> loadWallsOf(const ClusterFile& cluster, const std::string& folder, Diagnostics& out) {
   Diagnostics found;
-  auto walls = loadWalls(cluster.walls, folder, found);
+  auto walls = loadHall(cluster.walls, folder, found);
   if (walls) return walls;
   for (Diagnostic d : found.all()) {
     if (d.where.file.empty()) {

@@ -71,7 +71,7 @@ struct ClusterFile {
 std::optional<ClusterFile> parseCluster(std::string_view text, const std::string& file, Diagnostics& out);
 std::optional<ClusterFile> loadCluster(const std::string& file, Diagnostics& out);
 
-/// The room's walls, as loadWalls() finds them. Errors about their name are reported at its place in the
+/// The room's walls, as loadHall() finds them. Errors about their name are reported at its place in the
 /// cluster file; the program that opens the show reports warnings.
 std::optional<WallFile> loadWallsOf(const ClusterFile& cluster, const std::string& folder, Diagnostics& out);
 

@@ -2,6 +2,7 @@
 
 #include "engine/asset/roots.h"
 #include "engine/base/installed_files.h"
+#include "engine/hall_formats/hall_import.h"
 #include "engine/plain_text/suggestion.h"
 #include "engine/script/script.h"
 #include "engine/script/script_texts.h"
@@ -87,7 +88,7 @@ bool MachineNeeds::addShow(const std::string& file, Diagnostics& findings) {
 }
 
 bool MachineNeeds::addWalls(const std::string& file, Diagnostics& findings) {
-  auto walls = loadWalls(file, shareFolder() + "/walls", findings);
+  auto walls = loadHall(file, shareFolder() + "/walls", findings);
   if (!walls) return false;
   topics_.insert(topics_.end(), {"programs", "drawing", "displays"});
   walls_.push_back(std::move(*walls));

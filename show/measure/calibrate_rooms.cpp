@@ -2,6 +2,7 @@
 
 #include "engine/base/installed_files.h"
 #include "engine/display/wall_file.h"
+#include "engine/hall_formats/hall_import.h"
 #include "engine/plain_text/number_text.h"
 #include "pipeline/platform/setting_trials.h"
 #include "show/regress/regress_child.h"
@@ -96,7 +97,7 @@ std::vector<RoomToMeasure> roomsToMeasure(const RoomRequest& wanted, Diagnostics
   std::set<std::size_t> counts;
   double parts = 0;
   for (const std::string& name : wanted.walls) {
-    const auto walls = loadWalls(name, shareFolder() + "/walls", findings);
+    const auto walls = loadHall(name, shareFolder() + "/walls", findings);
     if (!walls || !sides) continue;
     RoomToMeasure room{name, wanted.size};
     room.room.walls = walls->walls.size();

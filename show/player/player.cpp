@@ -1,6 +1,7 @@
 #include "show/player/player.h"
 
 #include "engine/base/installed_files.h"
+#include "engine/hall_formats/hall_import.h"
 #include "engine/input/input_log.h"
 #include "engine/plain_text/number_text.h"
 #include "engine/scene/scene_snapshot.h"
@@ -134,7 +135,7 @@ std::unique_ptr<Player> Player::prepare(const ShowOptions& options, Diagnostics&
   p.options_ = options;
   if (kept) p.meshes_ = &kept->store();
 
-  auto walls = loadWalls(options.walls, shareFolder() + "/walls", findings);
+  auto walls = loadHall(options.walls, shareFolder() + "/walls", findings);
   if (!walls) return nullptr;
   if (!p.project(*walls, findings)) return nullptr;
   p.takeWalls(std::move(*walls));

@@ -3,6 +3,7 @@
 #include "show/session/open_session.h"
 
 #include "engine/base/installed_files.h"
+#include "engine/hall_formats/hall_import.h"
 #include "pipeline/target/rasteriser_settings.h"
 #include "show/player/script_watch.h"
 #include "show/recording/governor_options.h"
@@ -88,7 +89,7 @@ bool OpenSession::openDrawing(Diagnostics& findings) {
   state_.renderer = renderer_.get();
   if (renderer_->drawsNothing()) return true;
   Diagnostics reportedLater;
-  const auto walls = loadWalls(s.show.walls, shareFolder() + "/walls", reportedLater);
+  const auto walls = loadHall(s.show.walls, shareFolder() + "/walls", reportedLater);
   if (!walls) return true;
   DrawingNeeds needs = s.drawingNeeds(walls->walls.size());
   needs.cpuThreads = renderer_->threads();

@@ -1,6 +1,7 @@
 #include "show/view/view_session.h"
 
 #include "engine/base/installed_files.h"
+#include "engine/hall_formats/hall_import.h"
 #include "pipeline/target/rasteriser_settings.h"
 #include "show/recording/last_frames.h"
 
@@ -41,7 +42,7 @@ std::unique_ptr<ViewSession> ViewSession::open(ViewSettings settings, Reporter& 
   ViewSession& s = *session;
   const SessionSettings& played = s.settings_.session;
   if (!lastFramesCanBeKept(played.record.blackBox, findings)) return nullptr;
-  auto walls = loadWalls(played.show.walls, shareFolder() + "/walls", findings);
+  auto walls = loadHall(played.show.walls, shareFolder() + "/walls", findings);
   if (!walls) return nullptr;
   s.walls_ = std::move(*walls);
   if (!s.openDrawing(findings)) return nullptr;

@@ -26,6 +26,11 @@ void tracker_packets(Bytes bytes);  ///< packets on the ports of DTrack and Free
 void cluster_wire(Bytes bytes);     ///< what the machines of a cluster hear from each other
 void scene_state(Bytes bytes);      ///< a scene's state, as the leader of a cluster sends it
 void imported_mesh(Bytes bytes);    ///< what the importer program answers
+void mpcdi(Bytes bytes);            ///< an MPCDI archive, or mpcdi.xml, a zero byte and one file for all names
+void sgct(Bytes bytes);             ///< a configuration of SGCT, a zero byte and one file for all names
+void ndisplay(Bytes bytes);         ///< a configuration of nDisplay, likewise
+void warp_mesh(Bytes bytes);        ///< the number of a warp format, and a file of it
+void light_map(Bytes bytes);        ///< a PNG file
 
 struct Target {
   std::string_view name;
@@ -42,7 +47,12 @@ inline constexpr Target kTargets[] = {{"script", script},
                                       {"tracker_packets", tracker_packets},
                                       {"cluster_wire", cluster_wire},
                                       {"scene_state", scene_state},
-                                      {"imported_mesh", imported_mesh}};
+                                      {"imported_mesh", imported_mesh},
+                                      {"mpcdi", mpcdi},
+                                      {"sgct", sgct},
+                                      {"ndisplay", ndisplay},
+                                      {"warp_mesh", warp_mesh},
+                                      {"light_map", light_map}};
 
 inline std::string_view asText(Bytes bytes) {
   return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};

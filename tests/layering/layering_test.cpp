@@ -255,6 +255,10 @@ TEST(Layering, EachForeignLibraryIsIncludedInFewFiles) {
   EXPECT_EQ(includersOf("GLFW/"), Files{"pipeline/target/glfw_windows.cpp"});
   EXPECT_EQ(includersOf("meshoptimizer"),
             (Files{"engine/asset/importer_program/gltf/meshopt_view.cpp", "engine/asset/simplify.cpp"}));
+  EXPECT_EQ(includersOf("zip"), Files{"engine/hall_formats/zip_archive.cpp"});
+  EXPECT_EQ(includersOf("pugixml"),
+            (Files{"engine/hall_formats/mpcdi_document.cpp", "engine/hall_formats/mpcdi_writer.cpp",
+                   "engine/hall_formats/warp_formats_grid.cpp"}));
   EXPECT_EQ(includersOf("sndfile"), Files{"engine/asset/sound_file.cpp"});
   EXPECT_EQ(includersOf("hwloc"), Files{"pipeline/platform/topology.cpp"});
   EXPECT_EQ(includersOf("lo/"), Files{"pipeline/device/osc_server.cpp"});
