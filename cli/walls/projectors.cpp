@@ -6,6 +6,7 @@
 #include "cli/options/command_options.h"
 #include "cli/terminal.h"
 #include "engine/base/installed_files.h"
+#include "engine/hall_formats/hall_import.h"
 #include "show/hall/projector_orders.h"
 
 #include <CLI/CLI.hpp>
@@ -63,7 +64,7 @@ nlohmann::ordered_json jsonOf(const OrderedProjector& p) {
 
 int switchProjectors(const ProjectorsOptions& o) {
   Diagnostics findings;
-  const auto hall = loadWalls(o.file, shareFolder() + "/walls", findings);
+  const auto hall = loadHall(o.file, shareFolder() + "/walls", findings);
   const std::chrono::milliseconds patience(std::llround(o.patience * 1000));
   const auto ordered =
       hall ? orderProjectors(*hall, orderOf(o.order), o.names, patience, findings) : std::nullopt;
