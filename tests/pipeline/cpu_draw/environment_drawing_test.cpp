@@ -147,6 +147,41 @@ TEST(EnvironmentDrawing, WhiteBallsAreAsBrightAsTheirSurroundings) {
   }
 }
 
+/// How much of white surroundings a metal of this colour shows where it faces the eye: the integral of GGX over half
+/// vectors, and what is mirrored several times.
+double facingMetal(double colour, double roughness) {
+  const double squared = std::pow(roughness, 4);
+  double scale = 0, bias = 0;
+  constexpr int kSteps = 4096;
+  for (int i = 0; i < kSteps; ++i) {
+    const double share = (i + 0.5) / kSteps, half = std::sqrt((1 - share) / (1 + (squared - 1) * share));
+    const double out = 2 * half * half - 1;  // cosine of the mirrored way
+    if (out <= 0) continue;
+    const double visible = 0.5 / (out + std::sqrt(squared + (1 - squared) * out * out));
+    const double part = 4 * out * visible / kSteps, grazing = std::pow(1 - half, 5);
+    scale += part * (1 - grazing), bias += part * grazing;
+  }
+  const double lost = 1 - scale - bias, once = colour * scale + bias, mean = colour + (1 - colour) / 21;
+  return once + once * mean / (1 - lost * mean) * lost;
+}
+
+TEST(EnvironmentDrawing, MetalsMirrorAsMuchAsTheIntegralOfGgx) {
+  for (const float roughness : {0.2f, 0.4f, 0.6f, 0.8f, 1.0f}) {
+    SurroundedScene scene(whiteSurroundings());
+    scene.list.sky.environment.intensity = 1;
+    scene.list.opaque.clear();
+    Material m = matt(0.5f, 0.3f, 0.1f);
+    m.metallic = 1, m.roughness = roughness;
+    scene.list.opaque.push_back(
+        place(scene.meshes.add(MeshMaker(m).sphere(0.75, 40).seal()), Affine::Identity()));
+    const Picture p = scene.byCpu();
+    const auto* middle = p.at(kSurroundedWidth / 2, kSurroundedHeight / 2);
+    const double colours[] = {0.5, 0.3, 0.1};
+    for (int k = 0; k < 3; ++k)
+      EXPECT_NEAR(middle[k], sRgb(facingMetal(colours[k], double{roughness})), 3) << roughness << " " << k;
+  }
+}
+
 TEST(EnvironmentDrawing, TheSurroundingsAreSeenWhereTheyAre) {
   // Red in front, green to the right, blue behind, white above.
   SurroundedScene scene(surroundingsOf(128, [](const auto& d) {
