@@ -86,6 +86,7 @@ public:
   Simulation(const WallFile& hall, PictureSource& source, const SimulationSettings& settings)
       : settings_(settings), source_(source), hall_(hall, settings.every), light_(hall_, hall.walls.size()) {
     result_.every = settings.every;
+    seenErrors_.resize(hall_.looked().size());
     for (const LookedAtProjector& p : hall_.looked())
       result_.projectors.emplace_back().name = hall.walls[p.entry].wall.name;
   }
@@ -104,6 +105,7 @@ public:
                            result_.projectors[i].name));
         geometry(heads[h], i);
       }
+      if (h == 0 && settings_.seen) showPixels(heads[h]);
     }
     result_.heads = heads.size();
     for (auto& [pair, seam] : seams_) result_.seams.push_back(std::move(seam));
@@ -250,17 +252,23 @@ private:
     for (const Eye eye : kEyes) {
       if (!hall_.serves(p.entry, eye)) continue;
       const auto e = static_cast<std::size_t>(eye);
-      for (std::size_t k = 0; k < p.pixels.size(); ++k)
-        geometryAt(i, p.pixels[k], eyeAt(X_RH, eye), errors[e][k], coarse[e][k], gains[e][k], fine);
+      const bool shown = eye == shownEye(p.entry);
+      if (shown) seenErrors_[i].assign(p.pixels.size(), -1);
+      for (std::size_t k = 0; k < p.pixels.size(); ++k) {
+        const double found =
+            geometryAt(i, p.pixels[k], eyeAt(X_RH, eye), errors[e][k], coarse[e][k], gains[e][k], fine);
+        if (shown) seenErrors_[i][k] = found;
+      }
     }
   }
 
-  void geometryAt(std::size_t i, const LookedAtPixel& pixel, const Vec3& eye, Vec3 error, const Vec3& coarse,
-                  double gain, double fine) {
+  /// Returns the error [pixels]; negative: too dark to tell.
+  double geometryAt(std::size_t i, const LookedAtPixel& pixel, const Vec3& eye, Vec3 error,
+                    const Vec3& coarse, double gain, double fine) {
     ProjectorFigures& figures = result_.projectors[i];
     const Steps steps = stepsAt(pixel, eye);
     figures.sparseness.add(steps.size() / kDegree);
-    if (gain < kWeak) return;
+    if (gain < kWeak) return -1;
     // Beyond half a turn the fine wave is ambiguous; the coarse one is not, and less exact.
     if (coarse.cwiseAbs().maxCoeff() > 0.5 / fine + 0.004 / gain) {
       ++figures.lost;
@@ -268,11 +276,47 @@ private:
     }
     const Eigen::Matrix2d square = steps.pixel.transpose() * steps.pixel;
     const Vec2 places = square.inverse() * (steps.pixel.transpose() * error);
-    if (!places.allFinite()) return;
+    if (!places.allFinite()) return -1;
     figures.geometry.add(places.norm());
     const LookedAtProjector& p = hall_.looked()[i];
     for (std::uint32_t k = pixel.first[4]; k < pixel.first[5]; ++k)
       seam(p.entry, p.others[k].entry).geometry.add(places.norm());
+    return places.norm();
+  }
+
+  // Pictures.
+
+  /// Lines every ten degrees on colours that change with the azimuth.
+  static void paintGrid(const SourceView& view, Picture& picture) {
+    forEachDirection(
+        view, picture.width, picture.height, [&](std::uint32_t x, std::uint32_t y, const Vec3& d) {
+          const double azimuth = det::atan2(d.x(), d.y()) / kDegree, elevation = det::asin(d.z()) / kDegree;
+          const auto line = [](double degrees) { return std::fabs(std::remainder(degrees, 10)) < 0.25; };
+          const bool on = line(azimuth) || line(elevation);
+          std::uint8_t* pixel = picture.at(x, y);
+          for (int c = 0; c < 3; ++c)
+            pixel[c] =
+                on ? 255 : static_cast<std::uint8_t>(110 + 60 * det::cos((azimuth + 120 * c) * kDegree));
+          pixel[3] = 255;
+        });
+  }
+
+  Eye shownEye(std::size_t entry) const { return hall_.serves(entry, Eye::Left) ? Eye::Left : Eye::Right; }
+
+  void showPixels(const Pose& X_RH) {
+    light_.draw(source_, X_RH, paintGrid);
+    for (std::size_t i = 0; i < hall_.looked().size(); ++i) {
+      const LookedAtProjector& p = hall_.looked()[i];
+      const Eye eye = shownEye(p.entry);
+      for (std::size_t k = 0; k < p.pixels.size(); ++k) {
+        const LookedAtPixel& pixel = p.pixels[k];
+        Vec3 sum = light_.pixel(p.entry, eye, pixel.x, pixel.y);
+        for (std::uint32_t o = pixel.first[4]; o < pixel.first[5]; ++o)
+          if (hall_.serves(p.others[o].entry, eye)) sum += light_.between(p.others[o], eye);
+        settings_.seen({i, pixel.point, (pixel.point - eyeAt(X_RH, eye)).normalized(),
+                        sum.cwiseQuotient(hall_.white()), seenErrors_[i][k]});
+      }
+    }
   }
 
   // The suspect.
@@ -313,6 +357,7 @@ private:
   HallLight light_;
   PhaseColours colours_;
   SimulationResult result_;
+  std::vector<std::vector<double>> seenErrors_;  ///< by projector and pixel, of the last head
   std::map<std::pair<std::size_t, std::size_t>, SeamFigures> seams_;
 };
 

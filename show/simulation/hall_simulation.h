@@ -34,11 +34,20 @@ struct HallFault {
   std::optional<double> gamma;  ///< of its display
 };
 
+/// A pixel as the first head sees it, while the views show a grid of azimuths and elevations.
+struct SeenPixel {
+  std::size_t projector = 0;  ///< number of the projector, from 0
+  Vec3 point, direction;      ///< on the screen, and from the eye, in R
+  Vec3 light;                 ///< of all projectors, as shares of white
+  double error = 0;           ///< of geometry [pixels]; negative: too dark to tell
+};
+
 struct SimulationSettings {
   std::uint32_t every = 4;  ///< looks at every Nth pixel, across and down
   std::size_t heads = 1;    ///< places of the head; the first is the visitor's usual place
   std::vector<HallFault> faults;
   std::function<void(const std::string&)> progress;  ///< receives a line before each long step
+  std::function<void(const SeenPixel&)> seen;        ///< receives pixels for pictures; null: no pictures
 };
 
 /// Mean and largest of some numbers.

@@ -61,9 +61,8 @@ std::optional<LightRay> SimulatedProjector::rayAt(double x, double y) const {
   const double w = width(), h = height();
   Vec3 along;
   if (const auto* l = std::get_if<LensImage>(&projector_.image)) {
-    // One pixel is as wide as it is high.
-    const double pixel = 1 / (l->throwRatio * w);
-    along = Vec3((x - 0.5 * w + l->shift.x() * w) * pixel, 1, (0.5 * h - y + l->shift.y() * h) * pixel);
+    const double across = 1 / (l->throwRatio * w), upright = across * l->pixelAspect;
+    along = Vec3((x - 0.5 * w + l->shift.x() * w) * across, 1, (0.5 * h - y + l->shift.y() * h) * upright);
   } else {
     const auto& f = std::get<FisheyeImage>(projector_.image);
     const Vec2 aside(x - 0.5 * w, 0.5 * h - y);
@@ -74,6 +73,12 @@ std::optional<LightRay> SimulatedProjector::rayAt(double x, double y) const {
     along = Vec3(unit.x() * det::sin(angle), det::cos(angle), unit.y() * det::sin(angle));
   }
   return LightRay{lens()->p, (lens()->q * along).normalized()};
+}
+
+Vec2 SimulatedProjector::placeIn(const LensImage& l, const Vec3& p) const {
+  const double focal = l.throwRatio * width();
+  return {(0.5 - l.shift.x()) * width() + focal * p.x() / p.y(),
+          (0.5 + l.shift.y()) * height() - focal / l.pixelAspect * p.z() / p.y()};
 }
 
 void SimulatedProjector::sortTriangles() {
@@ -92,9 +97,7 @@ void SimulatedProjector::sortTriangles() {
         continue;
       }
       before = true;
-      const double focal = l.throwRatio * width();
-      const Vec2 at((0.5 - l.shift.x()) * width() + focal * p.x() / p.y(),
-                    (0.5 + l.shift.y()) * height() - focal * p.z() / p.y());
+      const Vec2 at = placeIn(l, p);
       lo = lo.cwiseMin(at);
       hi = hi.cwiseMax(at);
     }
@@ -147,9 +150,7 @@ std::optional<Vec2> SimulatedProjector::throughLens(const Vec3& point) const {
   const auto& l = std::get<LensImage>(projector_.image);
   const Vec3 p = l.X_RP.q.conjugate() * (point - l.X_RP.p);
   if (p.y() <= 0) return std::nullopt;
-  const double focal = l.throwRatio * width();
-  return Vec2((0.5 - l.shift.x()) * width() + focal * p.x() / p.y(),
-              (0.5 + l.shift.y()) * height() - focal * p.z() / p.y());
+  return placeIn(l, p);
 }
 
 std::optional<Vec2> SimulatedProjector::throughFisheye(const FisheyeImage& image, const Vec3& point) const {

@@ -36,6 +36,8 @@ private:
   const Pose* lens() const;
   std::optional<LightRay> rayAt(double x, double y) const;
   std::optional<Vec3> measuredAt(const MeasuredImage& image, double x, double y) const;
+  /// Where the light to a point of P, which is before the lens, passes the picture [pixels].
+  Vec2 placeIn(const LensImage& l, const Vec3& p) const;
   std::optional<Vec2> throughLens(const Vec3& point) const;
   std::optional<Vec2> throughFisheye(const FisheyeImage& image, const Vec3& point) const;
   std::optional<Vec2> amongMeasured(const Vec3& point) const;

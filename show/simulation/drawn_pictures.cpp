@@ -1,0 +1,30 @@
+#include "show/simulation/drawn_pictures.h"
+
+#include "pipeline/projection/hall_pictures.h"
+
+namespace stadion {
+namespace {
+
+class DrawnPictures final : public PictureSource {
+public:
+  explicit DrawnPictures(std::unique_ptr<HallPictures> pictures) : pictures_(std::move(pictures)) {}
+
+  std::vector<Picture> draw(std::size_t entry, const Pose& X_RH, const Painter& paint) override {
+    return pictures_->draw(entry, X_RH, [&](const PaintedView& view, Picture& picture) {
+      paint({view.clipFromRig, view.eye}, picture);
+    });
+  }
+
+private:
+  std::unique_ptr<HallPictures> pictures_;
+};
+
+}  // namespace
+
+Result<std::unique_ptr<PictureSource>> drawnPictures(const WallFile& hall) {
+  auto pictures = HallPictures::create(hall);
+  if (!pictures) return pictures.error();
+  return std::unique_ptr<PictureSource>(std::make_unique<DrawnPictures>(std::move(pictures.value())));
+}
+
+}  // namespace stadion
