@@ -37,6 +37,9 @@ constexpr ValueGrammar number(std::string_view shape, double least, double most,
 constexpr ValueGrammar numbers(std::string_view shape, unsigned count, double least, double most) {
   return {.kind = Number, .shape = shape, .least = least, .most = most, .count = count};
 }
+constexpr ValueGrammar values(std::string_view shape, unsigned count) {
+  return {.kind = Text, .shape = shape, .count = count};
+}
 constexpr ValueGrammar size() {
   return {.kind = Size, .shape = "WIDTHxHEIGHT", .least = 1, .most = 16384};
 }
@@ -126,6 +129,18 @@ constexpr OptionRow kRows[] = {
      "writes the "
      "pattern to WALL-EYE.png instead",
      Drawing},
+    {"--simulate", flag(),
+     "simulates what a visitor sees in the hall, and compares it with the ideal picture; with --out it "
+     "writes "
+     "pictures",
+     Drawing},
+    {"--heads", whole("N", 1, 1000), "with --simulate: positions of the head within the visitor's reach",
+     Drawing},
+    {"--every", whole("N", 1, 64), "with --simulate: looks at every Nth pixel, across and down", Drawing},
+    {"--moved", values("NAME X Y Z", 4),
+     "with --simulate: the projector is so far from where the file says, in the unit of the file", Drawing},
+    {"--wrong-gamma", values("NAME G", 2),
+     "with --simulate: the display gamma of the projector is not the file's", Drawing},
     {"--pattern-kind", word("room|pixels|blend|gamma|bars"),
      "room: metres, names and a cube, or on curved screens azimuths and elevations; pixels: numbered lines "
      "of "

@@ -1,10 +1,11 @@
-/// `stadion walls FILE`: lints a wall file and draws its floor plan, or its test pattern.
+/// `stadion walls FILE`: lints a wall file and draws its floor plan or its test pattern, or simulates the hall.
 
 #include "cli/commands.h"
 #include "cli/exit_code.h"
 #include "cli/findings_json.h"
 #include "cli/options/command_options.h"
 #include "cli/terminal.h"
+#include "cli/walls/simulate_walls.h"
 #include "cli/walls/wall_pattern.h"
 #include "engine/base/installed_files.h"
 #include "engine/display/wall_lint.h"
@@ -32,14 +33,20 @@ constexpr std::array<std::string_view, 5> kPatternKinds{"room", "pixels", "blend
 
 struct WallsOptions {
   std::string file, out, stereo = "off", size, kind, write;
-  bool pattern = false, json = false;
+  bool pattern = false, json = false, simulate = false;
   PatternOptions shown;  ///< from the others
+  SimulateOptions simulated;
 
   void addTo(CLI::App& command) {
     CommandOptions options(command);
     options.add("WALLS", file).required();
     options.add("--pattern", pattern);
     options.add("--pattern-kind", kind).needs("--pattern");
+    options.add("--simulate", simulate).excludes("--pattern");
+    options.add("--heads", simulated.heads).needs("--simulate");
+    options.add("--every", simulated.every).needs("--simulate");
+    options.add("--moved", simulated.moved).needs("--simulate");
+    options.add("--wrong-gamma", simulated.wrongGamma).needs("--simulate");
     options.add("--out", out);
     options.add("--write", write);
     options.add("--json", json);
@@ -53,12 +60,15 @@ azimuths and elevations around the visitor instead. --pattern-kind blend is whit
 
   bool complete(Diagnostics& findings) {
     if (!size.empty()) std::tie(shown.width, shown.height) = *parseSize(size);
-    if (!out.empty() && !pattern) findings.error({}, "--out needs --pattern: the floor plan is printed");
+    if (!out.empty() && !pattern && !simulate)
+      findings.error({}, "--out needs --pattern or --simulate: the floor plan is printed");
     if (json && pattern)
       findings.error({}, "--json describes the walls, and --pattern shows them: leave one out");
-    if (!write.empty() && (pattern || json))
-      findings.error({}, "--write converts the walls: leave out --pattern and --json");
+    if (!write.empty() && (pattern || simulate || json))
+      findings.error({}, "--write converts the walls: leave out --pattern, --simulate and --json");
     shown.out = out;
+    simulated.out = out;
+    simulated.json = json;
     for (std::size_t k = 0; k < kPatternKinds.size(); ++k)
       if (kind == kPatternKinds[k]) shown.pattern = static_cast<HallPattern>(k);
     shown.windowStereo = windowStereo(*stereoLayout(stereo));
@@ -113,6 +123,7 @@ int lookAtWalls(WallsOptions o) {
   if (o.json && !walls) printJson({{"ok", false}, {"findings", jsonOf(findings)}});
   if (!walls) return kBadInput;
   if (!o.write.empty()) return convert(*walls, o.write);
+  if (o.simulate) return simulateWalls(*walls, o.simulated);
   if (o.pattern) return showPattern(*walls, o.shown, catchStopSignals());
   Diagnostics ofMachine;
   const std::size_t processors = std::max<std::size_t>(1, processorsOfThisThread().size());
