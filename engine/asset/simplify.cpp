@@ -37,13 +37,13 @@ double farthestFrom(const Mesh& mesh, std::span<const std::uint32_t> from, const
 }
 
 /// What is painted on a surface: colour, and the place in the picture.
-struct Paint {
+struct CornerLook {
   Eigen::Vector4d colour = Eigen::Vector4d::Constant(255);
   Eigen::Vector4d uv = Eigen::Vector4d::Zero();  ///< both places
 };
 
-Paint paintAt(const Mesh& mesh, const std::array<std::uint32_t, 3>& corners, const Vec3& weights) {
-  Paint paint;
+CornerLook lookAt(const Mesh& mesh, const std::array<std::uint32_t, 3>& corners, const Vec3& weights) {
+  CornerLook paint;
   if (!mesh.colours.empty()) paint.colour.setZero();
   for (std::size_t k = 0; k < 3; ++k) {
     const double w = weights[static_cast<Eigen::Index>(k)];
@@ -71,7 +71,7 @@ bool paintedAlike(const Mesh& mesh, std::span<const std::uint32_t> full, const N
       const Vec3 p = w[0] * placeOf(mesh, corners[0]) + w[1] * placeOf(mesh, corners[1]) +
                      w[2] * placeOf(mesh, corners[2]);
       const auto there = simplified.nearest(p, 0);
-      const Paint wanted = paintAt(mesh, corners, w), found = paintAt(mesh, there.corners, there.weights);
+      const CornerLook wanted = lookAt(mesh, corners, w), found = lookAt(mesh, there.corners, there.weights);
       if ((wanted.colour - found.colour).cwiseAbs().maxCoeff() > kColours) return false;
       if ((wanted.uv - found.uv).cwiseAbs().maxCoeff() > kPicture) return false;
     }
