@@ -80,7 +80,7 @@ bool paintedAlike(const Mesh& mesh, std::span<const std::uint32_t> full, const N
 }
 
 /// Triangles of one material that hang together, by the places of their corners.
-struct Piece {
+struct MeshPiece {
   std::size_t submesh = 0;
   std::vector<std::uint32_t> indices;  ///< of the full surface
 };
@@ -113,11 +113,11 @@ private:
   std::vector<std::uint32_t> parent_;
 };
 
-std::vector<Piece> piecesOf(const Mesh& mesh, const std::vector<std::uint32_t>& place) {
+std::vector<MeshPiece> piecesOf(const Mesh& mesh, const std::vector<std::uint32_t>& place) {
   Groups groups(mesh.positions.size());
   for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3)
     for (const std::size_t k : {i + 1, i + 2}) groups.join(place[mesh.indices[i]], place[mesh.indices[k]]);
-  std::vector<Piece> pieces;
+  std::vector<MeshPiece> pieces;
   std::map<std::pair<std::size_t, std::uint32_t>, std::size_t> known;
   for (std::size_t part = 0; part < mesh.submeshes.size(); ++part) {
     const Submesh& submesh = mesh.submeshes[part];
@@ -154,7 +154,7 @@ std::uint32_t vertexFor(const Mesh& mesh, const AtPlace& vertices, std::uint32_t
 /// other, and each triangle takes the vertices that suit it best.
 class Collapse {
 public:
-  Collapse(const Mesh& mesh, const std::vector<std::uint32_t>& places, const Piece& piece)
+  Collapse(const Mesh& mesh, const std::vector<std::uint32_t>& places, const MeshPiece& piece)
       : mesh_(mesh), welded_(mesh.uvs.empty() && mesh.secondUvs.empty()) {
     for (const std::uint32_t v : piece.indices) {
       const std::uint32_t corner = welded_ ? places[v] : v;
@@ -198,7 +198,7 @@ private:
 
 /// The piece with fewer triangles, nowhere farther off than `error` [m]; the piece itself if that cannot be.
 /// meshoptimizer's measure is a mean: where it is not strict enough, less is asked of it.
-std::vector<std::uint32_t> simplified(const Mesh& mesh, const Piece& piece, const Collapse& collapse,
+std::vector<std::uint32_t> simplified(const Mesh& mesh, const MeshPiece& piece, const Collapse& collapse,
                                       double error, double& found) {
   for (const double strict : {1.0, 0.25, 0.0625}) {
     std::vector<std::uint32_t> fewer = collapse.to(strict * error);
@@ -213,12 +213,12 @@ std::vector<std::uint32_t> simplified(const Mesh& mesh, const Piece& piece, cons
 }
 
 /// All pieces, each as simple as the error allows.
-MeshLevel levelOf(const Mesh& mesh, const std::vector<Piece>& pieces, const std::vector<Collapse>& collapses,
-                  double error) {
+MeshLevel levelOf(const Mesh& mesh, const std::vector<MeshPiece>& pieces,
+                  const std::vector<Collapse>& collapses, double error) {
   std::vector<std::vector<std::uint32_t>> parts(mesh.submeshes.size());
   MeshLevel level;
   for (std::size_t i = 0; i < pieces.size(); ++i) {
-    const Piece& piece = pieces[i];
+    const MeshPiece& piece = pieces[i];
     const std::vector<std::uint32_t> fewer = simplified(mesh, piece, collapses[i], error, level.error);
     parts[piece.submesh].insert(parts[piece.submesh].end(), fewer.begin(), fewer.end());
   }
@@ -243,12 +243,12 @@ double surfaceDistance(const Mesh& mesh, const std::vector<std::uint32_t>& a,
 void addLevels(Mesh& mesh, std::size_t count) {
   mesh.levels.clear();
   std::size_t before = mesh.indices.size();
-  std::vector<Piece> pieces;
+  std::vector<MeshPiece> pieces;
   std::vector<Collapse> collapses;
   if (count > 0 && before > 3 * kFewTriangles) {
     const std::vector<std::uint32_t> places = placesOf(mesh);
     pieces = piecesOf(mesh, places);
-    for (const Piece& piece : pieces) collapses.emplace_back(mesh, places, piece);
+    for (const MeshPiece& piece : pieces) collapses.emplace_back(mesh, places, piece);
   }
   const double size = 2 * mesh.sphere.radius;
   for (double error = size * kFinest; mesh.levels.size() < count && error < size * kCoarsest;

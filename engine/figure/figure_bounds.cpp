@@ -12,7 +12,7 @@ namespace stadion {
 namespace {
 
 /// Where a bone's origin may be, and how its axes may stand there.
-struct Region {
+struct BoneRegion {
   Sphere origin;                 ///< in N
   bool turns = false;            ///< its axes may stand in any way
   Mat3 axes = Mat3::Identity();  ///< else they are these, with their scale
@@ -150,16 +150,16 @@ std::vector<Range> rangesOf(const Skeleton& skeleton) {
 }
 
 /// Where a ball in the bone's coordinates may come to.
-Sphere carried(const Region& region, const Vec3& centre, double radius) {
+Sphere carried(const BoneRegion& region, const Vec3& centre, double radius) {
   if (region.turns)
     return {region.origin.centre, region.origin.radius + region.scale * (centre.norm() + radius)};
   return {region.origin.centre + region.axes * centre, region.origin.radius + region.scale * radius};
 }
 
-Region regionOf(const Bone& bone, const Range& range, const std::vector<Region>& before) {
-  const Region root{{Vec3::Zero(), 0}, false, Mat3::Identity(), 1};
-  const Region& parent = bone.parent < 0 ? root : before[static_cast<std::size_t>(bone.parent)];
-  Region region;
+BoneRegion regionOf(const Bone& bone, const Range& range, const std::vector<BoneRegion>& before) {
+  const BoneRegion root{{Vec3::Zero(), 0}, false, Mat3::Identity(), 1};
+  const BoneRegion& parent = bone.parent < 0 ? root : before[static_cast<std::size_t>(bone.parent)];
+  BoneRegion region;
   const Vec3 middle = range.translation.centre();
   region.origin = carried(parent, middle, (range.translation.hi - middle).norm());
   region.turns = parent.turns || range.turns;
@@ -170,7 +170,7 @@ Region regionOf(const Bone& bone, const Range& range, const std::vector<Region>&
 
 /// Of a root bone: at rest on the ground, at any of its heights. An added layer moves it from there by as much as it
 /// does elsewhere.
-Region rootRegion(const Skeleton& skeleton, std::size_t root, Region region, bool added) {
+BoneRegion rootRegion(const Skeleton& skeleton, std::size_t root, BoneRegion region, bool added) {
   Affine X_NB = Affine::Identity();
   for (auto i = static_cast<std::int32_t>(root); i >= 0;
        i = skeleton.bones[static_cast<std::size_t>(i)].parent)
@@ -181,10 +181,10 @@ Region rootRegion(const Skeleton& skeleton, std::size_t root, Region region, boo
   return region;
 }
 
-std::vector<Region> regionsOf(const Skeleton& skeleton, const ReachOptions& options) {
+std::vector<BoneRegion> regionsOf(const Skeleton& skeleton, const ReachOptions& options) {
   std::vector<Range> ranges = rangesOf(skeleton);
   addDifferences(skeleton, options.added, ranges);
-  std::vector<Region> regions;
+  std::vector<BoneRegion> regions;
   for (std::size_t i = 0; i < skeleton.bones.size(); ++i) {
     regions.push_back(regionOf(skeleton.bones[i], ranges[i], regions));
     if (options.root == i) regions.back() = rootRegion(skeleton, i, regions.back(), options.added > 0);
@@ -216,9 +216,9 @@ std::vector<Aabb> carriedBoxes(const Skeleton& skeleton, std::span<const std::ar
 Sphere figureReach(const Skeleton& skeleton, std::span<const std::array<float, 3>> positions,
                    std::span<const VertexJoints> joints, std::span<const Morph> morphs,
                    const ReachOptions& options) {
-  const std::vector<Region> regions = regionsOf(skeleton, options);
+  const std::vector<BoneRegion> regions = regionsOf(skeleton, options);
   std::vector<Sphere> spheres;
-  for (const Region& region : regions) spheres.push_back(region.origin);
+  for (const BoneRegion& region : regions) spheres.push_back(region.origin);
   const std::vector<Aabb> boxes = carriedBoxes(skeleton, positions, joints,
                                                morphReach(skeleton, positions.size(), morphs, options.added));
   for (std::size_t j = 0; j < boxes.size(); ++j)
