@@ -41,6 +41,24 @@ public:
 private:
   std::optional<LitPoint> at(double x, double y) const { return lit_(x + 0.5, y + 0.5); }
 
+  /// As at(); a pixel whose centre lies just beyond the screen's edge continues its neighbours. A part of its
+  /// light still falls on the screen.
+  std::optional<LitPoint> atEdge(double x, double y) const {
+    if (auto lit = at(x, y)) return lit;
+    for (const double far : {1.0, 2.0})
+      for (const auto& [i, j] :
+           {std::pair{1, 0}, {-1, 0}, {0, 1}, {0, -1}, {1, 1}, {-1, 1}, {1, -1}, {-1, -1}}) {
+        const auto near = at(x + far * i, y + far * j);
+        if (!near) continue;
+        const auto next = at(x + (far + 1) * i, y + (far + 1) * j);
+        if (!next) continue;
+        return LitPoint{near->point + far * (near->point - next->point),
+                        (near->share + far * (near->share - next->share)).cwiseMax(0).cwiseMin(1),
+                        (near->lift + far * (near->lift - next->lift)).cwiseMax(0).cwiseMin(1)};
+      }
+    return std::nullopt;
+  }
+
   MapPoint stored(const std::optional<LitPoint>& p) const {
     if (!p) return {};
     const Eigen::Vector3f q = (p->point - map_.origin).cast<float>(), share = p->share.cast<float>(),
@@ -90,7 +108,7 @@ private:
     bool dark = true;
     for (std::uint32_t j = 0; j < kCellPixels; ++j)
       for (std::uint32_t i = 0; i < kCellPixels; ++i) {
-        exact.push_back(stored(at(x + i, y + j)));
+        exact.push_back(stored(atEdge(x + i, y + j)));
         dark &= isDark(exact.back());
       }
     kind = dark ? PixelMap::kDark : begin;

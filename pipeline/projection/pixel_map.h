@@ -3,7 +3,8 @@
 ///
 /// Method   cells of 8 x 8 pixels. In most cells points and shares are interpolated between the cell's
 ///          corners, which lie at pixels of the cells' first row and column. Where that is not exact enough,
-///          at edges and creases, a cell keeps each of its pixels.
+///          at edges and creases, a cell keeps each of its pixels. Pixels up to two beyond the screen's edge are
+///          lit, too: without them, the last row on the screen is too dark.
 /// Exactness  points within 5 % of a pixel, shares within 0.2 %.
 /// Frames   R is the rig; points are relative to `origin`.
 /// Units    metres.
