@@ -7,7 +7,7 @@
 namespace stadion {
 namespace {
 
-constexpr std::uint64_t kMostPointTests = 400'000'000;
+constexpr std::uint64_t kMostPointTests = 60'000'000;
 constexpr double kEdgeTolerance = 1e-9;  ///< of barycentric coordinates: no gap between neighbours
 
 /// Which points of a row or column of the grid lie between two shares.
@@ -27,21 +27,35 @@ public:
   WarpSampler(const WarpMesh& mesh, SourceGrid& grid) : mesh_(mesh), grid_(grid) {}
 
   bool run() {
-    for (const auto& t : mesh_.triangles)
-      if (!triangle(mesh_.vertices[t[0]], mesh_.vertices[t[1]], mesh_.vertices[t[2]])) return false;
+    std::uint64_t tests = 0;
+    for (const auto& t : mesh_.triangles) tests += 1 + boundsOf(t).count();
+    if (tests > kMostPointTests) return false;
+    for (const auto& t : mesh_.triangles) triangle(t);
     return true;
   }
 
 private:
-  bool triangle(const WarpMesh::Vertex& a, const WarpMesh::Vertex& b, const WarpMesh::Vertex& c) {
+  struct Bounds {
+    PointRange across, down;
+    std::uint64_t count() const { return std::uint64_t{across.end - across.first} * (down.end - down.first); }
+  };
+  using Corners = std::array<std::uint32_t, 3>;
+
+  /// Which points of the grid a triangle may cover; none if it has no area.
+  Bounds boundsOf(const Corners& t) const {
+    const Vec2 &a = mesh_.vertices[t[0]].at, &b = mesh_.vertices[t[1]].at, &c = mesh_.vertices[t[2]].at;
+    const Vec2 one = b - a, two = c - a;
+    const double area = one.x() * two.y() - one.y() * two.x();
+    if (!std::isfinite(area) || std::fabs(area) < 1e-15) return {};
+    const Vec2 lo = a.cwiseMin(b).cwiseMin(c), hi = a.cwiseMax(b).cwiseMax(c);
+    return {pointsBetween(lo.x(), hi.x(), grid_.columns), pointsBetween(lo.y(), hi.y(), grid_.rows)};
+  }
+
+  void triangle(const Corners& t) {
+    const auto &a = mesh_.vertices[t[0]], &b = mesh_.vertices[t[1]], &c = mesh_.vertices[t[2]];
     const Vec2 one = b.at - a.at, two = c.at - a.at;
     const double area = one.x() * two.y() - one.y() * two.x();
-    if (!std::isfinite(area) || std::fabs(area) < 1e-15) return true;
-    const Vec2 lo = a.at.cwiseMin(b.at).cwiseMin(c.at), hi = a.at.cwiseMax(b.at).cwiseMax(c.at);
-    const PointRange across = pointsBetween(lo.x(), hi.x(), grid_.columns);
-    const PointRange down = pointsBetween(lo.y(), hi.y(), grid_.rows);
-    tests_ += 1 + std::uint64_t{across.end - across.first} * (down.end - down.first);
-    if (tests_ > kMostPointTests) return false;
+    const auto [across, down] = boundsOf(t);
     for (std::uint32_t row = down.first; row < down.end; ++row)
       for (std::uint32_t column = across.first; column < across.end; ++column) {
         const Vec2 p = Vec2((column + 0.5) / grid_.columns, (row + 0.5) / grid_.rows) - a.at;
@@ -52,12 +66,10 @@ private:
         grid_.source[at] = a.source + v * (b.source - a.source) + w * (c.source - a.source);
         grid_.light[at] = std::clamp(a.light + v * (b.light - a.light) + w * (c.light - a.light), 0.0, 1.0);
       }
-    return true;
   }
 
   const WarpMesh& mesh_;
   SourceGrid& grid_;
-  std::uint64_t tests_ = 0;
 };
 
 }  // namespace
