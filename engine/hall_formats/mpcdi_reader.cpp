@@ -4,6 +4,7 @@
 #include "engine/display/screen_mesh.h"
 #include "engine/hall_formats/light_map_file.h"
 #include "engine/hall_formats/mpcdi_axes.h"
+#include "engine/hall_formats/share_grid.h"
 #include "engine/hall_formats/source_view.h"
 #include "engine/hall_formats/zip_archive.h"
 #include "engine/maths/angles.h"
@@ -157,11 +158,14 @@ private:
     builder_.add(std::move(entry));
   }
 
+  /// Reads the points of the region; `metres` is 0 for shares.
   std::optional<PointGrid> points(const MpcdiRegion& region, double metres) {
     Diagnostics findings;
-    auto grid = readPointGrid(contents_[region.id].warp, region.files.warp, metres, findings);
+    const std::string &bytes = contents_[region.id].warp, &name = region.files.warp;
+    auto grid =
+        metres > 0 ? readPointGrid(bytes, name, metres, findings) : readShareGrid(bytes, name, findings);
     builder_.out().append(findings);
-    if (!grid) refuse(region, fmt::format("the points of {} are not read", quotedWord(region.files.warp)));
+    if (!grid) refuse(region, fmt::format("the points of {} are not read", quotedWord(name)));
     return grid;
   }
 
@@ -176,7 +180,7 @@ private:
 
   /// Reads shares of a source picture, the upper row first, as places on the wall.
   std::optional<MeasuredImage> warpOn(const MpcdiRegion& region, const Wall& wall) {
-    std::optional<PointGrid> grid = points(region, 1);
+    std::optional<PointGrid> grid = points(region, 0);
     if (!grid) return std::nullopt;
     const double sense = sumOverCells(*grid, [](const Vec3&, const Vec3& right, const Vec3& below) {
       return right.x() * below.y() - right.y() * below.x();

@@ -1,7 +1,7 @@
 /// Warp formats that are grids of vertices: Paul Bourke, PFM, domeprojection, SimCAD.
 
-#include "engine/display/screen_mesh.h"
 #include "engine/hall_formats/number_line.h"
+#include "engine/hall_formats/share_grid.h"
 #include "engine/hall_formats/warp_formats.h"
 
 #include <fmt/format.h>
@@ -71,7 +71,7 @@ bool readPaulBourkeWarp(WarpSource& source, WarpFile& file) {
 }
 
 bool readPfmWarp(WarpSource& source, WarpFile& file) {
-  const auto grid = readPointGrid(source.rest(), source.file(), 1, source.out());
+  const auto grid = readShareGrid(source.rest(), source.file(), source.out());
   if (!grid) return false;
   if (grid->points.size() > WarpMesh::kMostVertices)
     return source.refuseFile("the grid is too fine for a warp");

@@ -10,6 +10,8 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
+
 namespace stadion {
 namespace {
 
@@ -195,6 +197,17 @@ TEST(Mpcdi, MediaLieOnTheRegionsPartOfACanvas) {
   EXPECT_FALSE(projector.blend.computed);
   EXPECT_EQ(projector.blend.alpha->gamma, 2.2);
   EXPECT_EQ(projector.blend.alpha->values[3], 32896);
+}
+
+TEST(Mpcdi, SharesNeedNoErrorEstimate) {
+  const double none = std::numeric_limits<double>::quiet_NaN();
+  FakeFiles files;
+  files.files["warp.pfm"] = pointsAsPfm({{0, 1, none}, {1, 1, none}, {0, 0, none}, {none, none, 1}}, 2, 2);
+  const auto hall = mpcdiOf(mpcdiXml("2d", ""), files);
+  ASSERT_TRUE(hall);
+  const auto& image = std::get<MeasuredImage>(hall->walls[0].projector->image);
+  EXPECT_TRUE(image.points[0].allFinite());
+  EXPECT_FALSE(image.points[3].allFinite());
 }
 
 TEST(Mpcdi, RowsFromTheTopAreSeenByTheMirroredPicture) {
