@@ -20,7 +20,7 @@ Projector lensAt(const Vec3& at, double yaw, double throwRatio) {
   Projector p;
   p.width = 200;
   p.height = 100;
-  p.image = LensImage{{at, rotationOf({yaw, 0, 0})}, throwRatio, Vec2::Zero()};
+  p.image = LensImage{{at, rotationOf({yaw, 0, 0})}, throwRatio, 1, Vec2::Zero()};
   return p;
 }
 
