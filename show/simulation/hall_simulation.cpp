@@ -50,20 +50,16 @@ public:
     return {p.light(v[0], 0), p.light(v[1], 1), p.light(v[2], 2)};
   }
 
-  /// Light between pixels. Pixels that miss the screen are no neighbours: their values mean nothing.
+  /// Light between pixels.
   Vec3 between(const LightFrom& from, Eye eye) const {
     const SimulatedProjector& p = hall_.projector(from.entry);
-    const auto [left, top, s, t] = SimulatedHall::pixelsAbout(from, p);
-    const double weights[] = {(1 - s) * (1 - t), s * (1 - t), (1 - s) * t, s * t};
-    Vec3 sum = Vec3::Zero();
-    double whole = 0;
-    for (unsigned k = 0; k < 4; ++k) {
-      if ((from.lit >> k & 1) == 0) continue;
-      const auto x = static_cast<std::uint32_t>(left) + k % 2, y = static_cast<std::uint32_t>(top) + k / 2;
-      sum += weights[k] * pixel(from.entry, eye, std::min(x, p.width() - 1), std::min(y, p.height() - 1));
-      whole += weights[k];
-    }
-    return whole > 0 ? Vec3(sum / whole) : Vec3::Zero();
+    const double x = std::clamp(from.x - 0.5, 0.0, p.width() - 1.0);
+    const double y = std::clamp(from.y - 0.5, 0.0, p.height() - 1.0);
+    const auto left = static_cast<std::uint32_t>(x), top = static_cast<std::uint32_t>(y);
+    const std::uint32_t right = std::min(left + 1, p.width() - 1), bottom = std::min(top + 1, p.height() - 1);
+    const double s = x - left, t = y - top;
+    return (1 - t) * ((1 - s) * pixel(from.entry, eye, left, top) + s * pixel(from.entry, eye, right, top)) +
+           t * ((1 - s) * pixel(from.entry, eye, left, bottom) + s * pixel(from.entry, eye, right, bottom));
   }
 
   /// What rounding to 8 bits may change at most, of the channel for which that is most [share of white].

@@ -1,7 +1,6 @@
 #include "show/simulation/simulated_hall.h"
 
 #include <algorithm>
-#include <cmath>
 
 namespace stadion {
 
@@ -22,24 +21,6 @@ SimulatedHall::SimulatedHall(WallFile hall, std::uint32_t every) : hall_(std::mo
 bool SimulatedHall::serves(std::size_t entry, Eye eye) const {
   const auto& only = hall_.walls[entry].projector->eye;
   return !only || *only == eye;
-}
-
-std::array<double, 4> SimulatedHall::pixelsAbout(const LightFrom& from, const SimulatedProjector& projector) {
-  const double x = std::clamp(from.x - 0.5, 0.0, projector.width() - 1.0);
-  const double y = std::clamp(from.y - 0.5, 0.0, projector.height() - 1.0);
-  return {std::floor(x), std::floor(y), x - std::floor(x), y - std::floor(y)};
-}
-
-LightFrom SimulatedHall::lightFrom(std::size_t entry, const Vec2& place) const {
-  const SimulatedProjector& p = *projectors_[entry];
-  LightFrom from{static_cast<std::uint32_t>(entry), static_cast<float>(place.x()),
-                 static_cast<float>(place.y())};
-  const auto [left, top, s, t] = pixelsAbout(from, p);
-  for (int k = 0; k < 4; ++k) {
-    const double x = std::min(left + k % 2, p.width() - 1.0), y = std::min(top + k / 2, p.height() - 1.0);
-    if (p.pointAt(x + 0.5, y + 0.5)) from.lit = static_cast<std::uint8_t>(from.lit | 1 << k);
-  }
-  return from;
 }
 
 void SimulatedHall::look(std::size_t entry, std::uint32_t every) {
@@ -82,7 +63,8 @@ void SimulatedHall::lookAround(std::size_t entry, LookedAtPixel& pixel, std::vec
       if (eye && about.eye && *eye != *about.eye) continue;
       const auto place = projectors_[i]->placeOf(*point);
       if (!place) continue;
-      others.push_back(lightFrom(i, *place));
+      others.push_back(
+          {static_cast<std::uint32_t>(i), static_cast<float>(place->x()), static_cast<float>(place->y())});
       for (const Eye e : kEyes)
         if (serves(i, e)) black[static_cast<std::size_t>(e)] += blackOf(i);
     }
@@ -96,7 +78,9 @@ std::vector<LightFrom> SimulatedHall::lightAt(std::size_t screen, const Vec3& po
   std::vector<LightFrom> all;
   for (std::size_t i = 0; i < projectors_.size(); ++i) {
     if (!projectors_[i] || hall_.walls[i].projector->screen != screen || !serves(i, eye)) continue;
-    if (const auto place = projectors_[i]->placeOf(point)) all.push_back(lightFrom(i, *place));
+    if (const auto place = projectors_[i]->placeOf(point))
+      all.push_back(
+          {static_cast<std::uint32_t>(i), static_cast<float>(place->x()), static_cast<float>(place->y())});
   }
   return all;
 }

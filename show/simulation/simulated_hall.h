@@ -17,8 +17,6 @@ namespace stadion {
 struct LightFrom {
   std::uint32_t entry = 0;
   float x = 0, y = 0;  ///< [pixels]
-  /// Of the four pixels about the place, row by row, those that light the screen, as bits.
-  std::uint8_t lit = 0;
 };
 
 /// A pixel at which the simulator looks.
@@ -47,9 +45,6 @@ public:
   const WallFile& file() const { return hall_; }
   const SimulatedProjector& projector(std::size_t entry) const { return *projectors_[entry]; }
   const std::vector<LookedAtProjector>& looked() const { return looked_; }
-  /// Returns column and row of the upper left of the four pixels about a place, and how far the place is from
-  /// its centre, across and down.
-  static std::array<double, 4> pixelsAbout(const LightFrom& from, const SimulatedProjector& projector);
   bool serves(std::size_t entry, Eye eye) const;
   /// Returns the light at a point of a screen, for one eye.
   std::vector<LightFrom> lightAt(std::size_t screen, const Vec3& point, Eye eye) const;
@@ -60,7 +55,6 @@ public:
 private:
   void look(std::size_t entry, std::uint32_t every);
   void lookAround(std::size_t entry, LookedAtPixel& pixel, std::vector<LightFrom>& others);
-  LightFrom lightFrom(std::size_t entry, const Vec2& place) const;
   double blackOf(std::size_t entry) const { return projectors_[entry]->lamp().black; }
 
   WallFile hall_;
