@@ -46,7 +46,8 @@ constexpr ValueGrammar size() {
 
 constexpr OptionRow kRows[] = {
     {"SHOW", file("SHOW", ValueTimes::Several), "script to play (.evs)", Inputs},
-    {"WALLS", file("WALLS"), "cave4, cave6, powerwall, desktop, or a wall file", Inputs},
+    {"WALLS", file("WALLS"), "cave4, cave6, powerwall, desktop, a hall such as dome-5, or a wall file",
+     Inputs},
     {"ORDER", word("status|on|off|open|shut"), "what the projectors are to do", Inputs},
     {"PROJECTOR", text("NAME", ValueTimes::Several), "only projectors with these names", Inputs},
     {"CLUSTER", file("CLUSTER"), "cluster file: the hosts and their walls", Inputs},
@@ -58,7 +59,8 @@ constexpr OptionRow kRows[] = {
     {"LOG", file("LOG", ValueTimes::Several), "input log with the path of a head", Inputs},
     {"TRACE", file("TRACE", ValueTimes::Several), "trace of a host (trace-HOST.json)", Inputs},
 
-    {"--walls", file("WALLS"), "cave4, cave6, powerwall, desktop, or a wall file", Show},
+    {"--walls", file("WALLS"), "cave4, cave6, powerwall, desktop, a hall such as dome-5, or a wall file",
+     Show},
     {"--mode", word("pipelined|sequential|all"),
      "pipelined: App, Cull and Draw overlap; sequential: one after the other, with the same pictures; all: "
      "both",
@@ -171,7 +173,8 @@ constexpr OptionRow kRows[] = {
      Drawing},
 
     {"--out", folder(), "folder for everything that the command writes", Output},
-    {"--write", file(), "writes the hall as a wall file (.walls, with its files beside it) or as MPCDI (.mpcdi)", Output},
+    {"--write", file(),
+     "writes the hall as a wall file (.walls, with its files beside it) or as MPCDI (.mpcdi)", Output},
     {"--json", flag(),
      "prints JSON on standard output, all else on standard error: one object; a bench, hash and tracker "
      "print one a line",

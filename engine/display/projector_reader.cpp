@@ -79,7 +79,7 @@ private:
     return given_.throwRatio = ratio.has_value();
   }
   bool pixelAspect() {
-    const auto aspect = in_.number("the height of a pixel's light by its width", 0.1, 10);
+    const auto aspect = in_.number("the height of a pixel's light by its width", 0.01, 100);
     if (aspect) lens_.pixelAspect = *aspect;
     return given_.pixelAspect = aspect.has_value();
   }

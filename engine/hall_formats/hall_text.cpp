@@ -46,12 +46,8 @@ std::optional<Diagnostic> nameFilesOf(WallEntry& entry, const std::string& prefi
       made.files[p.blend.mask] = png.value();
     }
   }
-  const std::string who = fmt::format("projector \"{}\": ", entry.wall.name);
-  if (p.blend.beta) made.lost.push_back(who + "its black level map");
-  const auto* lens = std::get_if<LensImage>(&p.image);
-  if (lens && std::fabs(lens->pixelAspect - 1) > 1e-9)
-    made.lost.push_back(who +
-                        fmt::format("the shape of its pixels, {} times as high as wide", lens->pixelAspect));
+  if (p.blend.beta)
+    made.lost.push_back(fmt::format("projector \"{}\": its black level map", entry.wall.name));
   return std::nullopt;
 }
 

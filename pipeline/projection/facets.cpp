@@ -1,5 +1,7 @@
 #include "pipeline/projection/facets.h"
 
+#include "engine/maths/eigen.h"
+
 #include <Eigen/Eigenvalues>
 
 #include <algorithm>

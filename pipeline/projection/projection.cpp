@@ -37,8 +37,8 @@ WarpPoint placed(const PlaceMatrix& m, const MapPoint& p) {
 }  // namespace
 
 struct Projection::Shown {
-  std::vector<PlaceMatrix> places;  ///< by facet
-  std::vector<WarpSource> sources;  ///< by facet
+  std::vector<PlaceMatrix> places;   ///< by facet
+  std::vector<FacetPixels> sources;  ///< by facet
   const WarpKernels& kernels;
   Picture& picture;
 };

@@ -20,7 +20,7 @@ inline float withinPicture(float place, float last) {
   return above < last ? above : last;
 }
 
-inline void light(const CellPlaces& at, const WarpSource& from, const WarpLight& by,
+inline void light(const CellPlaces& at, const FacetPixels& from, const WarpLight& by,
                   std::uint32_t (&pixels)[kCellPixels]) {
   const float lastColumn = static_cast<float>(from.width - 1), lastRow = static_cast<float>(from.height - 1);
   const int mostColumn = static_cast<int>(from.width) - 2, mostRow = static_cast<int>(from.height) - 2;
@@ -79,7 +79,7 @@ inline WarpPoint between(const WarpPoint& a, const WarpPoint& b, float s) {
       {between(a.lift[0], b.lift[0], s), between(a.lift[1], b.lift[1], s), between(a.lift[2], b.lift[2], s)}};
 }
 
-void smoothCell(const WarpPoint (&corners)[4], const WarpSource& from, const WarpLight& by,
+void smoothCell(const WarpPoint (&corners)[4], const FacetPixels& from, const WarpLight& by,
                 std::uint32_t (&pixels)[kCellPixels]) {
   CellPlaces at;
   for (int j = 0; j < kCellSide; ++j) {
@@ -100,7 +100,7 @@ void smoothCell(const WarpPoint (&corners)[4], const WarpSource& from, const War
   light(at, from, by, pixels);
 }
 
-void exactCell(const WarpPoint (&points)[kCellPixels], const WarpSource& from, const WarpLight& by,
+void exactCell(const WarpPoint (&points)[kCellPixels], const FacetPixels& from, const WarpLight& by,
                std::uint32_t (&pixels)[kCellPixels]) {
   CellPlaces at;
   for (int i = 0; i < kCellPixels; ++i) {

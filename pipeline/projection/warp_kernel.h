@@ -25,7 +25,7 @@ struct WarpLight {
 };
 
 /// The picture of a facet (height x width x 4), sRGB.
-struct WarpSource {
+struct FacetPixels {
   const std::uint8_t* rgba = nullptr;
   std::uint32_t width = 0, height = 0;  ///< at least 2 each
 };
@@ -39,10 +39,10 @@ struct WarpPoint {
 struct WarpKernels {
   const char* name;
   /// The 8 x 8 pixels of a cell from its corners: upper left, upper right, lower left, lower right.
-  void (*smooth)(const WarpPoint (&corners)[4], const WarpSource& from, const WarpLight& light,
+  void (*smooth)(const WarpPoint (&corners)[4], const FacetPixels& from, const WarpLight& light,
                  std::uint32_t (&pixels)[64]);
   /// The 8 x 8 pixels of a cell from a point for each.
-  void (*exact)(const WarpPoint (&points)[64], const WarpSource& from, const WarpLight& light,
+  void (*exact)(const WarpPoint (&points)[64], const FacetPixels& from, const WarpLight& light,
                 std::uint32_t (&pixels)[64]);
 };
 
