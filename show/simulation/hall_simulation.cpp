@@ -342,13 +342,14 @@ private:
       result_.reason = reason;
       return true;
     };
+    const char* const curve = "its light does not follow the curve that the wall file states";
+    // A wrong curve changes the colours that tell directions, and a wrong place does not change light where no
+    // other projector reaches. So that light is looked at first.
+    if (named(outlier([](const ProjectorFigures& p) { return p.alone.mean(); }, 0.01), curve)) return;
     if (named(outlier([](const ProjectorFigures& p) { return p.geometry.mean(); }, 0.3),
               "its pixels are not where the wall file says"))
       return;
-    named(
-        outlier([](const ProjectorFigures& p) { return (p.alone.count > 0 ? p.alone : p.luminance).mean(); },
-                0.01),
-        "its light does not follow the curve that the wall file states");
+    named(outlier([](const ProjectorFigures& p) { return p.luminance.mean(); }, 0.01), curve);
   }
 
   const SimulationSettings& settings_;
