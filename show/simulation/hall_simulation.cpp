@@ -437,6 +437,11 @@ double SimulationResult::uncoveredShare() const {
 
 Result<SimulationResult> simulateHall(const WallFile& hall, PictureSource& source,
                                       const SimulationSettings& settings) {
+  const auto isProjector = [](const WallEntry& e) { return e.projector.has_value(); };
+  if (std::ranges::none_of(hall.walls, isProjector))
+    return Result<SimulationResult>::failure(
+        hall.file +
+        " has no projector, so there is nothing to simulate: a flat wall shows its picture as it is");
   WallFile real = hall;
   if (auto problem = spoil(real, settings.faults)) return std::move(*problem);
   return Simulation(real, source, settings).run();

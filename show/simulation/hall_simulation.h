@@ -95,7 +95,7 @@ struct SimulationResult {
   double uncoveredShare() const;
 };
 
-/// Returns an error if a fault names no projector, or moves one without a lens.
+/// Returns an error if the hall has no projector, or a fault names none or moves one without a lens.
 Result<SimulationResult> simulateHall(const WallFile& hall, PictureSource& source,
                                       const SimulationSettings& settings);
 

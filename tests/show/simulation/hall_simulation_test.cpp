@@ -240,5 +240,11 @@ TEST(HallSimulation, PlacesHeadsWithinTheVisitorsReach) {
   EXPECT_GT(farthest, 0.6 * visitor.reach);
 }
 
+TEST(HallSimulation, OfFlatWallsIsAnError) {
+  const WallFile flat = simulatedFile("wall a lower-left -1 1 0 lower-right 1 1 0 upper-left -1 1 2\n");
+  test::IdealPictures source(flat, true);
+  EXPECT_FALSE(simulateHall(flat, source, {}));
+}
+
 }  // namespace
 }  // namespace stadion

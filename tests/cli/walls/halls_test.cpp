@@ -1,0 +1,73 @@
+/// Halls from the command line: simulation, patterns, projectors, conversion.
+
+#include "tests/programs/program.h"
+
+#include <filesystem>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+namespace stadion {
+namespace {
+
+nlohmann::json simulated(std::vector<std::string> more) {
+  std::vector<std::string> words{"walls", "cylinder-180", "--simulate", "--every", "32", "--json"};
+  words.insert(words.end(), more.begin(), more.end());
+  const auto r = stadionProgram(words);
+  EXPECT_EQ(r.status, 0) << r.err;
+  return nlohmann::json::parse(r.out);
+}
+
+TEST(ProgramHalls, SimulationFindsNoErrorAndNamesFaults) {
+  const nlohmann::json ideal = simulated({});
+  EXPECT_LT(ideal["geometry_error_px_max"], 0.5);
+  EXPECT_LT(ideal["luminance_error_max"], 0.01);
+  EXPECT_EQ(ideal["uncovered_fraction"], 0);
+  EXPECT_EQ(ideal["suspect"], "");
+  const nlohmann::json moved = simulated({"--moved", "p2", "0.01", "0", "0"});
+  EXPECT_EQ(moved["suspect"], "p2");
+  EXPECT_EQ(moved["reason"], "its pixels are not where the wall file says");
+  const nlohmann::json gamma = simulated({"--wrong-gamma", "p3", "1.8"});
+  EXPECT_EQ(gamma["suspect"], "p3");
+  EXPECT_EQ(gamma["reason"], "its light does not follow the curve that the wall file states");
+}
+
+TEST(ProgramHalls, PatternsAndPicturesOfTheSimulationAreFiles) {
+  const TestFolder folder;
+  const std::string out = folder.path() / "out";
+  for (const char* kind : {"room", "pixels", "blend", "gamma", "bars"}) {
+    const auto r =
+        stadionProgram({"walls", "cylinder-180", "--pattern", "--pattern-kind", kind, "--out", out});
+    EXPECT_EQ(r.status, 0) << r.err;
+    EXPECT_TRUE(std::filesystem::exists(out + "/p3-left.png")) << kind;
+  }
+  EXPECT_EQ(stadionProgram({"walls", "cylinder-180", "--simulate", "--every", "64", "--out", out}).status, 0);
+  for (const char* name : {"inside.png", "errors.png", "above.png"})
+    EXPECT_TRUE(std::filesystem::exists(out + "/" + name)) << name;
+}
+
+TEST(ProgramHalls, WrittenAsMpcdiReadBackAsTheSameHall) {
+  const TestFolder folder;
+  const std::string mpcdi = folder.path() / "hall.mpcdi", walls = folder.path() / "hall.walls";
+  EXPECT_EQ(stadionProgram({"walls", "cylinder-180", "--write", mpcdi}).status, 0);
+  EXPECT_EQ(stadionProgram({"walls", mpcdi, "--write", walls}).status, 0);
+  const auto plan = stadionProgram({"walls", "cylinder-180"}).out,
+             again = stadionProgram({"walls", walls}).out;
+  EXPECT_EQ(plan.substr(0, plan.find("threads:")), again.substr(0, again.find("threads:")));
+}
+
+TEST(ProgramHalls, WrongRequestsEndWithTwo) {
+  for (const std::vector<std::string>& words :
+       {std::vector<std::string>{"walls", "cave4", "--simulate"},
+        {"walls", "cylinder-180", "--simulate", "--moved", "nosuch", "1", "2", "3"},
+        {"walls", "cylinder-180", "--simulate", "--moved", "p1", "1", "2", "far"},
+        {"walls", "cylinder-180", "--simulate", "--wrong-gamma", "p1", "99"},
+        {"projectors", "cylinder-180", "on"},
+        {"projectors", "cylinder-180", "on", "nosuch"}}) {
+    const auto r = stadionProgram(words);
+    EXPECT_EQ(r.status, 2) << words[0] << ' ' << words[2];
+    EXPECT_FALSE(r.err.empty());
+  }
+}
+
+}  // namespace
+}  // namespace stadion
