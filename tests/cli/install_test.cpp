@@ -90,7 +90,7 @@ TEST_F(ProgramInstall, BashCompletesAValue) {
   };
   EXPECT_EQ(completed("run --pace = f", "4"), "free float\n");
   EXPECT_EQ(completed("run --pace =", "3"), "free lock float\n");
-  EXPECT_EQ(completed("run --walls cave", "3"), "cave4 cave6\n");
+  EXPECT_EQ(completed("run --walls cave", "3"), "cave-blended cave4 cave6\n");
 }
 
 TEST_F(ProgramInstall, NamesNoPathOfTheCheckout) {
