@@ -69,10 +69,7 @@ int switchProjectors(const ProjectorsOptions& o) {
   const auto ordered =
       hall ? orderProjectors(*hall, orderOf(o.order), o.names, patience, findings) : std::nullopt;
   printFindings(findings);
-  if (!ordered) {
-    if (o.json) printJson({{"ok", false}, {"findings", jsonOf(findings)}});
-    return kBadInput;
-  }
+  if (!ordered) return kBadInput;
   bool good = true;
   nlohmann::ordered_json all = nlohmann::ordered_json::array();
   for (const OrderedProjector& p : *ordered) {

@@ -233,7 +233,7 @@ TEST(ProgramCompletion, KnowsCommandsOptionsAndValues) {
     words.insert(words.begin(), "complete");
     return stadionProgram(words).out;
   };
-  EXPECT_EQ(complete({"pr"}), "profile\n");
+  EXPECT_EQ(complete({"pr"}), "profile\nprojectors\n");
   EXPECT_EQ(complete({"run", "--trace-"}), "--trace-frames\n--trace-limit\n");
   EXPECT_EQ(complete({"run", "a.evs", "--mode", ""}), "pipelined\nsequential\n");
   EXPECT_EQ(complete({"plan", "--mode", "a"}), "all\n");
