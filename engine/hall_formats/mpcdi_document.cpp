@@ -24,7 +24,7 @@ std::string lower(std::string_view text) {
   return result;
 }
 
-std::string_view trimmed(std::string_view text) {
+std::string_view withoutBlanks(std::string_view text) {
   const std::size_t first = text.find_first_not_of(" \t\r\n");
   if (first == std::string_view::npos) return {};
   return text.substr(first, text.find_last_not_of(" \t\r\n") - first + 1);
@@ -157,7 +157,7 @@ private:
   }
 
   double number(const pugi::xml_node& node, std::string_view text, const std::string& what) {
-    const auto value = NumberLine::numberIn(trimmed(text));
+    const auto value = NumberLine::numberIn(withoutBlanks(text));
     if (value && std::fabs(*value) < 1e7) return *value;
     refuse(node, fmt::format("{} must be a number below 1e7, not {}", what, quotedWord(text)));
     return 0;
@@ -172,7 +172,7 @@ private:
     return 0;
   }
   static std::string childText(const pugi::xml_node& node, std::string_view name) {
-    return std::string(trimmed(child(node, name).text().get()));
+    return std::string(withoutBlanks(child(node, name).text().get()));
   }
 
   void head(const pugi::xml_node& root) {

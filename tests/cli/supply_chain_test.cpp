@@ -17,15 +17,15 @@ namespace {
 
 using Json = nlohmann::json;
 
-const std::string kRoot = STADION_SOURCE_DIR;
+const std::string kSourceRoot = STADION_SOURCE_DIR;
 
 TEST(SupplyChain, EveryPackageThatTheLauncherInstallsIsListedWithItsLicence) {
-  const std::string launcher = fileContent(kRoot + "/stadion");
+  const std::string launcher = fileContent(kSourceRoot + "/stadion");
   const std::size_t from = launcher.find("packages=\"") + 10;
   std::string packages = launcher.substr(from, launcher.find('"', from) - from);
   packages = std::regex_replace(packages, std::regex("\\\\"), " ");
   std::set<std::string> listed;
-  std::istringstream table(fileContent(kRoot + "/docs/dependencies.md"));
+  std::istringstream table(fileContent(kSourceRoot + "/docs/dependencies.md"));
   for (std::string line; std::getline(table, line);) {
     if (!line.starts_with("| ")) continue;
     std::istringstream names(line.substr(2, line.find(" |") - 2));
@@ -56,8 +56,8 @@ std::map<std::string, std::string> packagesOf(const std::set<std::string>& files
 /// What a run that draws has loaded is in it.
 void expectLoadedLibrariesIn(const std::set<std::string>& names) {
   std::set<std::string> libraries;
-  RunningProgram run({{stadionPath(), "run", kRoot + "/scripts/olympia.evs", "--size", "32x24", "--walls",
-                       "desktop", "--input", "none", "--gl", "osmesa"},
+  RunningProgram run({{stadionPath(), "run", kSourceRoot + "/scripts/olympia.evs", "--size", "32x24",
+                       "--walls", "desktop", "--input", "none", "--gl", "osmesa"},
                       {"ALSOFT_DRIVERS=null"}});
   ASSERT_TRUE(run.says("sound: OpenAL")) << run.err();
   std::istringstream maps(procText(run.pid(), "maps"));
@@ -72,7 +72,7 @@ void expectLoadedLibrariesIn(const std::set<std::string>& names) {
 }
 
 TEST(ProgramSupplyChain, TheBillOfMaterialsIsWellFormedAndNamesWhatIsLinkedOrLoaded) {
-  const ProgramResult r = runProgram({{kRoot + "/packaging/sbom.sh", STADION_BINARY_DIR}});
+  const ProgramResult r = runProgram({{kSourceRoot + "/packaging/sbom.sh", STADION_BINARY_DIR}});
   ASSERT_EQ(r.status, 0) << r.err;
   const Json bill = Json::parse(r.out, nullptr, false);
   ASSERT_TRUE(bill.is_object()) << r.out;
