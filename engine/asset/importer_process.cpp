@@ -12,6 +12,8 @@
 
 #include <cerrno>
 #include <cstring>
+#include <string>
+#include <vector>
 
 extern char** environ;
 
@@ -120,6 +122,29 @@ struct SpawnSettings {
   SpawnSettings& operator=(const SpawnSettings&) = delete;
 };
 
+/// The environment of this process and, unless it says otherwise, large pages for large blocks of memory. assimp
+/// fills 16 MiB anew for each OBJ file and each of its libraries: with pages of 4 KiB that takes ten times as long.
+class ImporterEnvironment {
+public:
+  ImporterEnvironment() {
+    bool told = false;
+    for (char** variable = environ; *variable; ++variable) {
+      variables_.push_back(*variable);
+      told |= std::strncmp(*variable, kTunables, std::strlen(kTunables)) == 0;
+    }
+    if (!told) variables_.push_back(largePages_.data());
+    variables_.push_back(nullptr);
+  }
+  ImporterEnvironment(const ImporterEnvironment&) = delete;
+  ImporterEnvironment& operator=(const ImporterEnvironment&) = delete;
+  char* const* variables() const { return variables_.data(); }
+
+private:
+  static constexpr const char* kTunables = "GLIBC_TUNABLES=";
+  std::string largePages_ = std::string(kTunables) + "glibc.malloc.hugetlb=1";
+  std::vector<char*> variables_;
+};
+
 }  // namespace
 
 // Empty, or why the program cannot be started.
@@ -131,8 +156,9 @@ std::string ImporterProcess::start() {
   std::string name = program_.string();
   char* arguments[] = {name.data(), nullptr};
   pid_t pid = 0;
-  const int error =
-      ::posix_spawn(&pid, name.c_str(), &settings.files, &settings.attributes, arguments, environ);
+  const ImporterEnvironment environment;
+  const int error = ::posix_spawn(&pid, name.c_str(), &settings.files, &settings.attributes, arguments,
+                                  environment.variables());
   if (error != 0) return std::strerror(error);
   pid_ = pid;
   socket_ = std::move(ours);
