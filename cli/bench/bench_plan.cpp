@@ -5,6 +5,7 @@
 #include "cli/options/renderer_options.h"
 #include "cli/terminal.h"
 #include "engine/base/installed_files.h"
+#include "engine/hall_formats/hall_import.h"
 #include "engine/maths/median.h"
 #include "profiling/plan/forecast.h"
 #include "show/base/stop_signal.h"
@@ -25,13 +26,13 @@ namespace {
 
 struct BenchPlanOptions {
   std::vector<std::string> shows;
-  std::vector<std::size_t> walls{1, 2, 4, 6};
-  std::string size = "240x180";
+  std::vector<std::size_t> counts;  ///< of walls; none: 1, 2, 4 and 6, or all of a hall
+  std::string walls = "cave6", size = "240x180";
   std::uint64_t frames = 24;
   std::size_t rounds = 5;
   double within = 15;  ///< [%]
   RendererOptions renderer;
-  bool json = false;
+  bool processes = false, json = false;
 };
 
 /// One number of walls, in one mode.
@@ -61,13 +62,15 @@ public:
   bool run(const std::string& script, Diagnostics& findings, bool& met) {
     PlanRunOptions options;
     options.show.script = script;
-    options.show.walls = "cave6";
+    options.show.walls = o_.walls;
+    options.processes = o_.processes;
     options.show.size = o_.size;
     options.show.frames = o_.frames;
     if (!options.show.complete(findings)) return false;
     std::vector<Combination> combinations;
-    for (const std::size_t walls : o_.walls)
-      for (const Mode mode : {Mode::Sequential, Mode::Pipelined}) combinations.push_back({walls, mode});
+    for (const std::size_t walls : o_.counts)
+      for (const Mode mode : {Mode::Sequential, Mode::Pipelined})
+        if (mode == Mode::Pipelined || !o_.processes) combinations.push_back({walls, mode});
     const double before = loadNow();
     if (!lengthen(options, findings)) return false;
     // In turns, and what is predicted from beside what is to come: machines are not as fast at all times.
@@ -89,7 +92,7 @@ public:
 private:
   /// What `stadion plan` says now.
   std::optional<plan::Forecast> predict(PlanRunOptions options, const Combination& c, Diagnostics& findings) {
-    options.walls = *std::ranges::max_element(o_.walls);
+    options.walls = *std::ranges::max_element(o_.counts);
     MeasuredCosts costs;
     if (!measureCosts(options, renderer_, terminal_, costs, findings)) return {};
     plan::Plan p;
@@ -98,6 +101,7 @@ private:
     p.waitsInTurn = costs.waitsInTurn;
     p.frames = options.show.frames;
     p.walls = c.walls;
+    p.rasterisers = o_.processes ? c.walls : 1;
     p.pipelined = c.mode == Mode::Pipelined;
     return plan::forecastOf(plan::scheduleOf(plan::plannedCosts(costs.runs), p), p);
   }
@@ -105,7 +109,7 @@ private:
   /// Short runs say little: they last as many frames as are asked for, and a second.
   bool lengthen(PlanRunOptions& options, Diagnostics& findings) {
     constexpr double kShortest = 1000;  // [ms]
-    const Combination least{*std::ranges::min_element(o_.walls), Mode::Pipelined};
+    const Combination least{*std::ranges::min_element(o_.counts), Mode::Pipelined};
     const auto forecast = predict(options, least, findings);
     if (!forecast) return false;
     const auto frames = static_cast<std::uint64_t>(kShortest / std::max(forecast->period, 0.1));
@@ -116,10 +120,11 @@ private:
   void print(const std::string& script, std::uint64_t frames, const std::vector<Combination>& combinations,
              bool& met, double loadBefore) const {
     if (!o_.json)
-      std::printf("%s, %s a wall and eye, %u cores, load %.1f to %.1f, %zu rounds of %llu frames\n"
+      std::printf("%s in %s%s, %s a wall and eye, %u cores, load %.1f to %.1f, %zu rounds of %llu frames\n"
                   "walls  mode        predicted  measured  error (of rounds)       latency  measured\n",
-                  script.c_str(), o_.size.c_str(), std::thread::hardware_concurrency(), loadBefore, loadNow(),
-                  o_.rounds, static_cast<unsigned long long>(frames));
+                  script.c_str(), o_.walls.c_str(), o_.processes ? ", a process for each wall" : "",
+                  o_.size.c_str(), std::thread::hardware_concurrency(), loadBefore, loadNow(), o_.rounds,
+                  static_cast<unsigned long long>(frames));
     for (const Combination& c : combinations) {
       using Round = Combination::Round;
       const double period = c.middleOfRounds(&Round::predicted),
@@ -136,6 +141,8 @@ private:
       if (o_.json)
         std::printf("%s\n", nlohmann::json{{"bench", "plan"},
                                            {"show", script},
+                                           {"room", o_.walls},
+                                           {"processes", o_.processes},
                                            {"walls", c.walls},
                                            {"mode", mode},
                                            {"predicted_ms", period},
@@ -160,10 +167,24 @@ private:
   TerminalReporter terminal_;
 };
 
+/// How many walls are played: 1, 2, 4 and 6 of a CAVE, all of any other room, unless the user says so.
+bool countWalls(BenchPlanOptions& o, Diagnostics& findings) {
+  const auto room = loadHall(o.walls, shareFolder() + "/walls", findings);
+  if (!room) return false;
+  if (o.counts.empty())
+    o.counts = o.walls == "cave6" ? std::vector<std::size_t>{1, 2, 4, 6} : std::vector{room->walls.size()};
+  const std::size_t most = *std::ranges::max_element(o.counts);
+  if (most > room->walls.size())
+    findings.error({}, fmt::format("--counts {}: {} has {} wall{}; name a room with more by --walls", most,
+                                   o.walls, room->walls.size(), room->walls.size() == 1 ? "" : "s"));
+  return !findings.hasErrors();
+}
+
 int benchPlan(BenchPlanOptions o) {
   if (o.shows.empty())
     o.shows = {shareFolder() + "/scripts/kick.evs", shareFolder() + "/scripts/olympia.evs"};
   Diagnostics findings;
+  if (!countWalls(o, findings)) return exitWith(findings, kBadInput);
   const RendererSettings settings = o.renderer.settings(findings);
   if (findings.hasErrors()) return exitWith(findings, kBadInput);
   const auto renderer = ShowRenderer::open(settings);
@@ -191,16 +212,19 @@ void addBenchPlan(CLI::App& bench, int& code) {
       "Does what `stadion plan` predicts come true on this machine? Measures, predicts and plays, in turns");
   CommandOptions options(*command);
   options.add("SHOW", o->shows);
-  options.add("--counts", o->walls);
+  options.add("--counts", o->counts);
+  options.add("--walls", o->walls);
+  options.add("--processes", o->processes);
   options.add("--size", o->size);
   options.add("--frames", o->frames, {.least = 12, .most = 1e5});
   options.add("--rounds", o->rounds, {.most = 99});
   options.add("--within", o->within, {.least = 0.01});
   o->renderer.addTo(*command);
   options.add("--json", o->json);
-  command->footer("Plays kick and olympia if no SHOW is named. Quick shows play at least a second. --within "
-                  "limits the error "
-                  "of the\npredicted period in the middle round.");
+  command->footer(
+      "Plays kick and olympia if no SHOW is named. Quick shows play at least a second. --within limits "
+      "the error of the\npredicted period in the middle round. With --walls, all walls of that room are "
+      "played; with --processes, each by a\nprocess of its own, pipelined.");
   command->callback([o, &code] { code = benchPlan(*o); });
 }
 

@@ -29,6 +29,8 @@ bool play(const PlanRunOptions& options, Mode mode, ShowRenderer& renderer, Repo
   loopOptions.walls = options.walls;
   ShowParts parts = player->parts(options.layout);
   parts.walls.resize(options.walls);
+  if (options.processes && !probe)
+    parts.wallProcesses = {.renderer = renderer.kind(), .rasteriserThreads = 1, .rate = player->rate()};
   renderer.drawFor(parts);
   std::optional<DrawPool> measured;  // what its threads share is not mixed with what Draw does itself
   if (probe && parts.pool) parts.pool = &measured.emplace(parts.pool->threads(), DrawPool::Callers::Wait);

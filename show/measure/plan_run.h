@@ -14,7 +14,8 @@ namespace stadion {
 struct PlanRunOptions {
   ShowOptions show;  ///< complete; `frames` says how many are looked at
   StereoLayout layout = StereoLayout::Pair;
-  std::size_t walls = 1;  ///< the first ones of the wall file
+  std::size_t walls = 1;   ///< the first ones of the wall file
+  bool processes = false;  ///< playTimes: a process for each wall draws, with one thread of the CPU renderer
 };
 
 /// The costs of a show's frames.
