@@ -131,15 +131,16 @@ std::string nameOf(const testing::TestParamInfo<HistoryCase>& show) {
 
 INSTANTIATE_TEST_SUITE_P(Program, ProgramPictureHistory,
                          testing::Values(HistoryCase{"kick", shownHere("kick.evs"), shownHere("kick.input"),
-                                                     0, 75},
+                                                     0, 48},
                                          HistoryCase{"crowd", shownHere("crowd.evs"), "none", 20, 30},
-                                         HistoryCase{"walk", "", "", 0, 120}),
+                                         HistoryCase{"walk", "", "", 0, 75}),
                          nameOf);
 INSTANTIATE_TEST_SUITE_P(
     ProgramFull, ProgramPictureHistory,
     testing::Values(HistoryCase{"kick", shownHere("kick.evs"), shownHere("kick.input"), 0, 240},
                     HistoryCase{"olympia", shownHere("olympia.evs"), shownHere("olympia.input"), 1100, 60},
-                    HistoryCase{"crowd", shownHere("crowd.evs"), "none", 20, 60}),
+                    HistoryCase{"crowd", shownHere("crowd.evs"), "none", 20, 60},
+                    HistoryCase{"walk", "", "", 0, 120}),
     nameOf);
 
 }  // namespace

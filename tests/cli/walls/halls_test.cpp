@@ -9,8 +9,18 @@
 namespace stadion {
 namespace {
 
-nlohmann::json simulated(std::vector<std::string> more) {
-  std::vector<std::string> words{"walls", "cylinder-180", "--simulate", "--every", "32", "--json"};
+/// cylinder-180 with a sixth of its pixels in each direction.
+const std::string kSmallHall =
+    "pixels 320 200\n"
+    "screen round cylinder  centre 0 0 0  radius 3  azimuth -90 90  height 0.5 2.6\n"
+    "projector p1 screen round  at 0.2598 -0.15 2.9  turn -60 0  throw 0.79  shift 0 -0.58  display-gamma "
+    "2.2\n"
+    "projector p2 screen round  at 0 -0.3 2.9  turn 0 0  throw 0.79  shift 0 -0.58  display-gamma 2.2\n"
+    "projector p3 screen round  at -0.2598 -0.15 2.9  turn 60 0  throw 0.79  shift 0 -0.58  display-gamma "
+    "2.2\n";
+
+nlohmann::json simulated(const std::string& hall, std::vector<std::string> more) {
+  std::vector<std::string> words{"walls", hall, "--simulate", "--every", "8", "--json"};
   words.insert(words.end(), more.begin(), more.end());
   const auto r = stadionProgram(words);
   EXPECT_EQ(r.status, 0) << r.err;
@@ -18,29 +28,30 @@ nlohmann::json simulated(std::vector<std::string> more) {
 }
 
 TEST(ProgramHalls, SimulationFindsNoErrorAndNamesFaults) {
-  const nlohmann::json ideal = simulated({});
+  const TestFolder folder;
+  const std::string hall = folder.write("small.walls", kSmallHall);
+  const nlohmann::json ideal = simulated(hall, {});
   EXPECT_LT(ideal["geometry_error_px_max"], 0.5);
   EXPECT_LT(ideal["luminance_error_max"], 0.01);
   EXPECT_EQ(ideal["uncovered_fraction"], 0);
   EXPECT_EQ(ideal["suspect"], "");
-  const nlohmann::json moved = simulated({"--moved", "p2", "0.01", "0", "0"});
+  const nlohmann::json moved = simulated(hall, {"--moved", "p2", "0.03", "0", "0"});
   EXPECT_EQ(moved["suspect"], "p2");
   EXPECT_EQ(moved["reason"], "its pixels are not where the wall file says");
-  const nlohmann::json gamma = simulated({"--wrong-gamma", "p3", "1.8"});
+  const nlohmann::json gamma = simulated(hall, {"--wrong-gamma", "p3", "1.8"});
   EXPECT_EQ(gamma["suspect"], "p3");
   EXPECT_EQ(gamma["reason"], "its light does not follow the curve that the wall file states");
 }
 
 TEST(ProgramHalls, PatternsAndPicturesOfTheSimulationAreFiles) {
   const TestFolder folder;
-  const std::string out = folder.path() / "out";
+  const std::string out = folder.path() / "out", hall = folder.write("small.walls", kSmallHall);
   for (const char* kind : {"room", "pixels", "blend", "gamma", "bars"}) {
-    const auto r =
-        stadionProgram({"walls", "cylinder-180", "--pattern", "--pattern-kind", kind, "--out", out});
+    const auto r = stadionProgram({"walls", hall, "--pattern", "--pattern-kind", kind, "--out", out});
     EXPECT_EQ(r.status, 0) << r.err;
     EXPECT_TRUE(std::filesystem::exists(out + "/p3-left.png")) << kind;
   }
-  EXPECT_EQ(stadionProgram({"walls", "cylinder-180", "--simulate", "--every", "64", "--out", out}).status, 0);
+  EXPECT_EQ(stadionProgram({"walls", hall, "--simulate", "--every", "16", "--out", out}).status, 0);
   for (const char* name : {"inside.png", "errors.png", "above.png"})
     EXPECT_TRUE(std::filesystem::exists(out + "/" + name)) << name;
 }
