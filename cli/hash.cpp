@@ -61,6 +61,7 @@ std::optional<StateFile> stateToCompare(const HashOptions& o, Diagnostics& findi
 
 int hashShow(const HashOptions& o) {
   ShowOptions options = o.show;
+  options.isDrawn = false;
   Diagnostics findings;
   const std::vector<NamedFile> files{{"--save-state", o.saveState},
                                      {"--compare-state", o.compareState, false}};

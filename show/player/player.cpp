@@ -194,7 +194,7 @@ FrameLoopOptions Player::loopOptions() const {
 /// count, too.
 bool Player::project(WallFile& room, Diagnostics& findings) {
   const auto isProjector = [](const WallEntry& entry) { return entry.projector.has_value(); };
-  if (std::ranges::none_of(room.walls, isProjector)) return true;
+  if (!options_.isDrawn || std::ranges::none_of(room.walls, isProjector)) return true;
   for (WallEntry& entry : room.walls) {
     if (!entry.projector || options_.size.empty()) continue;
     // --size states the width: a projector's picture keeps its shape.

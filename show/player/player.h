@@ -43,6 +43,7 @@ struct ShowOptions {
   std::vector<std::string> assetRoots;
   /// The walls of the room that are drawn here; empty = all.
   std::vector<std::string> onlyWalls;
+  bool isDrawn = true;  ///< false: a hall's projectors get no projections, which take seconds to make
   std::vector<std::string> plugins;     ///< files of node types, which `types` holds
   SharedTypes types = standardNodes();  ///< node types that the scripts may use
   std::size_t appThreads = 0;           ///< 0 = as many as there are processors, 8 at most
