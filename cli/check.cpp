@@ -1,5 +1,5 @@
-/// `stadion check SHOW...`: everything that can be found wrong without playing; `--assets PATH`: a model or every one
-/// below a folder.
+/// `stadion check FILE...`: everything that can be found wrong in shows and halls without playing; `--assets PATH`:
+/// a model or every one below a folder.
 
 #include "engine/asset/check.h"
 #include "cli/commands.h"
@@ -7,6 +7,8 @@
 #include "cli/findings_json.h"
 #include "cli/options/command_options.h"
 #include "cli/options/plugin_option.h"
+#include "engine/base/installed_files.h"
+#include "engine/hall_formats/hall_import.h"
 #include "show/player/show_check.h"
 #include "show/player/show_of_part.h"
 
@@ -27,6 +29,17 @@ Diagnostics inFiles(const std::set<std::filesystem::path>& files, const Diagnost
     if (d.where.file.empty() || files.contains(std::filesystem::weakly_canonical(d.where.file, error)))
       own.add(d);
   return own;
+}
+
+/// True if the file describes a hall, not a show.
+bool isHall(const std::string& file) {
+  return file.ends_with(".walls") || isForeignHall(file);
+}
+
+Diagnostics findingsOfHall(const std::string& file) {
+  Diagnostics findings;
+  loadHall(file, shareFolder() + "/walls", findings);
+  return findings;
 }
 
 /// Returns the findings of one script. A script that a show loads (`around`) is checked as a part of that
@@ -121,8 +134,9 @@ int checkEach(const std::vector<std::string>& files, const std::vector<std::stri
   for (const std::string& file : files) {
     const bool watched = isatty(2) == 1;
     if (watched) std::fprintf(stderr, "checking %s ...", file.c_str());
-    const std::optional<std::string> around = showAround(file, roots, *types);
-    const Diagnostics findings = findingsOf(file, around, roots, types);
+    const bool hall = isHall(file);
+    const auto around = hall ? std::nullopt : showAround(file, roots, *types);
+    const Diagnostics findings = hall ? findingsOfHall(file) : findingsOf(file, around, roots, types);
     if (watched) std::fprintf(stderr, "\r\x1b[K");
     report.add(file, around, findings);
   }
@@ -150,15 +164,18 @@ void addCheckCommand(CLI::App& app, int& code) {
     bool json = false;
   };
   auto o = std::make_shared<Options>();
-  CLI::App* command = app.add_subcommand("check", "Look for mistakes in scripts and assets; draws nothing");
+  CLI::App* command =
+      app.add_subcommand("check", "Look for mistakes in scripts, assets and halls; draws nothing");
   CommandOptions options(*command);
   options.add("SHOW", o->scripts);
   options.add("--assets", o->models);
   options.add("--asset-root", o->roots);
   addPluginOption(*command, o->plugins, o->types);
   options.add("--json", o->json);
-  command->footer("Sub-scenes and assets that a script names are checked with it. A script that a show loads "
-                  "is checked in that show.");
+  command->footer(
+      "Sub-scenes and assets that a script names are checked with it. A script that a show loads "
+      "is checked in that show.\nA file whose name ends in .walls, or as halls of other programs do "
+      "(.mpcdi, .json, .cfg), is checked as a hall.");
   command->callback([o, &code] {
     if (o->scripts.empty() && o->models.empty()) {
       const char* wrong = "name a script, or a model or folder with --assets PATH";

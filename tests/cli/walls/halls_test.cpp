@@ -66,6 +66,18 @@ TEST(ProgramHalls, WrittenAsMpcdiReadBackAsTheSameHall) {
   EXPECT_EQ(plan.substr(0, plan.find("threads:")), again.substr(0, again.find("threads:")));
 }
 
+TEST(ProgramHalls, AreCheckedAsShowsAre) {
+  const TestFolder folder;
+  const auto good = stadionProgram({"check", folder.write("small.walls", kSmallHall)});
+  EXPECT_EQ(good.status, 0) << good.err;
+  EXPECT_NE(good.out.find("small.walls: ok"), std::string::npos) << good.out;
+  const auto wrong = stadionProgram(
+      {"check", folder.write("wrong.walls", "projector p screen a pixels 9 9 at 0 0 1 turn 0 0 throw 1\n")});
+  EXPECT_EQ(wrong.status, 2);
+  EXPECT_NE(wrong.out.find("wrong.walls:1:20: error: there is no screen \"a\""), std::string::npos)
+      << wrong.out;
+}
+
 TEST(ProgramHalls, WrongRequestsEndWithTwo) {
   for (const std::vector<std::string>& words :
        {std::vector<std::string>{"walls", "cave4", "--simulate"},
