@@ -104,6 +104,7 @@ int playShow(const RunOptions& o, Reporter& terminal, Diagnostics findings) {
 int runShow(RunOptions o) try {
   Diagnostics findings;
   if (!o.complete(findings)) return exitWith(findings, kBadInput);
+  o.settings.supervision.service = ServiceAddress::ofEnvironment();
   TerminalReporter terminal;
   if (o.supervise) {
     printFindings(findings);

@@ -109,6 +109,7 @@ void OperatorConsole::writeDown(std::uint64_t frame, const OperatorCommand& comm
 }
 
 void OperatorConsole::pictureSeen() {
+  if (seen) seen();
   if (!controls_->pictureSeen()) return;
   say(fmt::format("group {} begins: reset in {:.2f} s, first picture after {:.2f} s; up {}", groups(),
                   seconds(ready_ - asked_), seconds(Clock::now() - asked_), clockText(uptime())));

@@ -50,6 +50,9 @@ public:
   void silence();
 
   void addTo(ShowParts& parts, FrameLoopOptions& loop);
+  /// Learns of each picture that is visible: in a window, if the walls have windows. On the thread that calls
+  /// pictureSeen().
+  std::function<void()> seen;
   /// Learns what the operator has decided, whenever that has changed; on the App thread.
   std::function<void(const OperatorState&)> changed;
   const OperatorState& state() const { return controls_->state(); }

@@ -201,6 +201,7 @@ bool OpenSession::waitForScript() {
     }
     if (files.changed()) return true;
     if (state_.supervised) state_.supervised->shown();  // a player that waits does not hang
+    if (state_.service) state_.service->alive();
     std::this_thread::sleep_for(kLookAgain);
   }
 }

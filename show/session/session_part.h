@@ -31,6 +31,7 @@ struct SessionState {
 
   RunJournal* journal = nullptr;
   SupervisedPlayer* supervised = nullptr;
+  ServiceNotifier* service = nullptr;
   ClusterSession* cluster = nullptr;
   OutputFolder* folder = nullptr;
   OperatorConsole* console = nullptr;

@@ -6,7 +6,7 @@ namespace stadion {
 
 MakeSessionPart makeJournalPart, makeWatchPart, makeSpansPart, makeWorkCountPart, makeRecordingPart,
     makeConsolePart, makeDisplaysPart, makeClusterMemberPart, makeSupervisionPart, makePicturesPart,
-    makeHashStreamPart;
+    makeHashStreamPart, makeServicePart;
 
 std::vector<std::unique_ptr<SessionPart>> makeSessionParts(SessionState& session, Diagnostics& findings) {
   std::vector<std::unique_ptr<SessionPart>> parts;
@@ -20,6 +20,7 @@ std::vector<std::unique_ptr<SessionPart>> makeSessionParts(SessionState& session
            makeDisplaysPart,       // windows on the walls' real outputs
            makeClusterMemberPart,  // the other machines, which may decide how the show goes on
            makeSupervisionPart,    // the supervisor, likewise
+           makeServicePart,        // the service manager, if there is no supervisor
            makePicturesPart,       // pictures, video, tables
            makeHashStreamPart,     // after those that take pictures: it hands them on
        }) {

@@ -13,6 +13,7 @@
 #include <cstring>
 #include <thread>
 #include <unistd.h>
+#include <utility>
 
 namespace stadion {
 namespace {
@@ -21,13 +22,6 @@ using Phase = SharedProgress::Phase;
 using std::chrono::milliseconds;
 
 constexpr milliseconds kLook{10};
-
-/// False: `stop` came.
-bool pauseFor(milliseconds time, const std::atomic<bool>& stop) {
-  const auto end = std::chrono::steady_clock::now() + time;
-  while (!stop && std::chrono::steady_clock::now() < end) std::this_thread::sleep_for(kLook);
-  return !stop;
-}
 
 }  // namespace
 
@@ -53,6 +47,7 @@ std::unique_ptr<Supervisor> Supervisor::create(const SupervisionSettings& settin
     }
     made->journal_ = std::move(opened.value());
   }
+  made->service_ = ServiceNotifier::open(settings.service);
   made->hangs_ = fromSeconds(settings.hangAfter);
   made->words_ = words(progress.value()->descriptor());
   made->progress_ = std::move(progress.value());
@@ -64,10 +59,31 @@ Supervisor::~Supervisor() = default;
 void Supervisor::say(const std::string& line) {
   reporter_.hint("supervise: " + line);
   const SharedProgress::Moment at = progress_->newest();
+  if (service_) service_->status(line);
   if (!journal_) return;
   const auto why = journal_->add(
       "supervise: " + line, at.clock > 0 ? std::optional(Journal::Place{at.time, at.frame}) : std::nullopt);
   if (why) reporter_.hint("supervise: --journal: " + *why + "; lines are lost");
+}
+
+/// False: `stop` came.
+bool Supervisor::pauseFor(milliseconds time, const std::atomic<bool>& stop) {
+  const auto end = std::chrono::steady_clock::now() + time;
+  while (!stop && std::chrono::steady_clock::now() < end) {
+    if (service_) service_->alive();
+    std::this_thread::sleep_for(kLook);
+  }
+  return !stop;
+}
+
+/// While the show plays, only a finished frame is a sign of life. While it opens, `watch` has a limit of its
+/// own.
+void Supervisor::tellService(const HangWatch& watch) {
+  if (!service_) return;
+  if (progress_->phase() != Phase::Playing || !watch.shows()) return service_->alive();
+  const std::uint64_t shown = progress_->framesShown();
+  if (shown == std::exchange(told_, shown)) return;
+  service_->pictureShown("plays");
 }
 
 std::optional<Supervisor::End> Supervisor::playOnce(const std::atomic<bool>& stop) {
@@ -91,7 +107,11 @@ std::optional<Supervisor::End> Supervisor::playOnce(const std::atomic<bool>& sto
       say(fmt::format("pictures again, after {:.2f} s without", toSeconds(progress_->lastShown() - gone_)));
       gone_ = 0;
     }
-    if (stop && !forwarded) kill(player.pid(), stopSignal());
+    tellService(watch);
+    if (stop && !forwarded) {
+      kill(player.pid(), stopSignal());
+      if (service_) service_->stopping();
+    }
     forwarded = stop;
     end.hung = watch.hangs().value_or(0);
     if (end.hung == 0) continue;

@@ -57,11 +57,15 @@ private:
   std::optional<End> playOnce(const std::atomic<bool>& stop);
   bool isDeath(const End& end, bool stopped) const;
   std::string howOf(const End& end) const;
+  void tellService(const HangWatch& watch);
+  bool pauseFor(std::chrono::milliseconds time, const std::atomic<bool>& stop);
   void say(const std::string& line);
 
   Reporter& reporter_;
   std::unique_ptr<SharedProgress> progress_;
   std::unique_ptr<Journal> journal_;
+  std::unique_ptr<ServiceNotifier> service_;  ///< null: no service manager asks
+  std::uint64_t told_ = 0;                    ///< frames that the service manager has been told of
   Nanoseconds hangs_ = 0;
   std::vector<std::string> words_;
   Terminal terminal_;

@@ -12,6 +12,10 @@ public:
     session.supervised = supervised_.get();
   }
 
+  bool opened(Diagnostics&) override {
+    session_.console->seen = [this] { supervised_->shown(); };
+    return true;
+  }
   void beforeFrames(ShowParts&, FrameLoopOptions& loop) override {
     supervised_->goOn(loop, *session_.console, *session_.watch);
     session_.player->tellWaiting([this](bool waits) {  // a show that waits for files does not hang
@@ -22,7 +26,6 @@ public:
   void afterFrame(const TimeSignature& now, const InputSample&, const Scene&) override {
     supervised_->simulated(now, session_.player->scene(), *session_.watch, session_.loop->catchesUp());
   }
-  void shown() override { supervised_->shown(); }
   void ended(EndedLoop&) override { supervised_->enter(SharedProgress::Phase::Ending); }
   void following(NextShow next, Diagnostics&) override {
     if (next == NextShow::Rejoined) return;
