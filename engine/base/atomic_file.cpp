@@ -101,6 +101,13 @@ void AtomicFile::write(const void* bytes, std::size_t count) {
   if (std::fwrite(bytes, 1, count, file_) != count) fail(std::strerror(errno));
 }
 
+void AtomicFile::overwrite(long at, std::string_view bytes) {
+  if (failed() || !file_) return;
+  if (std::fseek(file_, at, SEEK_SET) != 0) return fail(std::strerror(errno));
+  write(bytes);
+  if (!failed() && std::fseek(file_, 0, SEEK_END) != 0) fail(std::strerror(errno));
+}
+
 void AtomicFile::fail(const std::string& why) {
   if (error_) return;
   Diagnostic& d = error_.emplace();

@@ -37,6 +37,8 @@ public:
 
   void write(const void* bytes, std::size_t count);
   void write(std::string_view text) { write(text.data(), text.size()); }
+  /// Replaces bytes that were written, such as sizes in a heading. Fails if the target is a pipe.
+  void overwrite(long at, std::string_view bytes);
   /// Records a failure from elsewhere (an encoder, for instance), so that commit() discards the file.
   void fail(const std::string& why);
   bool failed() const { return error_.has_value(); }

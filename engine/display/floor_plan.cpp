@@ -1,5 +1,6 @@
 #include "engine/display/output_reader.h"
 #include "engine/display/wall_lint.h"
+#include "engine/loudspeakers/loudspeaker_text.h"
 #include "engine/maths/angles.h"
 #include "engine/maths/functions.h"
 
@@ -135,7 +136,8 @@ public:
     for (std::size_t i = 0; i < hall_.walls.size(); ++i) number(i);
     std::string text = sheet_.text() + legend();
     for (std::size_t i = 0; i < hall_.walls.size(); ++i) text += listed(i);
-    return text;
+    const std::string loudspeakers = listLoudspeakers(hall_.loudspeakers);
+    return loudspeakers.empty() ? text : text + '\n' + loudspeakers;
   }
 
 private:

@@ -2,6 +2,7 @@
 
 #include "engine/display/covered_rectangle.h"
 #include "engine/display/screen_coverage.h"
+#include "engine/loudspeakers/loudspeaker_text.h"
 
 #include <fmt/format.h>
 
@@ -163,6 +164,7 @@ private:
 
 void lintHall(const WallFile& hall, Diagnostics& out) {
   HallLinter(hall, out).run();
+  lintLoudspeakers(hall.loudspeakers, hall.file, out);
 }
 
 }  // namespace stadion

@@ -7,6 +7,7 @@
 #include "engine/display/output_reader.h"
 #include "engine/display/wall_lint.h"
 #include "engine/display/wall_words.h"
+#include "engine/loudspeakers/loudspeaker_text.h"
 #include "engine/plain_text/statement_reader.h"
 #include "engine/plain_text/suggestion.h"
 
@@ -25,12 +26,16 @@ constexpr std::size_t kMaxFileBytes = 4 << 20;
 class WallParser {
 public:
   WallParser(std::string_view text, const std::string& file, Diagnostics& out)
-      : in_(text, file, out), lengths_(in_), hall_(in_, lengths_, walls_) {
+      : in_(text, file, out), lengths_(in_), hall_(in_, lengths_, walls_),
+        loudspeakers_(
+            in_, [this](std::string_view of, Vec3& target) { return lengths_.point(of, target); },
+            walls_.loudspeakers) {
     walls_.file = file;
   }
 
   std::optional<WallFile> run() {
-    while (!tooMany_ && !hall_.tooMany() && in_.next()) in_.read(*this, kStatements);
+    while (!tooMany_ && !hall_.tooMany() && !loudspeakers_.tooMany() && in_.next())
+      in_.read(*this, kStatements);
     if (in_.failed()) return std::nullopt;
     if (walls_.walls.empty()) {
       in_.errorOfFile(walls_.screens.empty()
@@ -44,11 +49,13 @@ public:
       if (entry.pixels.width == 0) entry.pixels = pixels_;
     const bool shown = giveOutputs();
     if (!hall_.finish() || !shown) return std::nullopt;
+    walls_.loudspeakers.ear = walls_.visitor.eye;
+    walls_.loudspeakers.reach = walls_.visitor.reach;
     return std::move(walls_);
   }
 
 private:
-  static const Statement<WallParser> kStatements[11];
+  static const Statement<WallParser> kStatements[13];
   static const StatementField<WallParser> kFields[5];
 
   void unit() {
@@ -92,6 +99,8 @@ private:
   void projector() { hall_.projector(); }
   void visitor() { hall_.visitor(); }
   void control() { hall_.control(); }
+  void loudspeaker() { loudspeakers_.loudspeaker(); }
+  void sound() { loudspeakers_.sound(); }
 
   // The fields of a wall; they fill entry_ and corners_.
 
@@ -186,6 +195,7 @@ private:
   LengthReader lengths_;
   WallFile walls_;
   HallReader hall_;
+  LoudspeakerReader loudspeakers_;
   PixelSize pixels_;
   WallEntry entry_;                ///< the wall of this line
   std::array<bool, 3> corners_{};  ///< which of its corners the line has
@@ -193,17 +203,20 @@ private:
   bool tooMany_ = false;  ///< walls or outputs
 };
 
-constexpr Statement<WallParser> WallParser::kStatements[11] = {{"wall", &WallParser::wall, true},
-                                                               {"output", &WallParser::output, true},
-                                                               {"unit", &WallParser::unit},
-                                                               {"eye-separation", &WallParser::eyeSeparation},
-                                                               {"near", &WallParser::near},
-                                                               {"far", &WallParser::far},
-                                                               {"pixels", &WallParser::pixels},
-                                                               {"screen", &WallParser::screen, true},
-                                                               {"projector", &WallParser::projector, true},
-                                                               {"visitor", &WallParser::visitor},
-                                                               {"control", &WallParser::control, true}};
+constexpr Statement<WallParser> WallParser::kStatements[13] = {
+    {"wall", &WallParser::wall, true},
+    {"output", &WallParser::output, true},
+    {"unit", &WallParser::unit},
+    {"eye-separation", &WallParser::eyeSeparation},
+    {"near", &WallParser::near},
+    {"far", &WallParser::far},
+    {"pixels", &WallParser::pixels},
+    {"screen", &WallParser::screen, true},
+    {"projector", &WallParser::projector, true},
+    {"visitor", &WallParser::visitor},
+    {"control", &WallParser::control, true},
+    {"loudspeaker", &WallParser::loudspeaker, true},
+    {"sound", &WallParser::sound}};
 
 constexpr StatementField<WallParser> WallParser::kFields[5] = {{"lower-left", &WallParser::lowerLeft},
                                                                {"lower-right", &WallParser::lowerRight},
@@ -290,7 +303,7 @@ std::string formatWalls(const WallFile& walls) {
   const double unit = named ? walls.metresPerUnit : 1;
   std::string text = fmt::format("unit {}\neye-separation {}\nnear {}\nfar {}\n", unitName(unit),
                                  walls.eyeSeparation / unit, walls.depth.near / unit, walls.depth.far / unit);
-  if (!walls.screens.empty()) text += formatVisitor(walls.visitor, unit);
+  if (!walls.screens.empty() || !walls.loudspeakers.empty()) text += formatVisitor(walls.visitor, unit);
   for (const Screen& screen : walls.screens) text += formatScreen(screen, unit);
   for (const WallEntry& entry : walls.walls) {
     text += entry.projector ? formatProjector(entry, walls.screens[entry.projector->screen].name, unit)
@@ -299,7 +312,7 @@ std::string formatWalls(const WallFile& walls) {
     if (entry.control)
       text += fmt::format("control {}  {}\n", entry.wall.name, formatControl(*entry.control));
   }
-  return text;
+  return text + formatLoudspeakers(walls.loudspeakers, unit);
 }
 
 }  // namespace stadion

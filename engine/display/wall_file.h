@@ -30,6 +30,8 @@
 ///               warp FILE.pfm                 points of the screen that a camera system measured
 ///       LIGHT   [display-gamma G | R G B | srgb]  [white R G B]  [black L]  [no-blend]  [mask FILE.png]
 ///     control NAME pjlink HOST  [port N]  [password FILE]   how the projector of a wall or projector is switched
+///     loudspeaker NAME X Y Z  [channel N]  [delay MS]  [gain DB]  [subwoofer HZ]   (loudspeaker_text.h)
+///     sound [card NAME]  [align on|off]   what the loudspeakers are connected to
 ///     visitor X Y Z [within R]  usual place of the eyes, and how far they go from there (0 0 1.7, 1 m)
 /// YAW turns the lens to the right, PITCH up; `roll` turns it clockwise, seen along the lens. Names of files
 /// are relative to the folder of the wall file. Points in them are in rig space, in the unit of the wall file.
@@ -45,6 +47,7 @@
 #include "engine/display/projector.h"
 #include "engine/display/screen.h"
 #include "engine/display/wall.h"
+#include "engine/loudspeakers/loudspeaker.h"
 
 #include <array>
 #include <cstdint>
@@ -83,6 +86,7 @@ struct WallFile {
   std::vector<WallEntry> walls;  ///< walls and projectors in file order
   std::vector<Screen> screens;   ///< what the projectors light
   VisitorPlace visitor;          ///< for what depends on where eyes usually are
+  LoudspeakerSet loudspeakers;   ///< empty: the hall's sound has no layout of its own
   double metresPerUnit = 1;      ///< factor by which lengths were multiplied
   double eyeSeparation = 0.064;  ///< [m]
   DepthRange depth;

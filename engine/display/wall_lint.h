@@ -26,6 +26,7 @@ void lintWalls(const WallFile& walls, Diagnostics& out);
 /// Warnings  a screen without projectors, or with projectors for one eye only; a part of a screen that no
 ///           projector lights; projectors of one screen with different whites; a visitor outside of a screen
 ///           or behind it.
+/// Checks the loudspeakers as well (lintLoudspeakers).
 void lintHall(const WallFile& hall, Diagnostics& out);
 
 /// The walls and screens from above (+Y is up on the page), with the visitor's eye, a scale and a list of the

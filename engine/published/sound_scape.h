@@ -29,6 +29,7 @@ struct SoundRecord {
 struct SoundScape {
   Nanoseconds time = 0;
   Pose X_WH;  ///< the head
+  Pose X_WR;  ///< the rig, in which loudspeakers stand
   std::vector<SoundRecord> sounds;
 };
 

@@ -73,6 +73,7 @@ void Scene::publishAsItStands(const TimeSignature& now, ChangeSet& changes) {
 
 void Scene::collectSounds(const InputSample& input, SoundScape& out) const {
   out.time = time_.now;
+  out.X_WR = feed_.rigPose();
   out.X_WH = feed_.rigPose() * feed_.headInRig(input);
   sounds_.collect(out.sounds);
 }

@@ -13,7 +13,7 @@
 #include "pipeline/picture/picture.h"
 #include "pipeline/platform/draw_pool.h"
 #include "pipeline/platform/processor_set.h"
-#include "pipeline/sound/sound_player.h"
+#include "pipeline/sound/sound_sink.h"
 #include "pipeline/state/scene_state.h"
 #include "pipeline/target/target.h"
 #include "pipeline/wall/stages.h"
@@ -81,7 +81,7 @@ struct ShowParts {
   std::function<bool()> giveUp{};
   std::function<void()> shown{};  ///< called when all walls have shown a frame, on the Draw thread that
                                   ///< swaps
-  SoundPlayer* sounds = nullptr;  ///< null: no sound
+  SoundSink* sounds = nullptr;  ///< null: no sound
   const OperatorControls* controls = nullptr;  ///< null: no operator
   RenderQuality quality{};
   std::optional<WallProcesses> wallProcesses{};  ///< draw instead of this process

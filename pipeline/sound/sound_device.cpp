@@ -78,7 +78,8 @@ public:
     return name ? name : "OpenAL";
   }
 
-  Voice start(const Sound& sound, bool loop, double offset) override {
+  Voice start(const std::shared_ptr<const Sound>& played, bool loop, double offset) override {
+    const Sound& sound = *played;
     al_.error();
     ALuint buffer = 0, source = 0;
     al_.genBuffers(1, &buffer);

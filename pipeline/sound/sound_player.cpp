@@ -9,16 +9,6 @@ namespace {
 
 constexpr double kNoticeable = 0.05;  ///< a start that is later than this begins inside the sound [s]
 
-Sound mono(const Sound& stereo) {
-  Sound mixed{stereo.info, {}};
-  mixed.info.channels = 1;
-  mixed.samples.resize(stereo.samples.size() / 2);
-  for (std::size_t i = 0; i < mixed.samples.size(); ++i)
-    mixed.samples[i] =
-        static_cast<std::int16_t>((int{stereo.samples[2 * i]} + int{stereo.samples[2 * i + 1]}) / 2);
-  return mixed;
-}
-
 }  // namespace
 
 double loudnessAt(double distance, double range) {
@@ -29,7 +19,7 @@ double loudnessAt(double distance, double range) {
 
 SoundPlayer::SoundPlayer(const AssetRoots& roots, std::function<void(const std::string&)> tell,
                          OpenDevice open)
-    : roots_(roots), tell_(std::move(tell)), open_(std::move(open)), thread_([this] { work(); }) {}
+    : tell_(std::move(tell)), open_(std::move(open)), samples_(roots), thread_([this] { work(); }) {}
 
 SoundPlayer::~SoundPlayer() {
   {
@@ -71,7 +61,7 @@ void SoundPlayer::work() {
     } catch (const std::exception&) {
       // Out of memory: this frame's sounds are missing, but the show goes on. They are started later.
       std::erase_if(playing_, [](const auto& p) { return p.second.voice == 0; });
-      std::erase_if(samples_, [](const auto& s) { return s.second.samples.empty(); });
+      samples_.forgetMissing();
     }
     lock.lock();
     busy_ = false;
@@ -99,36 +89,26 @@ void SoundPlayer::follow(const SoundScape& scape, const SoundMix& mix) {
     device_->stop(p.second.voice);
     return true;
   });
-  const Pose X_HW = scape.X_WH.inverse();
+  const Pose X_HW = scape.X_WH.inverse(), X_RW = scape.X_WR.inverse();
   for (const SoundRecord& s : scape.sounds) {
     const auto [at, isNew] = playing_.try_emplace(s.node);
     if (isNew) begin(s, scape.time, at->second);
     Playing& p = at->second;
     if (p.voice == 0) continue;
     const Vec3 p_H = X_HW * s.position;
-    device_->set(p.voice, s.gain * loudnessAt(p_H.norm(), s.range), s.range > 0 ? p_H : Vec3::Zero());
+    const Vec3 heard = device_->standsInRoom() ? X_RW.q * (s.position - scape.X_WH.p) : p_H;
+    device_->set(p.voice, s.gain * loudnessAt(p_H.norm(), s.range), s.range > 0 ? heard : Vec3::Zero());
     if (p.paused != mix.paused) device_->pause(p.voice, p.paused = mix.paused);
   }
 }
 
 void SoundPlayer::begin(const SoundRecord& sound, Nanoseconds now, Playing& playing) {
   playing.since = sound.since;
-  const Sound* samples = samplesOf(sound);
+  const auto samples = samples_.samplesOf(sound);
   if (!samples) return;
   double late = std::max(0.0, toSeconds(now - sound.since));
   if (sound.loop) late = std::fmod(late, std::max(1e-3, toSeconds(samples->info.length())));
-  playing.voice = device_->start(*samples, sound.loop, late > kNoticeable ? late : 0);
-}
-
-// Read once; the loader has already reported errors in it.
-const Sound* SoundPlayer::samplesOf(const SoundRecord& sound) {
-  const auto [at, isNew] = samples_.try_emplace({sound.file, sound.range > 0});
-  if (isNew)
-    if (const auto found = roots_.open(sound.file))
-      if (auto read = readSound(found.value().file.get(), found.value().path))
-        at->second =
-            sound.range > 0 && read.value().info.channels == 2 ? mono(read.value()) : std::move(read.value());
-  return at->second.samples.empty() ? nullptr : &at->second;
+  playing.voice = device_->start(samples, sound.loop, late > kNoticeable ? late : 0);
 }
 
 }  // namespace stadion

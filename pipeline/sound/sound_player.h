@@ -11,9 +11,9 @@
 /// Ownership  borrows the roots, which must outlive it.
 /// Errors     without a device it says so once, and is silent.
 
-#include "engine/asset/roots.h"
-#include "engine/published/sound_scape.h"
+#include "pipeline/sound/sample_store.h"
 #include "pipeline/sound/sound_device.h"
+#include "pipeline/sound/sound_sink.h"
 
 #include <condition_variable>
 #include <functional>
@@ -24,30 +24,21 @@
 
 namespace stadion {
 
-/// The operator's settings for the show's sounds.
-struct SoundMix {
-  double volume = 1;  ///< from 0 to 1
-  bool paused = false;
-
-  bool operator==(const SoundMix&) const = default;
-};
-
 /// Returns the volume of a sound of range R [m] at a distance [m]; 1 if R is 0.
 double loudnessAt(double distance, double range);
 
-class SoundPlayer {
+class SoundPlayer final : public SoundSink {
 public:
   using OpenDevice = std::function<Result<std::unique_ptr<SoundDevice>>()>;
 
   /// `tell` gets one line when the first sound plays: the device's name, or why there is none.
   SoundPlayer(const AssetRoots& roots, std::function<void(const std::string&)> tell,
               OpenDevice open = openSoundDevice);
-  ~SoundPlayer();
+  ~SoundPlayer() override;
   SoundPlayer(const SoundPlayer&) = delete;
   SoundPlayer& operator=(const SoundPlayer&) = delete;
 
-  /// Sets the sounds from now on. Takes the scape's content, and returns memory to fill.
-  void play(SoundScape& scape, const SoundMix& mix);
+  void play(SoundScape& scape, const SoundMix& mix) override;
   /// Waits until all sounds handed over have reached the device.
   void waitUntilPlayed();
 
@@ -62,9 +53,7 @@ private:
   void follow(const SoundScape& scape, const SoundMix& mix);
   void begin(const SoundRecord& sound, Nanoseconds now, Playing& playing);
   void openDevice();
-  const Sound* samplesOf(const SoundRecord& sound);
 
-  const AssetRoots& roots_;
   std::function<void(const std::string&)> tell_;
   OpenDevice open_;
 
@@ -80,7 +69,7 @@ private:
   std::unique_ptr<SoundDevice> device_;
   double volume_ = -1;
   std::map<NodeRef, Playing> playing_;
-  std::map<std::pair<std::string, bool>, Sound> samples_;  ///< by file, and whether mixed into one channel
+  SampleStore samples_;
   std::thread thread_;
 };
 

@@ -1,5 +1,7 @@
 #include "show/console/operator_console.h"
 
+#include "pipeline/sound/loudspeaker_device.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -42,7 +44,10 @@ bool OperatorConsole::begin(const Player& player, Diagnostics& findings) {
   if (loop.pace != Pace::Free && !console.noSound) {
     roots_ = AssetRoots::ofScript(show.script);
     for (const std::string& root : show.assetRoots) roots_.add(root);
-    sounds_ = std::make_unique<SoundPlayer>(roots_, reporter_.sayFunction());
+    const LoudspeakerSet& hall = player.walls().loudspeakers;
+    sounds_ = hall.empty() ? std::make_unique<SoundPlayer>(roots_, reporter_.sayFunction())
+                           : std::make_unique<SoundPlayer>(roots_, reporter_.sayFunction(),
+                                                           [hall] { return openLoudspeakers(hall); });
   }
   if (!live_ || console.elsewhere) return true;
   if (console.oscPort >= 0) {

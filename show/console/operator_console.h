@@ -6,6 +6,7 @@
 /// Threads    main, except where a function names another one.
 
 #include "pipeline/operator/osc_operator.h"
+#include "pipeline/sound/sound_player.h"
 #include "show/base/reporter.h"
 #include "show/console/operator_keys.h"
 #include "show/console/operator_settings.h"

@@ -85,7 +85,7 @@ Opened OutputFolder::open(const std::string& path) {
 }
 
 std::vector<std::string> OutputFolder::namesOfRuns(const std::string& path) {
-  std::set<std::string> names{"summary.json", "contact-sheet.png", "video.mp4"};
+  std::set<std::string> names{"summary.json", "contact-sheet.png", "video.mp4", "sound.wav"};
   if (const auto list = readPlainFile(path + "/" + kList, kMostBytes);
       list && list.value().starts_with(kHeading))
     for (std::string& name : namesIn(list.value())) names.insert(std::move(name));

@@ -6,7 +6,7 @@ namespace stadion {
 
 MakeSessionPart makeJournalPart, makeWatchPart, makeSpansPart, makeWorkCountPart, makeRecordingPart,
     makeConsolePart, makeDisplaysPart, makeClusterMemberPart, makeSupervisionPart, makePicturesPart,
-    makeHashStreamPart, makeServicePart;
+    makeHashStreamPart, makeServicePart, makeSoundRecordingPart;
 
 std::vector<std::unique_ptr<SessionPart>> makeSessionParts(SessionState& session, Diagnostics& findings) {
   std::vector<std::unique_ptr<SessionPart>> parts;
@@ -22,6 +22,7 @@ std::vector<std::unique_ptr<SessionPart>> makeSessionParts(SessionState& session
            makeSupervisionPart,    // the supervisor, likewise
            makeServicePart,        // the service manager, if there is no supervisor
            makePicturesPart,       // pictures, video, tables
+           makeSoundRecordingPart,  // after the output folder
            makeHashStreamPart,     // after those that take pictures: it hands them on
        }) {
     if (auto part = make(session, findings)) parts.push_back(std::move(part));

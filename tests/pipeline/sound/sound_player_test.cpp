@@ -12,8 +12,8 @@ class NotingDevice : public SoundDevice {
 public:
   explicit NotingDevice(std::vector<std::string>& notes) : notes_(notes) {}
   std::string name() const override { return "notebook"; }
-  Voice start(const Sound& sound, bool loop, double offset) override {
-    notes_.push_back(fmt::format("start {} {} samples{}, at {:g}", ++voices_, sound.samples.size(),
+  Voice start(const std::shared_ptr<const Sound>& sound, bool loop, double offset) override {
+    notes_.push_back(fmt::format("start {} {} samples{}, at {:g}", ++voices_, sound->samples.size(),
                                  loop ? " again and again" : "", offset));
     return voices_;
   }
@@ -128,7 +128,8 @@ TEST(ThreadsSoundDevice, OpenAlPlaysIntoNothing) {
   setenv("ALSOFT_DRIVERS", "null", 1);
   auto device = openSoundDevice();
   if (!device) GTEST_SKIP() << device.error().message;
-  Sound sound{{2205, 22050, 1}, std::vector<std::int16_t>(2205, 1000)};
+  const auto sound =
+      std::make_shared<const Sound>(Sound{{2205, 22050, 1}, std::vector<std::int16_t>(2205, 1000)});
   const auto voice = device.value()->start(sound, true, 0.05);
   ASSERT_NE(voice, 0u);
   device.value()->setVolume(0.5);
