@@ -37,6 +37,7 @@ command that mends it (do:). Nothing is changed. Topics:
   programs      stadion-import and stadion-wall       drawing   the software rasteriser
   gpu           a graphics processor for EGL          displays  a window system, its monitors
   swap-groups   of the display driver                 sound     an output
+  quad-buffer   a back buffer for each eye
   video         ffmpeg                                measuring valgrind
   realtime      the right to real-time priority       network   interfaces for clusters and trackers
   clock         a clock that is read quickly

@@ -126,6 +126,11 @@ constexpr OptionRow kRows[] = {
      Drawing},
     {"--window", size(), "size of the window at the start", Drawing},
     {"--hud", flag(), "shows the frame budget from the start (F2)", Drawing},
+    {"--swap-sync", word("auto|off|barrier"),
+     "auto: windows of --display swap together if the display driver has swap groups; off: one after the "
+     "other; "
+     "barrier: hosts swap together as well, or the run does not begin",
+     Drawing},
     {"--pattern", flag(),
      "shows a test pattern on the outputs that the wall file names, until Escape or Ctrl-C; with --out it "
      "writes the "

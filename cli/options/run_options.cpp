@@ -103,6 +103,7 @@ void addDrawingOptions(CommandOptions& options, RunOptions& o) {
   options.add("--stereo", o.stereo).notes(o.stereoGiven);
   options.add("--display", o.settings.play.display);
   options.add("--hud", o.settings.play.hud);
+  options.add("--swap-sync", o.swapSync);
   options.add("--pace", o.pace);
   options.add("--wall-workers", o.wallWorkers);
   options.add("--pin", o.pin);

@@ -24,7 +24,7 @@ struct RunOptions {
   SessionSettings settings;
   std::string stereo = "pair", pace, pictures = "last";
   RendererOptions renderer;
-  std::string cullDraw = "overlap", predict = "off", wallWorkers = "auto", pin = "auto";
+  std::string cullDraw = "overlap", predict = "off", wallWorkers = "auto", pin = "auto", swapSync = "auto";
   TraceRequest trace;
   std::vector<double> reach{0.05, 0.25};  ///< --latch-reach [m], [rad]
   bool stereoGiven = false, cullDrawGiven = false, picturesGiven = false, degradationAsked = false,

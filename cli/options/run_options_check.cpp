@@ -185,6 +185,11 @@ void RunOptions::completeLive(Diagnostics& findings) {
   if (!trackers.rig.empty() && trackers.device.empty())
     findings.error({}, "--rig says where trackers are, and there are none: --tracker osc:PORT");
   s.play.everyFrame = everyFrame;
+  s.play.swapSync = swapSync == "off"       ? SwapSync::Off
+                    : swapSync == "barrier" ? SwapSync::Barrier
+                                            : SwapSync::Auto;
+  if (swapSync != "auto" && !s.play.display)
+    findings.error({}, "--swap-sync is for windows: it needs --display");
   const bool free = pace == "free" || (pace.empty() && hasEnd());
   s.play.pace = free && !s.play.display ? Pace::Free : pace == "float" ? Pace::Float : Pace::Lock;
   if (!trackers.device.empty()) s.show.input = "none";  // not the log beside the show

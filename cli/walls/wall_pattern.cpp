@@ -55,8 +55,9 @@ int showPattern(const WallFile& walls, const PatternOptions& options, const std:
     return exitWith(findings, kBadInput);
   }
   if (!options.out.empty()) return writePatterns(walls, *patterns.value(), options);
-  const auto displays = WallDisplays::open(walls, windowSurface(false, options.windowStereo),
-                                           options.windowStereo, options.width, options.height, findings);
+  const auto displays =
+      WallDisplays::open(walls, windowSurface(false, options.windowStereo), options.windowStereo,
+                         options.width, options.height, SwapSync::Off, findings);
   printFindings(findings);
   if (!displays) return kBadInput;
   std::vector<EyePictures> pictures(walls.walls.size());

@@ -228,6 +228,7 @@ public:
     if (!xConnectionLost()) glfw_.DestroyWindow(handle_);
   }
 
+  GLFWwindow* handle() const { return handle_; }
   WindowContext* context() override { return context_.get(); }
   WindowPixels* pixels() override { return pixels_.get(); }
   std::array<std::uint32_t, 2> size() const override {
@@ -277,10 +278,11 @@ using WindowNumber = unsigned long(GLFWwindow*);
 
 class GlfwSystem final : public WindowSystem {
 public:
-  /// `display` is Xlib's Display, null for another window system; `windowOf` gives X's number of a window.
-  GlfwSystem(const Glfw& glfw, void* display, WindowNumber* windowOf)
-      : glfw_(glfw), display_(windowOf ? display : nullptr), windowOf_(windowOf), monitors_(glfw_),
-        saver_(std::make_unique<ScreenSaverPause>(display)) {}
+  /// `display` is Xlib's Display, null for another window system; `windowOf` gives X's number of a window,
+  /// `drawableOf` GLX's.
+  GlfwSystem(const Glfw& glfw, void* display, WindowNumber* windowOf, WindowNumber* drawableOf)
+      : glfw_(glfw), display_(windowOf ? display : nullptr), windowOf_(windowOf), drawableOf_(drawableOf),
+        monitors_(glfw_), saver_(std::make_unique<ScreenSaverPause>(display)) {}
   ~GlfwSystem() override {
     saver_.reset();
     if (!xConnectionLost()) glfw_.Terminate();
@@ -306,6 +308,20 @@ public:
     auto made = pixels ? withPixels(handle) : withContext(handle);
     if (!made) glfw_.DestroyWindow(handle);
     return made;
+  }
+
+  Result<std::unique_ptr<SwapGroup>> joinSwapGroup(const std::vector<Window*>& windows,
+                                                   bool barrier) override {
+    using Joined = Result<std::unique_ptr<SwapGroup>>;
+    auto functions = SwapGroupFunctions::ofDisplay(drawableOf_ ? display_ : nullptr);
+    if (!functions) return functions.error();
+    std::vector<SwapGroupFunctions::Drawable> drawables;
+    for (Window* window : windows) {
+      glfw_.GetError(nullptr);
+      drawables.push_back(drawableOf_(static_cast<GlfwWindow*>(window)->handle()));
+      if (drawables.back() == 0) return Joined::failure("a window has no GLX drawable: " + lastError(glfw_));
+    }
+    return SwapGroup::join(std::move(functions.value()), std::move(drawables), barrier);
   }
 
   void poll() override {
@@ -441,6 +457,7 @@ private:
   const Glfw glfw_;
   void* const display_;
   WindowNumber* const windowOf_;
+  WindowNumber* const drawableOf_;
   MonitorPlaces monitors_;
   std::unique_ptr<ScreenSaverPause> saver_;
   GlTable gl_;
@@ -488,7 +505,8 @@ Result<std::unique_ptr<WindowSystem>> WindowSystem::open(const std::string& scre
     void* const xDisplay = connection ? connection() : nullptr;
     watchXConnection(xDisplay);
     return std::unique_ptr<WindowSystem>(std::make_unique<GlfwSystem>(
-        glfw.value(), xDisplay, library.value().find<WindowNumber>("glfwGetX11Window")));
+        glfw.value(), xDisplay, library.value().find<WindowNumber>("glfwGetX11Window"),
+        library.value().find<WindowNumber>("glfwGetGLXWindow")));
   }
   if (!screen.empty())
     return Opened::failure(

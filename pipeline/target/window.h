@@ -9,6 +9,7 @@
 ///          shown, lost() says so; all other calls then do nothing.
 
 #include "pipeline/target/monitor_rows.h"
+#include "pipeline/target/swap_group.h"
 #include "pipeline/target/target.h"
 
 #include <array>
@@ -151,6 +152,10 @@ public:
   static Result<std::unique_ptr<WindowSystem>> open(const std::string& screen = {});
 
   virtual Result<std::unique_ptr<Window>> create(const WindowPlan& plan) = 0;
+  /// Lets the driver swap these windows together (swap_group.h). Expects windows with OpenGL of this connection,
+  /// which outlive the group.
+  virtual Result<std::unique_ptr<SwapGroup>> joinSwapGroup(const std::vector<Window*>& windows,
+                                                           bool barrier) = 0;
   /// Processes new events.
   virtual void poll() = 0;
   /// Returns why its windows can no longer be shown; nothing while they can.

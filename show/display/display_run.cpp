@@ -22,12 +22,13 @@ std::optional<OperatorCommand> windowOrderOf(Key key) {
 
 std::unique_ptr<DisplayRun> DisplayRun::open(const ShowOptions& show, bool drawnWithOpenGl,
                                              StereoLayout layout, const WallFile& walls,
-                                             const LiveBudget& budget, bool hud, Reporter& reporter,
-                                             Diagnostics& findings) {
+                                             const LiveBudget& budget, bool hud, SwapSync sync,
+                                             Reporter& reporter, Diagnostics& findings) {
   std::unique_ptr<DisplayRun> run(new DisplayRun(show, walls, budget, hud, reporter));
   const WindowStereo stereo = windowStereo(layout);
   run->displays_ = WallDisplays::open(walls, windowSurface(drawnWithOpenGl, stereo), stereo, show.width,
-                                      show.height, findings);
+                                      show.height, sync, findings);
+  if (run->displays_ && !run->displays_->swapSync().empty()) reporter.say(run->displays_->swapSync());
   return run->displays_ ? std::move(run) : nullptr;
 }
 

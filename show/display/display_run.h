@@ -21,7 +21,7 @@ public:
   /// `budget` must outlive the run. `hud`: true if the frame budget is shown from the start.
   static std::unique_ptr<DisplayRun> open(const ShowOptions& show, bool drawnWithOpenGl, StereoLayout layout,
                                           const WallFile& walls, const LiveBudget& budget, bool hud,
-                                          Reporter& reporter, Diagnostics& findings);
+                                          SwapSync sync, Reporter& reporter, Diagnostics& findings);
 
   PictureSink& sink() { return mailbox_; }
   /// The walls' pictures fill their outputs pixel by pixel, unless --size or the wall file says otherwise.

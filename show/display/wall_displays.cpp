@@ -1,5 +1,6 @@
 #include "show/display/wall_displays.h"
 
+#include <algorithm>
 #include <fmt/format.h>
 #include <utility>
 
@@ -44,7 +45,7 @@ Result<WindowSystem*> WallDisplays::systemOf(const std::string& screen) {
 
 std::unique_ptr<WallDisplays> WallDisplays::open(const WallFile& walls, WindowSurface surface,
                                                  WindowStereo stereo, std::uint32_t width,
-                                                 std::uint32_t height, Diagnostics& findings) {
+                                                 std::uint32_t height, SwapSync sync, Diagnostics& findings) {
   std::unique_ptr<WallDisplays> displays(new WallDisplays);
   for (const WallEntry& entry : walls.walls) {
     const auto refuse = [&](const Diagnostic& why) {
@@ -62,11 +63,49 @@ std::unique_ptr<WallDisplays> WallDisplays::open(const WallFile& walls, WindowSu
     // One of them waits for its display; if all did, each would take a picture's time.
     window.value()->waitForDisplay(displays->windows_.empty());
     displays->windows_.push_back(std::move(window.value()));
+    displays->screens_.push_back(entry.output ? entry.output->place.screen : "");
     displays->shapes_.push_back(entry.output ? entry.output->shape : OutputShape{});
   }
+  if (!displays->joinSwapGroups(walls, sync, findings)) return nullptr;
   if (const auto why = displays->mayGoDark())
     findings.warning({}, "displays may go dark during the show: " + *why);
   return displays;
+}
+
+/// A group for each X screen. False if a barrier was asked for and the driver has none.
+bool WallDisplays::joinSwapGroups(const WallFile& walls, SwapSync sync, Diagnostics& findings) {
+  if (sync == SwapSync::Off) return true;
+  const bool barrier = sync == SwapSync::Barrier;
+  for (const auto& [screen, system] : systems_) {
+    std::vector<Window*> windows;
+    for (std::size_t i = 0; i < windows_.size(); ++i)
+      if (screens_[i] == screen && windows_[i]->window().context()) windows.push_back(&windows_[i]->window());
+    if (windows.empty() || (windows.size() < 2 && !barrier)) continue;
+    auto group = system->joinSwapGroup(windows, barrier);
+    if (!group && barrier) {
+      findings.error({walls.file, 0, 0}, fmt::format("--swap-sync barrier: {}; leave it out, or choose auto",
+                                                     group.error().message));
+      return false;
+    }
+    if (!group) continue;
+    groups_.push_back(std::move(group.value()));
+    // The interval of each window is a condition of the group's swap, and the group waits once for all of them.
+    for (std::size_t i = 0; i < windows_.size(); ++i)
+      if (screens_[i] == screen) windows_[i]->waitForDisplay(true);
+  }
+  const bool any =
+      std::ranges::any_of(windows_, [](const auto& w) { return w->window().context() != nullptr; });
+  if (any || !barrier) return true;
+  findings.error({walls.file, 0, 0},
+                 "--swap-sync barrier: windows without OpenGL have no swap barrier; add: --renderer gl");
+  return false;
+}
+
+std::string WallDisplays::swapSync() const {
+  if (groups_.empty()) return {};
+  return fmt::format("the driver swaps the windows together: {} swap group{}{} (this has met no hardware)",
+                     groups_.size(), groups_.size() == 1 ? "" : "s",
+                     groups_.front()->hasBarrier() ? ", bound to a swap barrier" : "");
 }
 
 std::array<std::uint32_t, 2> WallDisplays::pictureSize(std::size_t wall) const {

@@ -19,8 +19,10 @@ class WallDisplays {
 public:
   /// A wall without an output gets a window with a frame, of its stated pixels or of `width` x `height`. Null
   /// if one of the outputs cannot be opened; the findings say which and why.
+  /// `sync`: what the driver is to do so that the windows swap together. A barrier that it lacks is an error.
   static std::unique_ptr<WallDisplays> open(const WallFile& walls, WindowSurface surface, WindowStereo stereo,
-                                            std::uint32_t width, std::uint32_t height, Diagnostics& findings);
+                                            std::uint32_t width, std::uint32_t height, SwapSync sync,
+                                            Diagnostics& findings);
   ~WallDisplays();
 
   /// The size of picture that fills a wall's output pixel by pixel.
@@ -30,17 +32,22 @@ public:
   /// Takes in what happened and returns the keys that were pressed. Escape also stands for a window that
   /// somebody closed.
   std::vector<Key> poll();
+  /// How the windows swap together, such as "a swap group of 4 windows"; empty if they swap one after the other.
+  std::string swapSync() const;
   /// Why nothing can be shown any more; nothing while it can.
   std::optional<std::string> lost() const;
 
 private:
   WallDisplays() = default;
   Result<WindowSystem*> systemOf(const std::string& screen);
+  bool joinSwapGroups(const WallFile& walls, SwapSync sync, Diagnostics& findings);
   /// Why displays may go dark during the show, and what to do; nothing if they are kept from it.
   std::optional<std::string> mayGoDark() const;
 
   std::map<std::string, std::unique_ptr<WindowSystem>> systems_;  ///< by X screen
   std::vector<std::unique_ptr<ShowWindow>> windows_;              ///< by wall; go before their systems
+  std::vector<std::string> screens_;                              ///< by wall: its X screen
+  std::vector<std::unique_ptr<SwapGroup>> groups_;                ///< go before their windows
   std::vector<OutputShape> shapes_;
 };
 

@@ -12,9 +12,9 @@
 namespace stadion {
 namespace {
 
-constexpr std::array<std::string_view, 15> kTopics{
-    "programs", "drawing", "gpu",   "displays",     "swap-groups", "sound", "video",  "measuring",
-    "realtime", "network", "clock", "measurements", "tests",       "peers", "fuzzing"};
+constexpr std::array<std::string_view, 16> kTopics{
+    "programs",  "drawing",  "gpu",     "displays", "swap-groups",  "quad-buffer", "sound", "video",
+    "measuring", "realtime", "network", "clock",    "measurements", "tests",       "peers", "fuzzing"};
 
 // The launcher installs the same ones.
 constexpr const char* kTestPackages[] = {"xvfb",
@@ -45,6 +45,7 @@ public:
     gpu();
     displays();
     swapGroups();
+    quadBuffer();
     sound();
     video();
     measuring();
@@ -195,10 +196,24 @@ private:
 
   void swapGroups() {
     const auto groups = probes_.swapGroups();
-    constexpr const char* kOwn = "hosts swap by their own barrier, without a common retrace";
-    if (groups.value_or(false)) return add("swap-groups", Health::Works, "GLX_NV_swap_group");
-    add("swap-groups", Health::Limited,
-        groups ? "the display driver has none" : "not known without a display", kOwn);
+    constexpr const char* kOwn =
+        "windows and hosts swap by the program's own barrier, without a common retrace";
+    if (groups && groups->groups > 0)
+      return add("swap-groups", Health::Works,
+                 groups->text() + " (Stadion's code for it has met no hardware)");
+    add("swap-groups", Health::Limited, groups ? groups->text() : "not known without a display", kOwn);
+  }
+
+  void quadBuffer() {
+    const auto offered = probes_.quadBuffer();
+    constexpr const char* kLayouts =
+        "--display --stereo pair has no windows; the other layouts need no such buffers";
+    if (offered.value_or(false))
+      return add("quad-buffer", Health::Works,
+                 "a back buffer for each eye (Stadion has met no frame-sequential display)");
+    add("quad-buffer", Health::Limited,
+        offered ? "the display driver has no back buffer for each eye" : "not known without a display",
+        kLayouts);
   }
 
   void sound() {

@@ -7,6 +7,7 @@
 /// Errors   are findings.
 
 #include "engine/base/diagnostic.h"
+#include "pipeline/target/swap_group.h"
 
 #include <functional>
 #include <optional>
@@ -55,9 +56,10 @@ struct DoctorProbes {
   std::function<std::vector<std::string>()> cards;  ///< what EGL can draw on, by number
   std::function<Result<std::string>()> sound;       ///< the device's name
   std::function<Result<std::vector<std::string>>(const std::string& screen)>
-      monitors;                                       ///< names of the monitors of an X screen
-  std::function<Result<std::string>()> windowPixels;  ///< way of pictures into windows without OpenGL
-  std::function<std::optional<bool>()> swapGroups;    ///< nothing: not known without a display
+      monitors;                                               ///< names of the monitors of an X screen
+  std::function<Result<std::string>()> windowPixels;          ///< way of pictures into windows without OpenGL
+  std::function<std::optional<SwapGroupOffer>()> swapGroups;  ///< nothing: not known without a display
+  std::function<std::optional<bool>()> quadBuffer;  ///< a back buffer for each eye; nothing: likewise
   /// Names of the installed Debian packages; nothing: not known on this machine.
   std::function<std::optional<std::set<std::string>>()> packages;
   std::function<bool()> isRoot;    ///< whether commands need no sudo

@@ -120,19 +120,29 @@ std::optional<std::set<std::string>> installedPackages() {
   return installed;
 }
 
-/// Whether the driver of the display has NVIDIA's swap groups.
-std::optional<bool> hasSwapGroups() {
+/// What the driver of the display has. Nothing without a display.
+template <class Asked>
+auto ofDefaultDisplay(const Asked& asked) -> decltype(asked(nullptr)) {
   const auto x = SharedLibrary::open("libX11.so.6", "libx11-6");
-  const auto gl = SharedLibrary::open("libGL.so.1", "libgl1");
-  if (!x || !gl) return std::nullopt;
+  if (!x) return std::nullopt;
   auto* open = x.value().find<void*(const char*)>("XOpenDisplay");
   auto* close = x.value().find<int(void*)>("XCloseDisplay");
-  auto* extensions = gl.value().find<const char*(void*, int)>("glXQueryExtensionsString");
-  if (!open || !close || !extensions) return std::nullopt;
+  if (!open || !close) return std::nullopt;
   const std::unique_ptr<void, int (*)(void*)> display(open(nullptr), close);
   if (!display) return std::nullopt;
-  const char* all = extensions(display.get(), 0);
-  return all && std::strstr(all, "GLX_NV_swap_group");
+  return asked(display.get());
+}
+
+std::optional<SwapGroupOffer> swapGroupsHere() {
+  return ofDefaultDisplay([](void* display) -> std::optional<SwapGroupOffer> {
+    const auto functions = SwapGroupFunctions::ofDisplay(display);
+    if (!functions) return {};
+    return swapGroupOffer(functions.value());
+  });
+}
+
+std::optional<bool> quadBufferHere() {
+  return ofDefaultDisplay([](void* display) { return offersQuadBuffer(display); });
 }
 
 /// Tried on a thread that ends at once.
@@ -202,7 +212,8 @@ DoctorProbes probesOfThisMachine() {
   probes.hardwareGl = [] { return rendererOf(GlProviderKind::Egl); };
   probes.cards = cardsOfEgl;
   probes.sound = soundName;
-  probes.swapGroups = hasSwapGroups;
+  probes.swapGroups = swapGroupsHere;
+  probes.quadBuffer = quadBufferHere;
   probes.packages = installedPackages;
   probes.monitors = [held = std::make_shared<HeldDisplay>()](const std::string& screen) {
     return monitorsOf(screen);

@@ -16,8 +16,9 @@ public:
   bool opened(Diagnostics& findings) override {
     if (displays_) return true;
     const SessionSettings& s = session_.settings;
-    displays_ = DisplayRun::open(s.show, session_.renderer->drawsWithGl(), s.draw.layout,
-                                 session_.player->walls(), budget_, s.play.hud, session_.reporter, findings);
+    displays_ =
+        DisplayRun::open(s.show, session_.renderer->drawsWithGl(), s.draw.layout, session_.player->walls(),
+                         budget_, s.play.hud, s.play.swapSync, session_.reporter, findings);
     if (!displays_) return false;
     session_.takeKeys = [this] { return displays_->takeKeys(*session_.console); };
     session_.runLoop = [this](FrameLoop& loop) { return displays_->play(loop, *session_.console); };

@@ -43,7 +43,8 @@ DoctorProbes wellMachine() {
         std::vector<std::string>{"HDMI-1 (1920 x 1080)", "DP-1 (800 x 600)"});
   };
   p.windowPixels = [] { return Result<std::string>(std::string("shared memory")); };
-  p.swapGroups = [] { return std::optional(true); };
+  p.swapGroups = [] { return std::optional(SwapGroupOffer{true, 1, 1}); };
+  p.quadBuffer = [] { return std::optional(true); };
   p.packages = [] { return packagesOf({"testing", "fuzzing", "peers"}); };
   p.isRoot = [] { return false; };
   p.realtime = [] { return true; };
@@ -95,7 +96,8 @@ TEST(Doctor, NamesTheCommandThatMends) {
                ? Monitors(std::vector<std::string>{"DP-1 (800 x 600)"})
                : Monitors::failure("there is no display (X11: none); set DISPLAY, such as DISPLAY=:0");
   };
-  sick.swapGroups = [] { return std::optional<bool>(); };
+  sick.swapGroups = [] { return std::optional<SwapGroupOffer>(); };
+  sick.quadBuffer = [] { return std::optional<bool>(); };
   sick.realtime = [] { return false; };
   sick.network = [] { return std::vector<NetworkPort>{{"lo", "127.0.0.1", true, false, true}}; };
   sick.file = [](const std::string& path) {
