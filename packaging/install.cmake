@@ -38,6 +38,16 @@ install(FILES ${completion}/_stadion DESTINATION ${CMAKE_INSTALL_DATADIR}/zsh/ve
 install(FILES ${completion}/stadion.fish DESTINATION ${CMAKE_INSTALL_DATADIR}/fish/vendor_completions.d
   COMPONENT runtime)
 
+# What a machine in a hall needs: services for systemd, with the place of the programs, and a user that plays shows.
+install(PROGRAMS packaging/hall/stadion-display DESTINATION lib/stadion COMPONENT runtime)
+install(FILES packaging/hall/stadion.sysusers DESTINATION lib/sysusers.d RENAME stadion.conf COMPONENT runtime)
+install(CODE "
+  foreach(unit stadion@.service stadion-display.service)
+    file(READ \"${PROJECT_SOURCE_DIR}/packaging/hall/\${unit}\" text)
+    string(REPLACE \"@PREFIX@\" \"\${CMAKE_INSTALL_PREFIX}\" text \"\${text}\")
+    file(WRITE \"\$ENV{DESTDIR}\${CMAKE_INSTALL_PREFIX}/lib/systemd/system/\${unit}\" \"\${text}\")
+  endforeach()" COMPONENT runtime)
+
 install(TARGETS stadion_options stadion_sanitize stadion_plugin stadion_engine stadion_wire stadion_pipeline
   stadion_dynamics stadion_profiling stadion_show stadion_measure EXPORT StadionTargets
   ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT development)
@@ -63,6 +73,8 @@ install(FILES ${PROJECT_BINARY_DIR}/StadionConfig.cmake ${PROJECT_BINARY_DIR}/St
   DESTINATION ${package} COMPONENT development)
 
 if(PROJECT_IS_TOP_LEVEL)
+  # What is installed has been built before: packages need no tests.
+  set(CMAKE_SKIP_INSTALL_ALL_DEPENDENCY ON)
   set(CPACK_GENERATOR DEB)
   set(CPACK_PACKAGE_CONTACT "the Stadion project")
   set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "Show engine for immersive virtual reality on several walls")
@@ -77,7 +89,11 @@ if(PROJECT_IS_TOP_LEVEL)
   # Loaded at run time: no program names them.
   set(CPACK_DEBIAN_RUNTIME_PACKAGE_DEPENDS "libosmesa6")
   set(CPACK_DEBIAN_RUNTIME_PACKAGE_RECOMMENDS
-    "libegl1, libegl-mesa0, libgl1-mesa-dri, libglfw3, libopenal1, libxss1, ffmpeg")
+    "libegl1, libegl-mesa0, libgl1-mesa-dri, libglfw3, libopenal1, libasound2, libxss1, ffmpeg")
+  # For stadion-display.service, and for its user.
+  set(CPACK_DEBIAN_RUNTIME_PACKAGE_SUGGESTS "xserver-xorg-core, xserver-xorg-input-libinput, xauth, systemd")
+  set(CPACK_DEBIAN_RUNTIME_PACKAGE_CONTROL_EXTRA
+    "${PROJECT_SOURCE_DIR}/packaging/hall/postinst;${PROJECT_SOURCE_DIR}/packaging/hall/postrm")
   set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME libstadion-dev)
   set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
   set(CPACK_COMPONENT_DEVELOPMENT_DEPENDS runtime)

@@ -93,6 +93,25 @@ TEST_F(ProgramInstall, BashCompletesAValue) {
   EXPECT_EQ(completed("run --walls cave", "3"), "cave-blended cave4 cave6\n");
 }
 
+TEST_F(ProgramInstall, HasServicesForHallsThatSystemdAccepts) {
+  const std::string units = prefix() + "/lib/systemd/system/";
+  for (const char* unit : {"stadion@.service", "stadion-display.service"}) {
+    const std::string text = fileContent(units + unit);
+    EXPECT_TRUE(has(text, "ExecStart=" + prefix() + "/")) << text;
+    EXPECT_FALSE(has(text, "@PREFIX@")) << unit;
+  }
+  EXPECT_TRUE(has(fileContent(prefix() + "/lib/sysusers.d/stadion.conf"), "u stadion"));
+  EXPECT_EQ(fs::status(prefix() + "/lib/stadion/stadion-display").permissions() & fs::perms::owner_exec,
+            fs::perms::owner_exec);
+  const std::string instance = folder_->path() / "stadion@hall.service";
+  fs::copy_file(units + "stadion@.service", instance);
+  const ProgramResult r =
+      runProgram({{"systemd-analyze", "verify", "--man=no", instance, units + "stadion-display.service"}});
+  if (r.status == 127) GTEST_SKIP() << "needs systemd-analyze: apt-get install systemd";
+  EXPECT_EQ(r.status, 0) << r.err;
+  EXPECT_FALSE(has(r.err, "Unknown")) << r.err;
+}
+
 TEST_F(ProgramInstall, NamesNoPathOfTheCheckout) {
   for (const char* program : {"/bin/stadion", "/lib/stadion/stadion-import", "/lib/stadion/stadion-wall"})
     EXPECT_FALSE(has(fileContent(prefix() + program), kRoot + "/")) << program;
