@@ -11,10 +11,11 @@ namespace {
 
 constexpr std::uint64_t kMostSoundAtOnce = 4096;  ///< frames of sound
 
-/// The frame of sound at a show time, exactly.
+/// The frame of sound that is nearest to a show time.
 std::int64_t soundFrameAt(Nanoseconds time) {
   constexpr std::int64_t kSecond = 1'000'000'000;
-  return time / kSecond * SpeakerMixer::kRate + time % kSecond * SpeakerMixer::kRate / kSecond;
+  return time / kSecond * SpeakerMixer::kRate +
+         (time % kSecond * SpeakerMixer::kRate + kSecond / 2) / kSecond;
 }
 
 }  // namespace
