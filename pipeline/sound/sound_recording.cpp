@@ -30,7 +30,7 @@ void SoundRecording::play(SoundScape& scape, const SoundMix& mix) {
 }
 
 void SoundRecording::record(const SoundScape& scape, const SoundMix& mix) {
-  // Another group's show begins again at 0.
+  // The next group's show restarts at 0.
   if (before_ && scape.time < *before_) {
     for (auto& [node, p] : std::exchange(playing_, {})) mixer_.stop(p.voice);
     before_ = scape.time;
