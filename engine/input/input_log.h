@@ -33,7 +33,7 @@
 ///     load N SECONDS
 ///         the Nth file that the show loaded was not ready when it was due and took effect at this show time
 ///     order N ACTION VALUE
-///         from frame N on: black 0|1, swap-eyes 0|1, eye-separation METRES or volume 0..1
+///         from frame N on: black 0|1, test-pattern 0|1, swap-eyes 0|1, eye-separation METRES or volume 0..1
 ///
 ///     relief N LOAD POSITION LEVEL
 ///         from frame N on the node at that position of that load applies that level of its degradation

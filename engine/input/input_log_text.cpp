@@ -83,7 +83,8 @@ private:
     if (!asked) return;
     const auto action = operatorActionNamed(asked->text);
     if (!action || !isOfPresentation(*action))
-      return in_.unknown(*asked, "is no order", {"black", "swap-eyes", "eye-separation", "volume"});
+      return in_.unknown(*asked, "is no order",
+                         {"black", "test-pattern", "swap-eyes", "eye-separation", "volume"});
     const auto value = in_.number("the figure", 0, 1);
     if (value && in_.finished()) log_.decisions.orders.insert({*frame, {*action, *value, false}});
   }

@@ -17,6 +17,8 @@ enum class OperatorAction : std::uint8_t {
   Pause,          ///< on: show time stands still; the visitor can still look around
   Step,           ///< plays one frame of show time during a pause
   Black,          ///< on: all walls are black; the show goes on unless it is paused too
+  TestPattern,    ///< on: all walls show the test pattern; the show goes on
+  Cue,            ///< calls the cue with this number, from 1 to 32
   NextGroup,      ///< the show restarts, as if the program had been restarted
   SwapEyes,       ///< on: left and right are exchanged on every wall
   EyeSeparation,  ///< between the eyes [m]
@@ -27,9 +29,9 @@ enum class OperatorAction : std::uint8_t {
 };
 
 /// As addresses (/stadion/next-group) and in texts.
-inline constexpr std::array<std::string_view, 11> kOperatorActionNames = {
-    "start",          "pause",       "step",   "black",   "next-group", "swap-eyes",
-    "eye-separation", "freeze-head", "volume", "latency", "end"};
+inline constexpr std::array<std::string_view, 13> kOperatorActionNames = {
+    "start",     "pause",          "step",        "black",  "test-pattern", "cue", "next-group",
+    "swap-eyes", "eye-separation", "freeze-head", "volume", "latency",      "end"};
 
 constexpr std::string_view nameOf(OperatorAction action) {
   return kOperatorActionNames[static_cast<std::size_t>(action)];
@@ -43,13 +45,13 @@ constexpr std::optional<OperatorAction> operatorActionNamed(std::string_view wor
 
 /// Returns true if it changes pictures and sounds alone, not what happens in the show.
 constexpr bool isOfPresentation(OperatorAction action) {
-  return action == OperatorAction::Black || action == OperatorAction::SwapEyes ||
+  return action == OperatorAction::Black || action == OperatorAction::TestPattern || action == OperatorAction::SwapEyes ||
          action == OperatorAction::EyeSeparation || action == OperatorAction::Volume;
 }
 
 struct OperatorCommand {
   OperatorAction action{};
-  /// 1 on, 0 off, nothing: the other of what it is; of eye separation, volume and latency the value itself.
+  /// 1 on, 0 off, nothing: the other of what it is; of eye separation, volume, latency and cue the value itself.
   std::optional<double> value{};
   bool relative = false;  ///< the value is added to what is
 

@@ -5,6 +5,7 @@ namespace stadion {
 
 inline constexpr const char* kHeadTracker = "head";  ///< the visitor's eyes
 inline constexpr const char* kWandTracker = "wand";  ///< the device in the visitor's hand
+inline constexpr const char* kOperatorTracker = "operator";  ///< the operator, whose buttons are cues
 inline constexpr const char* kFootTracker = "foot";  ///< the visitor's foot, for kicks
 
 }  // namespace stadion

@@ -104,12 +104,12 @@ bool isTime(Nanoseconds time) {
 }
 
 stadion_wire_Presentation written(const Presentation& shown) {
-  return {shown.black, shown.swapEyes, shown.eyeSeparation};
+  return {shown.black, shown.swapEyes, shown.pattern, shown.eyeSeparation};
 }
 
 std::optional<Presentation> read(const stadion_wire_Presentation& shown) {
   if (!(std::abs(shown.eye_separation) <= kWidestEyes)) return {};
-  return Presentation{shown.black, shown.swap_eyes, shown.eye_separation};
+  return Presentation{shown.black, shown.swap_eyes, shown.pattern, shown.eye_separation};
 }
 
 std::optional<Standstill> readStandstill(std::uint8_t still) {

@@ -10,6 +10,7 @@ namespace stadion {
 struct Presentation {
   bool black = false;
   bool swapEyes = false;
+  bool pattern = false;  ///< the test pattern in place of the show; black goes before it
   double eyeSeparation = -1;  ///< [m]; negative: from the wall file
 
   bool operator==(const Presentation&) const = default;

@@ -3,6 +3,7 @@
 #include "engine/input/tracker_names.h"
 #include "pipeline/gl_draw/warm_up_list.h"
 #include "pipeline/process/per_view_process_renderer.h"
+#include "pipeline/projection/pattern_pictures.h"
 #include "pipeline/projection/projection.h"
 #include "pipeline/wall/cpu_wall_renderer.h"
 #include "pipeline/wall/gl_wall_renderer.h"
@@ -190,7 +191,8 @@ Failure ShowStages::draw(std::size_t wall, const DrawList& list) {
   Drawn& drawn = drawn_[wall];
   drawn.views = 0;  // until it is finished there is no picture
   began_ = list.ticket.began;
-  const bool wanted = list.ticket.last || (parts_.sink && parts_.sink->wants(list.ticket.signature));
+  const bool wanted =
+      list.ticket.last || (parts_.sink && parts_.sink->wantsWall(list.ticket.signature, wall));
   if (DrawOutcome outcome = wallRenderer_->draw(wall, list, wanted); outcome.failure || !outcome.drawn) {
     if (!outcome.failure) {
       drawn.late.inARow = std::max(drawn.late.inARow, ++drawn.lateNow);
@@ -207,7 +209,20 @@ Failure ShowStages::draw(std::size_t wall, const DrawList& list) {
     for (std::uint32_t view = 0; view < list.viewCount; ++view)
       drawn.clipFromRig[view] = clipFromRig(list, view);
   drawn.totals = wallRenderer_->totals(wall);
-  return wanted ? readPictures(wall) : std::nullopt;
+  if (!wanted || showPattern(wall, list.ticket.presentation)) return kNoFailure;
+  return readPictures(wall);
+}
+
+/// Puts the test pattern in the place of the wall's pictures. Returns false if it is not to be shown.
+bool ShowStages::showPattern(std::size_t wall, const Presentation& shown) {
+  const WallViews& of = parts_.walls[wall];
+  if (!shown.pattern || shown.black || !parts_.patterns || of.camera) return false;
+  EyePictures& pictures = pictures_[wall];
+  if (!parts_.patterns->copyTo(pictures.eyes, wall, of.width, of.height, parts_.waitsForPatterns))
+    return false;
+  pictures.frame = drawn_[wall].frame;
+  drawn_[wall].read = true;
+  return true;
 }
 
 Failure ShowStages::readPictures(std::size_t wall) {

@@ -27,6 +27,8 @@
 
 namespace stadion {
 
+class PatternPictures;
+
 /// The pictures of a wall in a frame, by view: left and right, or one for both.
 struct EyePictures {
   std::uint64_t frame = 0;
@@ -41,6 +43,8 @@ public:
   virtual ~PictureSink() = default;
   /// Returns true if the pictures of this frame are wanted: reading them back costs time. Any thread.
   virtual bool wants(const TimeSignature& now) const = 0;
+  /// Returns true if those of this wall are. take() gets older pictures of walls that it does not want. Any thread.
+  virtual bool wantsWall(const TimeSignature& now, std::size_t /*wall*/) const { return wants(now); }
   virtual Failure take(const TimeSignature& now, const std::vector<EyePictures>& walls) = 0;
 };
 
@@ -83,6 +87,9 @@ struct ShowParts {
                                   ///< swaps
   SoundSink* sounds = nullptr;  ///< null: no sound
   const OperatorControls* controls = nullptr;  ///< null: no operator
+  PatternPictures* patterns =
+      nullptr;                   ///< shown while the operator wants the test pattern; null: there are none
+  bool waitsForPatterns = true;  ///< false: walls show the show until their patterns have been made
   RenderQuality quality{};
   std::optional<WallProcesses> wallProcesses{};  ///< draw instead of this process
   std::vector<WallPixels> otherWalls{};  ///< walls of the room that other hosts draw: detail levels are
@@ -148,6 +155,7 @@ private:
   void playSounds(const InputSample& input, bool still);
   void noteMeasured(const InputSample& input);
   Failure readPictures(std::size_t wall);
+  bool showPattern(std::size_t wall, const Presentation& shown);
   Failure readViews(std::size_t wall, std::vector<Picture>& pictures);
   void project(std::size_t wall);
 

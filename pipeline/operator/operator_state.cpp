@@ -27,6 +27,12 @@ bool setWhole(double& what, double now, double least, double most, const Operato
   return true;
 }
 
+bool isCue(const OperatorCommand& command) {
+  const double number = command.value.value_or(0);
+  return !command.relative && number >= 1 && number <= OperatorState::kMostCues &&
+         number == std::floor(number);
+}
+
 }  // namespace
 
 bool OperatorState::apply(const OperatorCommand& command) {
@@ -36,6 +42,8 @@ bool OperatorState::apply(const OperatorCommand& command) {
   case OperatorAction::Pause: turn(paused, command); return true;
   case OperatorAction::Step: return paused;
   case OperatorAction::Black: turn(presentation.black, command); return true;
+  case OperatorAction::TestPattern: turn(presentation.pattern, command); return true;
+  case OperatorAction::Cue: return isCue(command);
   case OperatorAction::NextGroup: nextGroup = true; return true;
   case OperatorAction::SwapEyes: turn(presentation.swapEyes, command); return true;
   case OperatorAction::EyeSeparation:

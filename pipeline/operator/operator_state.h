@@ -14,6 +14,7 @@ namespace stadion {
 struct OperatorState {
   static constexpr double kWidestEyes = 1;    ///< [m]
   static constexpr double kMostInFlight = 4;  ///< [frames]
+  static constexpr double kMostCues = 32;
 
   bool waiting = false;  ///< for Start
   bool paused = false;

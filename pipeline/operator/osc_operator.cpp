@@ -14,11 +14,16 @@ constexpr std::string_view kHead = "/stadion/", kBy = "/by";
 constexpr std::size_t kMostToldOf = 20;
 
 bool isNumeric(OperatorAction a) {
-  return a == OperatorAction::EyeSeparation || a == OperatorAction::Volume || a == OperatorAction::Latency;
+  return a == OperatorAction::EyeSeparation || a == OperatorAction::Volume || a == OperatorAction::Latency ||
+         a == OperatorAction::Cue;
+}
+/// Values that a command can add to.
+bool takesSteps(OperatorAction a) {
+  return isNumeric(a) && a != OperatorAction::Cue;
 }
 bool isSwitch(OperatorAction a) {
-  return a == OperatorAction::Pause || a == OperatorAction::Black || a == OperatorAction::SwapEyes ||
-         a == OperatorAction::FreezeHead;
+  return a == OperatorAction::Pause || a == OperatorAction::Black || a == OperatorAction::TestPattern ||
+         a == OperatorAction::SwapEyes || a == OperatorAction::FreezeHead;
 }
 
 /// An address, taken apart.
@@ -33,22 +38,23 @@ Address addressOf(std::string_view path) {
   const bool relative = path.ends_with(kBy);
   if (relative) path.remove_suffix(kBy.size());
   const auto action = operatorActionNamed(path);
-  if (!action || (relative && !isNumeric(*action))) return {};
+  if (!action || (relative && !takesSteps(*action))) return {};
   return {action, relative};
 }
 
 /// The maximum that OperatorState accepts.
 double mostOf(OperatorAction action) {
   if (action == OperatorAction::Latency) return OperatorState::kMostInFlight;
+  if (action == OperatorAction::Cue) return OperatorState::kMostCues;
   return action == OperatorAction::Volume ? 1 : OperatorState::kWidestEyes;
 }
 
-double leastOf(OperatorAction action) {
-  return action == OperatorAction::Latency ? 1 : 0;
+bool countsWhole(OperatorAction action) {
+  return action == OperatorAction::Latency || action == OperatorAction::Cue;
 }
 
-bool countsWhole(OperatorAction action) {
-  return action == OperatorAction::Latency;
+double leastOf(OperatorAction action) {
+  return countsWhole(action) ? 1 : 0;
 }
 
 bool fits(double value, const Address& to) {
@@ -84,15 +90,19 @@ std::optional<OperatorCommand> operatorCommandOf(const OscMessage& m) {
 }
 
 std::string complaintAbout(const OscMessage& m) {
+  return complaintAbout(m, "OSC message");
+}
+
+std::string complaintAbout(const OscMessage& m, std::string_view what) {
   const Address to = addressOf(m.path);
   if (!to.action)
-    return "OSC message " + quotedWord(m.path) +
+    return std::string(what) + " " + quotedWord(m.path) +
            " is no command (such as /stadion/pause, /stadion/volume 0.5)";
   if (m.numeric && m.numbers.size() == 1 && m.numbers[0] == 0 && fits(0, to)) return {};
   const std::string got = !m.numeric          ? "what is no number"
                           : m.numbers.empty() ? "nothing"
                                               : fmt::format("{:g}", fmt::join(m.numbers, " "));
-  return fmt::format("OSC message \"{}\" with {} is not taken: it takes {}", m.path, got, rangeOf(to));
+  return fmt::format("{} \"{}\" with {} is not taken: it takes {}", what, m.path, got, rangeOf(to));
 }
 
 Result<std::unique_ptr<OscOperator>> OscOperator::open(std::uint16_t port, OperatorQueue& queue, Tell tell) {

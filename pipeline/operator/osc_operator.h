@@ -3,6 +3,7 @@
 ///
 ///     /stadion/start           /stadion/step          /stadion/next-group      /stadion/end
 ///     /stadion/pause [0|1]     /stadion/black [0|1]   /stadion/swap-eyes [0|1] /stadion/freeze-head [0|1]
+///     /stadion/test-pattern [0|1]                     /stadion/cue 1..32
 ///     /stadion/eye-separation METRES    /stadion/eye-separation/by METRES
 ///     /stadion/volume 0..1              /stadion/volume/by -1..1
 ///
@@ -24,6 +25,8 @@ std::optional<OperatorCommand> operatorCommandOf(const OscMessage& m);
 /// Returns the error of a message without a command, in one line. Empty if there is none: a tablet's button
 /// was released.
 std::string complaintAbout(const OscMessage& m);
+/// The same with another word for the message, such as "command".
+std::string complaintAbout(const OscMessage& m, std::string_view what);
 
 class OscOperator {
 public:

@@ -1,6 +1,7 @@
 #include "show/console/operator_console.h"
 
 #include "pipeline/sound/loudspeaker_device.h"
+#include "show/console/show_cues.h"
 
 #include <fmt/format.h>
 
@@ -62,8 +63,9 @@ bool OperatorConsole::begin(const Player& player, Diagnostics& findings) {
   }
   keys_ = OperatorKeys::open(STDIN_FILENO, controls_->queue(), reporter_.hintFunction());
   const bool hasWindows = play.windows || play.display;
-  if (console.wait && !keys_ && !osc_ && !hasWindows) {
-    findings.error({}, "--wait: start could not be given: there is no terminal and no --osc PORT");
+  if (console.wait && !keys_ && !osc_ && !console.hasPage && !hasWindows) {
+    findings.error({},
+                   "--wait: start could not be given: there is no terminal, no --osc PORT and no --web PORT");
     return false;
   }
   if (keys_) reporter_.hint("operator: keys in this terminal, h shows them");
@@ -76,14 +78,19 @@ void OperatorConsole::beginGroup(Player& player, RunWatch& watch) {
   if (trackers_) player.takeInputFrom(trackers_->trackers());
   visitorIsLive_ = player.inputIsLive();
   controls_->replay(player.decisions().orders);
-  controls_->told = [this, &watch](std::uint64_t frame, const OperatorCommand& command) {
-    report(command, watch.time());
+  controls_->told = [this, &player, &watch](std::uint64_t frame, const OperatorCommand& command) {
+    if (command.action == OperatorAction::Cue)
+      callCue(player, static_cast<std::uint32_t>(*command.value));
+    else
+      report(command, watch.time());
     if (isOfPresentation(command.action)) writeDown(frame, command, watch);
     if (changed) changed(controls_->state());
+    if (commanded) commanded(controls_->state());
   };
   // What stands already stands from the first frame on.
   const Presentation& shown = controls_->state().presentation;
   if (shown.black) watch.order(0, {OperatorAction::Black, 1, false});
+  if (shown.pattern) watch.order(0, {OperatorAction::TestPattern, 1, false});
   if (shown.swapEyes) watch.order(0, {OperatorAction::SwapEyes, 1, false});
   if (shown.eyeSeparation >= 0) watch.order(0, {OperatorAction::EyeSeparation, shown.eyeSeparation, false});
   if (controls_->state().volume != 1)
@@ -96,6 +103,7 @@ void OperatorConsole::resume(const OperatorState& decided) {
   if (state().waiting && !decided.waiting) queue().post({OperatorAction::Start, {}, false});
   if (decided.paused) order(OperatorAction::Pause, 1);
   if (decided.presentation.black) order(OperatorAction::Black, 1);
+  if (decided.presentation.pattern) order(OperatorAction::TestPattern, 1);
   if (decided.presentation.swapEyes) order(OperatorAction::SwapEyes, 1);
   if (decided.presentation.eyeSeparation >= 0)
     order(OperatorAction::EyeSeparation, decided.presentation.eyeSeparation);
@@ -106,10 +114,11 @@ void OperatorConsole::resume(const OperatorState& decided) {
 // What came of it, whatever it was before.
 void OperatorConsole::writeDown(std::uint64_t frame, const OperatorCommand& command, RunWatch& watch) const {
   const OperatorState& s = controls_->state();
-  const double value = command.action == OperatorAction::Black      ? s.presentation.black
-                       : command.action == OperatorAction::SwapEyes ? s.presentation.swapEyes
-                       : command.action == OperatorAction::Volume   ? s.volume
-                                                                    : s.eyeSeparation();
+  const double value = command.action == OperatorAction::Black         ? s.presentation.black
+                       : command.action == OperatorAction::TestPattern ? s.presentation.pattern
+                       : command.action == OperatorAction::SwapEyes    ? s.presentation.swapEyes
+                       : command.action == OperatorAction::Volume      ? s.volume
+                                                                       : s.eyeSeparation();
   watch.order(frame, {command.action, value, false});
 }
 
@@ -147,7 +156,18 @@ std::string OperatorConsole::fileOfGroup(const std::string& file) const {
   return path.replace_extension().string() + fmt::format("-{}", groups()) + ending;
 }
 
+/// The cue's messages are sent in this frame. The log and the hosts of a cluster learn of it by the input.
+void OperatorConsole::callCue(Player& player, std::uint32_t number) const {
+  const std::vector<ShowCue> cues = cuesOf(player.scene());
+  const auto called = std::ranges::find(cues, number, &ShowCue::number);
+  if (called == cues.end() || !player.callCue(number))
+    say(fmt::format("operator: the show has no cue {}", number));
+  else
+    say(fmt::format("operator: cue {} ({})", called->text(), clockText(uptime())));
+}
+
 void OperatorConsole::addTo(ShowParts& parts, FrameLoopOptions& loop) {
+  parts.waitsForPatterns = loop.delivery == Delivery::Every;
   parts.sounds = sounds_.get();
   parts.tell = reporter_.sayFunction();
   parts.controls = loop.controls = controls_.get();
@@ -175,6 +195,7 @@ void OperatorConsole::report(const OperatorCommand& command, Nanoseconds showTim
     if (settings_.play.windows) return;  // the windows' session reports the picture
     break;
   case OperatorAction::Black: what += onOff(s.presentation.black); break;
+  case OperatorAction::TestPattern: what += onOff(s.presentation.pattern); break;
   case OperatorAction::SwapEyes: what += onOff(s.presentation.swapEyes); break;
   case OperatorAction::FreezeHead:
     what += onOff(s.headFrozen);

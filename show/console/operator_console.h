@@ -54,8 +54,8 @@ public:
   /// Learns of each picture that is visible: in a window, if the walls have windows. On the thread that calls
   /// pictureSeen().
   std::function<void()> seen;
-  /// Learns what the operator has decided, whenever that has changed; on the App thread.
-  std::function<void(const OperatorState&)> changed;
+  /// Both learn what the operator has decided, whenever that has changed; on the App thread.
+  std::function<void(const OperatorState&)> changed, commanded;
   const OperatorState& state() const { return controls_->state(); }
   /// Orders again what had been decided about a show that goes on here; whether it waits for Start included.
   void resume(const OperatorState& decided);
@@ -71,6 +71,7 @@ private:
   void say(const std::string& line) const { reporter_.say(line); }
   void writeDown(std::uint64_t frame, const OperatorCommand& command, RunWatch& watch) const;
   void report(const OperatorCommand& command, Nanoseconds showTime) const;
+  void callCue(Player& player, std::uint32_t number) const;
 
   using Clock = std::chrono::steady_clock;
 

@@ -19,12 +19,13 @@ struct Binding {
 };
 
 using enum OperatorAction;
-const std::array<Binding, 17> kKeys{{{'\n', {Start}},
+const std::array<Binding, 18> kKeys{{{'\n', {Start}},
                                      {'\r', {Start}},
                                      {' ', {Pause}},
                                      {'p', {Pause}},
                                      {'.', {Step}},
                                      {'b', {Black}},
+                                     {'t', {TestPattern}},
                                      {'n', {NextGroup}},
                                      {'x', {SwapEyes}},
                                      {'[', {EyeSeparation, -0.002, true}},
@@ -42,6 +43,7 @@ const std::array<Binding, 17> kKeys{{{'\n', {Start}},
 std::optional<OperatorCommand> operatorCommandOf(char key) {
   for (const Binding& k : kKeys)
     if (k.key == key) return k.command;
+  if (key >= '1' && key <= '9') return OperatorCommand{Cue, key - '0', false};
   return {};
 }
 
@@ -54,9 +56,9 @@ std::optional<OperatorCommand> operatorCommandOf(Key key) {
 }
 
 std::string operatorKeysHelp() {
-  return "keys: Enter start, space pause, . one frame, b black, n next group, x swap eyes, "
-         "[ ] eyes closer or wider, f freeze head,\n      - + volume, k l fewer or more frames under way, q "
-         "end, h these lines";
+  return "keys: Enter start, space pause, . one frame, b black, t test pattern, n next group, x swap eyes, "
+         "[ ] eyes closer or wider,\n      f freeze head, - + volume, k l fewer or more frames under way, 1 to 9 "
+         "cues, q end, h these lines";
 }
 
 std::unique_ptr<OperatorKeys> OperatorKeys::open(int file, OperatorQueue& queue, Say say) {

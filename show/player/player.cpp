@@ -173,6 +173,9 @@ bool Player::openScene(Diagnostics& findings) {
   } else if (!scene_->open(options_.script)) {
     return false;
   }
+  bool hasCues = false;
+  scene_->tree().forEachNode([&](const Node& node) { hasCues = hasCues || node.kind() == "cue"; });
+  if (hasCues) operator_.emplace(visitor());
   // Reading a show of a million nodes takes more memory than holding it. Here no frame waits for its release.
   malloc_trim(0);
   return true;
@@ -265,6 +268,8 @@ ShowParts Player::parts(StereoLayout stereo, InputDevice* instead) {
     const WallViews wall = viewsOfEntry(entry, false);
     for (const View& view : wall.views) parts.otherWalls.push_back({view.screen, wall.width, wall.height});
   }
+  patterns_ = std::make_unique<PatternPictures>(walls_, eyeCount(stereo) == 2);
+  parts.patterns = patterns_.get();
   return parts;
 }
 

@@ -9,6 +9,7 @@
 #include "engine/build/builder.h"
 #include "engine/display/wall_file.h"
 #include "engine/input/input_device.h"
+#include "engine/input/operator_device.h"
 #include "engine/input/run_decisions.h"
 #include "engine/scene/scene.h"
 #include "engine/script/script_texts.h"
@@ -16,6 +17,7 @@
 #include "pipeline/loop/frame_loop.h"
 #include "pipeline/loop/show_stages.h"
 #include "pipeline/picture/stereo.h"
+#include "pipeline/projection/pattern_pictures.h"
 #include "pipeline/shader/look.h"
 #include "show/base/standard_nodes.h"
 
@@ -114,13 +116,19 @@ public:
   /// The parts for a ShowStages; provider and sink are the caller's to add. `input`: instead of input().
   ShowParts parts(StereoLayout stereo, InputDevice* input = nullptr);
   /// Where the show's input comes from.
-  InputDevice& input() { return live_ ? *live_ : *input_; }
+  InputDevice& input() { return operator_ ? *operator_ : visitor(); }
   /// From now on the input is what this device says, not the log's. Before the first frame.
-  void takeInputFrom(InputDevice& device) { live_ = &device; }
+  void takeInputFrom(InputDevice& device) {
+    live_ = &device;
+    if (operator_) operator_->readFrom(device);
+  }
+  /// The operator calls a cue of the show. Returns false if the show had no cue when it was opened. Any thread.
+  bool callCue(std::uint32_t number) { return operator_ && operator_->call(number); }
   bool inputIsLive() const { return live_ != nullptr; }
 
 private:
   Player();
+  InputDevice& visitor() { return live_ ? *live_ : *input_; }
   bool openInput(Diagnostics& findings);
   void computeLength();
   bool project(WallFile& room, Diagnostics& findings);
@@ -138,9 +146,10 @@ private:
   std::unique_ptr<Loader> loader_;
   std::unique_ptr<Scene> scene_;
   std::unique_ptr<InputDevice> input_;
-  InputDevice* live_ = nullptr;    ///< used instead of input_, if there is one
-  WallFile walls_;                 ///< walls that are drawn here
-  std::vector<WallEntry> others_;  ///< the room's others
+  InputDevice* live_ = nullptr;             ///< used instead of input_, if there is one
+  std::optional<OperatorDevice> operator_;  ///< adds the operator's cues to the input, if the show has any
+  WallFile walls_;                          ///< walls that are drawn here
+  std::vector<WallEntry> others_;           ///< the room's others
   std::map<std::string, std::shared_ptr<const Projection>> projections_;  ///< by name of the projector
   ShowOptions options_;
   RunDecisions decisions_;
@@ -150,6 +159,7 @@ private:
   bool inputFound_ = false;
   std::string inputName_;
   std::vector<std::string> trackers_;  ///< trackers that the input log names
+  std::unique_ptr<PatternPictures> patterns_;
 };
 
 }  // namespace stadion
