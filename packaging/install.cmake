@@ -100,7 +100,7 @@ if(PROJECT_IS_TOP_LEVEL)
   set(CPACK_DEBIAN_ENABLE_COMPONENT_DEPENDS ON)
   string(CONCAT CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS
     "g++, cmake, pkg-config, libeigen3-dev, libfcl-dev, libfmt-dev, "
-    "libxxhash-dev, libsndfile1-dev, libpng-dev, libzip-dev, libpugixml-dev, libmeshoptimizer-dev, libhwloc-dev, liblo-dev, "
+    "libxxhash-dev, libsndfile1-dev, libpng-dev, libzip-dev, libpugixml-dev, libcpp-httplib-dev, libmeshoptimizer-dev, libhwloc-dev, liblo-dev, "
     "libmd-dev, nlohmann-json3-dev, "
     "cyclonedds-dev, libgl-dev")
   include(CPack)

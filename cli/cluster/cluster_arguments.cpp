@@ -44,8 +44,9 @@ void addArguments(const CLI::Option& option, const std::vector<std::string>& val
 }  // namespace
 
 bool isLeaderOption(std::string_view option) {
-  constexpr std::array<std::string_view, 6> kOptions{"--tracker", "--rig",  "--predict",
-                                                     "--osc",     "--wait", "--record-input"};
+  constexpr std::array<std::string_view, 9> kOptions{"--tracker", "--rig",       "--predict",
+                                                     "--osc",     "--wait",      "--record-input",
+                                                     "--web",     "--web-token", "--web-name"};
   return std::ranges::find(kOptions, option) != kOptions.end();
 }
 

@@ -287,6 +287,14 @@ constexpr OptionRow kRows[] = {
      Load},
 
     {"--osc", whole("PORT", 0, 65535), "UDP port for the operator's commands", Operator},
+    {"--web", text("[HOST:]PORT"),
+     "web page for the operator, with thumbnails, commands and figures; without HOST on this machine alone",
+     Operator},
+    {"--web-token", file(),
+     "file whose first line every request to the page must know (default: one is made and printed)",
+     Operator},
+    {"--web-name", text("NAME", ValueTimes::Repeated), "further host name of the page, as a proxy has it",
+     Operator},
 
     {"--tracker", text("DEVICE"),
      "live trackers: osc:PORT (Open Sound Control over UDP), dtrack:PORT, freed:PORT or vrpn:DEVICE@HOST",

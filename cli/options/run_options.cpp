@@ -78,6 +78,9 @@ void addOperatorOptions(CLI::App& command, RunOptions& o) {
   options.add("--latency", o.settings.play.mostInFlight);
   options.add("--cull-draw", o.cullDraw).notes(o.cullDrawGiven);
   options.add("--osc", o.settings.console.oscPort);
+  options.add("--web", o.settings.web.address);
+  options.add("--web-token", o.settings.web.tokenFile).needs("--web");
+  options.add("--web-name", o.settings.web.names).needs("--web");
   options.add("--wait", o.settings.console.wait);
   options.add("--no-sound", o.settings.console.noSound);
 }

@@ -153,6 +153,7 @@ bool RunOptions::complete(Diagnostics& findings) {
 std::vector<NamedFile> RunOptions::namedFiles() const {
   const RecordSettings& r = settings.record;
   return {{"--rig", settings.console.trackers.rig, false},
+          {"--web-token", settings.web.tokenFile, false},
           {"--record-input", r.input},
           {"--trace", trace.file},
           {"--spans", r.spans.file},
@@ -179,6 +180,7 @@ void RunOptions::completeLive(Diagnostics& findings) {
   const TrackerOptions& trackers = s.console.trackers;
   const bool everyFrame = asksForEveryFrame();
   if (everyFrame && s.console.oscPort >= 0) refuse("--osc");
+  if (everyFrame && !s.web.address.empty()) refuse("--web");
   if (everyFrame && s.console.wait) refuse("--wait");
   if (everyFrame && !trackers.device.empty()) refuse("--tracker");
   if (everyFrame && degradationAsked) refuse("--load-control (and --stress-...)");

@@ -4,11 +4,14 @@
 #include "cli/exit_code.h"
 #include "cli/options/run_options.h"
 #include "cli/terminal.h"
+#include "engine/base/file_descriptor.h"
 #include "engine/base/run_stopped.h"
 #include "pipeline/record/journal.h"
 #include "show/base/stop_signal.h"
 #include "show/session/show_session.h"
 #include "show/supervision/supervisor.h"
+#include "show/web/web_address.h"
+#include "show/web/web_token.h"
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -16,6 +19,8 @@
 #include <filesystem>
 #include <fstream>
 #include <memory>
+#include <sys/mman.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 namespace stadion {
@@ -76,8 +81,28 @@ std::vector<std::string> playerWords(int descriptor) {
   return words;
 }
 
+/// The token of the operator's page, which all players of a supervised show share: a nameless file in memory, which
+/// they inherit. Invalid if the page is not asked for, or has a token file.
+FileDescriptor sharedWebToken(const WebSettings& web, Reporter& terminal) {
+  if (web.address.empty() || !web.tokenFile.empty()) return {};
+  const auto token = WebToken::make();
+  FileDescriptor file(token ? memfd_create("stadion-token", 0) : -1);
+  if (!file || fchmod(file.get(), S_IRUSR) != 0) return {};
+  const std::string& text = token.value().text();
+  if (write(file.get(), text.data(), text.size()) != static_cast<ssize_t>(text.size())) return {};
+  const auto address = WebAddress::parse(web.address);
+  if (address) terminal.hint("web: open http://" + address.value().authority() + "/#" + text);
+  return file;
+}
+
 int superviseShow(const RunOptions& o, Reporter& terminal) {
-  const auto supervisor = Supervisor::create(o.settings.supervision, playerWords, terminal);
+  const FileDescriptor token = sharedWebToken(o.settings.web, terminal);
+  const auto words = [&](int descriptor) {
+    std::vector<std::string> player = playerWords(descriptor);
+    if (token) player.insert(player.end(), {"--web-token", "/proc/self/fd/" + std::to_string(token.get())});
+    return player;
+  };
+  const auto supervisor = Supervisor::create(o.settings.supervision, words, terminal);
   if (!supervisor) return kBadInput;
   outliveReaders();
   return supervisor->play(catchStopSignals());

@@ -147,6 +147,21 @@ std::optional<ShowUnderWay> ClusterLeader::takeOver() {
   return {};
 }
 
+std::vector<HostState> ClusterLeader::hosts() const {
+  using Is = HostState::Is;
+  const std::lock_guard lock(mutex_);
+  std::vector<HostState> hosts;
+  for (std::size_t i = 0; i < followers_.size(); ++i) {
+    const Follower& f = followers_[i];
+    const Is is = i == options_.cluster.lead ? Is::Leads
+                  : f.member                 ? Is::Plays
+                  : f.incarnation != 0       ? Is::Joins
+                                             : Is::Absent;
+    hosts.push_back({nameOf(i), is, f.differs});
+  }
+  return hosts;
+}
+
 ClusterStats ClusterLeader::stats() const {
   const std::lock_guard lock(mutex_);
   return stats_;

@@ -61,6 +61,13 @@ struct ShowUnderWay {
   Presentation presentation{};                             ///< how that frame was shown
 };
 
+/// How a host of the cluster is.
+struct HostState {
+  std::string name;
+  enum class Is { Leads, Plays, Joins, Absent } is = Is::Absent;
+  bool differs = false;  ///< its scene differs from the leader's
+};
+
 class ClusterLeader final : public FrameOrders, public BusListener {
 public:
   /// Number of deadlines after which a host that lives but draws nothing is left out.
@@ -92,6 +99,7 @@ public:
   bool compares(std::uint64_t frame) const { return frame % options_.cluster.hashEvery == 0; }
   void simulated(std::uint64_t frame, std::uint64_t digest);
   ClusterStats stats() const;
+  std::vector<HostState> hosts() const;
   /// Returns true if another program leads this cluster already: ours must end.
   bool hasDouble() const;
   /// Waits until all hosts have received everything. With `over`, also ends the show for all.

@@ -87,6 +87,25 @@ std::optional<Diagnostic> writePng(const std::string& path, const Picture& pictu
   return file.commit();
 }
 
+std::string pngOf(const Picture& picture) {
+  std::vector<std::uint8_t> rgb;
+  rgb.reserve(picture.rgba.size() / 4 * 3);
+  for (std::size_t i = 0; i + 3 < picture.rgba.size(); i += 4)
+    rgb.insert(rgb.end(), &picture.rgba[i], &picture.rgba[i + 3]);
+  png_image image{};
+  image.version = PNG_IMAGE_VERSION;
+  image.width = picture.width;
+  image.height = picture.height;
+  image.format = PNG_FORMAT_RGB;
+  image.flags = PNG_IMAGE_FLAG_FAST;
+  std::string bytes(PNG_IMAGE_PNG_SIZE_MAX(image), '\0');
+  png_alloc_size_t size = bytes.size();
+  if (rgb.empty() || !png_image_write_to_memory(&image, bytes.data(), &size, 0, rgb.data(), 0, nullptr))
+    return "";
+  bytes.resize(size);
+  return bytes;
+}
+
 Result<Picture> readPng(const std::string& path) {
   const auto failure = [&path](const std::string& why) {
     Diagnostic d;

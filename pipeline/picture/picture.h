@@ -38,6 +38,10 @@ std::uint64_t imageHash(const Picture& picture);
 /// nothing on success.
 std::optional<Diagnostic> writePng(const std::string& path, const Picture& picture);
 
+/// Returns the bytes of a PNG file of the picture, without alpha, packed quickly rather than small. Empty if the
+/// picture is, or without memory.
+std::string pngOf(const Picture& picture);
+
 /// Reads any PNG as 8-bit RGBA, up to 16384 pixels a side.
 Result<Picture> readPng(const std::string& path);
 

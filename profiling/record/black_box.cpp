@@ -218,6 +218,7 @@ void BlackBox::keep(FrameFacts facts) {
   }
   ring_->put(facts);
   if (facts.cause == Cause::None) return;
+  if (options_.late) options_.late(facts);
   {
     const std::lock_guard lock(mutex_);
     ++verdicts_[facts.cause];

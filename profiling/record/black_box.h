@@ -24,6 +24,7 @@ struct BlackBoxOptions {
   double rate = 60;                                ///< [1/s]; 0 = frames are not paced: none is late
   std::vector<std::string> walls{};                ///< names
   std::function<void(const std::string&)> tell{};  ///< receives a late frame, in words; on the log's thread
+  std::function<void(const FrameFacts&)> late{};   ///< receives a late frame; on the log's thread
   /// Returns the node that overran its budget in a frame; null: there are no budgets.
   std::function<std::optional<Overrun>(std::uint64_t frame)> overrun{};
   bool sequential = false;  ///< the stages' times add up

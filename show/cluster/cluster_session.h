@@ -73,6 +73,10 @@ public:
   /// it. `over`: if this machine leads, the show ends for all.
   void finish(bool over);
   ClusterSummary summary() const;
+  /// Returns how all hosts are, as the leader knows; none on a follower. On the App thread.
+  std::vector<cluster::HostState> hosts() const {
+    return lead_ ? lead_->hosts() : std::vector<cluster::HostState>();
+  }
 
 private:
   ClusterSession(const ShowOptions& show, StereoLayout layout, ClusterFile file, std::size_t node,

@@ -30,7 +30,7 @@ struct RecordingOptions {
   };
   std::optional<Report> report{};
   std::optional<GovernorOptions> govern{};  ///< look at budgets
-  SpanReader* also = nullptr;               ///< a further reader, which outlives the recording
+  std::vector<SpanReader*> also{};          ///< further readers, which outlive the recording
 };
 
 class ShowRecording {
@@ -41,7 +41,7 @@ public:
     std::unique_ptr<ShowRecording> made(new ShowRecording);
     std::vector<SpanReader*> readers;
     if (options.profile) readers.push_back(&made->profile_);
-    if (options.also) readers.push_back(options.also);
+    readers.insert(readers.end(), options.also.begin(), options.also.end());
     if (options.govern) {
       made->governor_ = std::make_unique<DegradationGovernor>(std::move(*options.govern), made->names_);
       readers.push_back(made->governor_.get());

@@ -1,8 +1,9 @@
 #pragma once
-/// Passes everything on to another reporter, and what a journal keeps to the journal too.
+/// Passes everything on to another reporter, and what a journal keeps to the journal and to the operator's page too.
 
 #include "show/base/reporter.h"
 #include "show/supervision/run_journal.h"
+#include "show/web/operator_web.h"
 
 namespace stadion {
 
@@ -12,14 +13,18 @@ public:
 
   /// From now on this journal hears everything.
   void keepIn(RunJournal& journal) { journal_ = &journal; }
+  /// From now on this page hears everything; null: it is gone.
+  void showIn(OperatorWeb* web) { web_ = web; }
 
   void say(const std::string& line) override {
     to_.say(line);
     if (journal_) journal_->note(line);
+    if (OperatorWeb* web = web_) web->say(line);
   }
   void report(const Diagnostics& findings) override {
     to_.report(findings);
     if (journal_) journal_->note(findings);
+    if (OperatorWeb* web = web_) web->say(findings);
   }
   void hint(const std::string& line) override { to_.hint(line); }
   void fault(const std::string& why) override { to_.fault(why); }
@@ -29,6 +34,7 @@ public:
 private:
   Reporter& to_;
   RunJournal* journal_ = nullptr;
+  std::atomic<OperatorWeb*> web_ = nullptr;
 };
 
 }  // namespace stadion

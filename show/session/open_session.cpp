@@ -50,6 +50,7 @@ OpenSession::OpenSession(SessionSettings settings, Reporter& terminal, const std
     : terminal_(terminal), reporter_(terminal), state_{std::move(settings), reporter_, stop} {}
 
 OpenSession::~OpenSession() {
+  if (web_) web_->close();
   while (!parts_.empty()) parts_.pop_back();
 }
 
@@ -61,6 +62,9 @@ bool OpenSession::open(Diagnostics& findings) {
     reporter_.keepIn(*journal_);
     state_.journal = journal_.get();
   }
+  web_ = OperatorWeb::create(s.web, reporter_, findings);
+  s.console.hasPage = web_ != nullptr;
+  state_.web = web_.get();
   parts_ = makeSessionParts(state_, findings);
   if (findings.hasErrors() || !openDrawing(findings)) return false;
   console_ = OperatorConsole::open({s.show, s.play, s.console}, reporter_, findings);

@@ -53,6 +53,7 @@ private:
   SessionState state_;
   std::unique_ptr<ShowRenderer> renderer_;
   std::optional<DrawingPlan> drawing_;
+  std::unique_ptr<OperatorWeb> web_;  ///< hears of frames until the parts are closed
   std::unique_ptr<OperatorConsole> console_;
   std::unique_ptr<Player> player_;
   std::vector<std::unique_ptr<SessionPart>> parts_;  ///< closed before the player

@@ -11,11 +11,13 @@
 #include "show/console/operator_console.h"
 #include "show/output/output_folder.h"
 #include "show/recording/run_watch.h"
+#include "show/session/journal_reporter.h"
 #include "show/session/session_end.h"
 #include "show/session/session_report.h"
 #include "show/session/session_settings.h"
 #include "show/supervision/run_journal.h"
 #include "show/supervision/supervised_player.h"
+#include "show/web/operator_web.h"
 
 #include <functional>
 #include <memory>
@@ -26,7 +28,7 @@ namespace stadion {
 /// A pointer is null if the session has no such thing, or not yet.
 struct SessionState {
   SessionSettings settings;  ///< as asked for; the cluster file completes them
-  Reporter& reporter;        ///< the journal receives its lines, too
+  JournalReporter& reporter;  ///< the journal and the operator's page receive its lines, too
   const std::atomic<bool>& stop;
 
   RunJournal* journal = nullptr;
@@ -35,6 +37,7 @@ struct SessionState {
   ClusterSession* cluster = nullptr;
   OutputFolder* folder = nullptr;
   OperatorConsole* console = nullptr;
+  OperatorWeb* web = nullptr;
   Player* player = nullptr;
   RunWatch* watch = nullptr;
   const ShowRenderer* renderer = nullptr;

@@ -6,7 +6,7 @@ namespace stadion {
 
 MakeSessionPart makeJournalPart, makeWatchPart, makeSpansPart, makeWorkCountPart, makeRecordingPart,
     makeConsolePart, makeDisplaysPart, makeClusterMemberPart, makeSupervisionPart, makePicturesPart,
-    makeHashStreamPart, makeServicePart, makeSoundRecordingPart;
+    makeHashStreamPart, makeServicePart, makeSoundRecordingPart, makeWebPart;
 
 std::vector<std::unique_ptr<SessionPart>> makeSessionParts(SessionState& session, Diagnostics& findings) {
   std::vector<std::unique_ptr<SessionPart>> parts;
@@ -24,6 +24,7 @@ std::vector<std::unique_ptr<SessionPart>> makeSessionParts(SessionState& session
            makePicturesPart,        // pictures, video, tables
            makeSoundRecordingPart,  // after the output folder
            makeHashStreamPart,      // after those that take pictures: it hands them on
+           makeWebPart,             // the operator's page, likewise
        }) {
     if (auto part = make(session, findings)) parts.push_back(std::move(part));
     if (findings.hasErrors()) break;

@@ -8,6 +8,7 @@
 #include "show/player/play_settings.h"
 #include "show/recording/record_settings.h"
 #include "show/supervision/supervision_settings.h"
+#include "show/web/web_settings.h"
 
 namespace stadion {
 
@@ -19,6 +20,7 @@ struct SessionSettings {
   OperatorSettings console;
   ClusterSettings cluster;
   SupervisionSettings supervision;
+  WebSettings web;
 
   /// Returns what decides between threads and processes for so many walls.
   DrawingNeeds drawingNeeds(std::size_t walls) const;

@@ -57,12 +57,14 @@ void PlayingShow::beginRecording() {
   walls.push_back("overview");
   RecordingOptions options;
   options.profile = false;
-  options.also = &budget_;
+  options.also.push_back(&budget_);
+  if (around_.web) options.also.push_back(&around_.web->frameMeter());
   options.log.whole = false;
   options.log.samples = hasDrawnBudgets(player_->scene());
   options.log.shares = true;
   options.govern = governorOf(around_.settings.play, *player_, walls, around_.reporter.hintFunction());
   options.keep = lastFramesOf(around_.settings.play, around_.settings.record.blackBox, *player_, walls);
+  if (around_.web) options.keep->late = around_.web->lateFunction(options.keep->walls);
   options.keep->wanted = false;  // whether it can be was found out before anything was played
   Diagnostics findings;
   recording_ = ShowRecording::create(std::move(options), findings);
@@ -113,6 +115,11 @@ void PlayingShow::start(const std::optional<ShowPlace>& place) {
   around_.console.beginGroup(*player_, *watch_);
   around_.console.addTo(show, options);
   if (!player_->replaysLog()) options.decider = recording_->governor();
+  if (around_.web) {
+    around_.web->beginShow(boardShowOf(around_.settings.show.script, *player_, show),
+                           {0, around_.console.groups(), 0, around_.console.state()});
+    show.sink = &around_.web->sinkBefore(show.sink);
+  }
   writes_ = watchWrites(around_.settings.play.guard, show, options);
   stages_ = std::make_unique<ShowStages>(std::move(show));
   loop_ = std::make_unique<FrameLoop>(*stages_, options, *around_.stopping, &recording_->probe());
@@ -146,6 +153,7 @@ ShowPlace PlayingShow::place() const {
 void PlayingShow::see(const TimeSignature& now, const InputSample& input, const Scene& scene) {
   watch_->see(now, input, scene);
   recording_->see(scene);
+  if (around_.web) around_.web->see(now, around_.console.groups(), around_.console.state(), scene);
   overview_->see(input);
   if (now.frame == 0 && from_) takeUp(*from_);
   notePlace(scene);

@@ -13,6 +13,7 @@
 #include "show/recording/show_recording.h"
 #include "show/session/session_settings.h"
 #include "show/view/overview.h"
+#include "show/web/operator_web.h"
 
 #include <atomic>
 #include <memory>
@@ -46,7 +47,8 @@ struct ShowSurroundings {
   std::shared_ptr<std::atomic<bool>> stopping = std::make_shared<std::atomic<bool>>(false);
   /// Texts of the scripts; null: the scripts as they are on disk when the show is opened.
   std::shared_ptr<const ScriptTexts> texts{};
-  bool recorded = true;  ///< --record-input counts
+  bool recorded = true;        ///< --record-input counts
+  OperatorWeb* web = nullptr;  ///< the operator's page; null: there is none
 };
 
 class PlayingShow {

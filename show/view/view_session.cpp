@@ -51,8 +51,14 @@ std::unique_ptr<ViewSession> ViewSession::open(ViewSettings settings, Reporter& 
   s.hud_.budgetShown = s.settings_.hud;
   s.console_ = OperatorConsole::open({played.show, played.play, played.console}, s.hudReporter_, findings);
   if (!s.console_) return nullptr;
+  s.web_ = OperatorWeb::create(played.web, s.hudReporter_, findings);
+  if (findings.hasErrors()) return nullptr;
+  s.hudReporter_.showIn(s.web_.get());
   s.show_ = PlayingShow::open(s.surroundings(std::make_shared<ReusableResources>()), findings);
   if (!s.show_ || !s.console_->begin(s.show_->player(), findings)) return nullptr;
+  if (!s.web_) return session;
+  if (!s.web_->listen(s.console_->queue(), findings)) return nullptr;
+  s.console_->commanded = [web = s.web_.get()](const OperatorState& state) { web->commanded(state); };
   return session;
 }
 
@@ -72,20 +78,23 @@ bool ViewSession::openDrawing(Diagnostics& findings) {
 
 ShowSurroundings ViewSession::surroundings(std::shared_ptr<ReusableResources> kept) {
   const bool live = settings_.session.show.input == "none";
-  return {settings_.session,
-          *renderer_,
-          mailbox_,
-          *console_,
-          std::move(kept),
-          live ? &visitor_ : nullptr,
-          windows_->pictureSizes(),
-          {0, 0, settings_.width, settings_.height},
-          hudReporter_,
-          [this] { ended_ = true; }};
+  ShowSurroundings around{settings_.session,
+                          *renderer_,
+                          mailbox_,
+                          *console_,
+                          std::move(kept),
+                          live ? &visitor_ : nullptr,
+                          windows_->pictureSizes(),
+                          {0, 0, settings_.width, settings_.height},
+                          hudReporter_,
+                          [this] { ended_ = true; }};
+  around.web = web_.get();
+  return around;
 }
 
 void ViewSession::HudReporter::report(const Diagnostics& findings) {
   to_.report(findings);
+  if (OperatorWeb* web = web_) web->say(findings);
   for (const Diagnostic& d : findings.all())
     if (d.severity == Severity::Error) hud_.say(d.where.file + ": " + d.message);
 }
@@ -170,13 +179,14 @@ bool ViewSession::viewersCommand(Key key) {
   }
 }
 
-// As in the terminal, but that the brackets without shift are the viewer's.
+// As in the terminal, but that the brackets without shift and the digits are the viewer's.
 bool ViewSession::operatorsCommand(Key key, bool shift) {
   const bool bracket = key == static_cast<Key>('[') || key == static_cast<Key>(']');
   if (bracket && !shift) {
     changeSpeed(key == static_cast<Key>(']') ? 2 : 0.5);
     return true;
   }
+  if (key >= static_cast<Key>('1') && key <= static_cast<Key>('9')) return false;
   const auto order = operatorCommandOf(key);
   if (order) console_->queue().post(*order);
   return order.has_value();
@@ -250,6 +260,7 @@ void ViewSession::putInPlace(std::unique_ptr<PlayingShow> show) {
 // Creates a new show; only the contents of files are reused.
 void ViewSession::nextGroup() {
   finishRecord();
+  if (web_) web_->endShow(false);
   console_->endGroup(show_->watch());
   Diagnostics findings;
   auto next = PlayingShow::open(surroundings(show_->kept()), findings);

@@ -57,9 +57,11 @@ private:
   class HudReporter final : public Reporter {
   public:
     HudReporter(Reporter& to, ViewHud& hud) : to_(to), hud_(hud) {}
+    void showIn(OperatorWeb* web) { web_ = web; }
     void say(const std::string& line) override {
       to_.say(line);
       hud_.say(line);
+      if (OperatorWeb* web = web_) web->say(line);
     }
     void hint(const std::string& line) override { to_.hint(line); }
     void fault(const std::string& why) override { to_.fault(why); }
@@ -68,6 +70,7 @@ private:
   private:
     Reporter& to_;
     ViewHud& hud_;
+    std::atomic<OperatorWeb*> web_ = nullptr;
   };
 
   ViewSession(ViewSettings settings, Reporter& reporter)
@@ -117,6 +120,7 @@ private:
   std::unique_ptr<OperatorConsole> console_;
   OverviewPlace overview_;
   ScriptWatch files_;
+  std::unique_ptr<OperatorWeb> web_;
   std::unique_ptr<PlayingShow> show_;
   std::unique_ptr<ShowReload> reload_;
   std::vector<EyePictures> pictures_;  ///< shown

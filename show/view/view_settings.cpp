@@ -16,7 +16,7 @@ std::vector<std::string> viewKeys() {
           ".         a single frame",
           "[ ]       slower, as fast as the clock.  With shift: eyes closer, wider",
           "N         next group: the show from its start",
-          "B X F     black walls; swap eyes; freeze the head",
+          "B T X F   black walls; test pattern; swap eyes; freeze the head",
           "- +       the sounds' volume",
           "O         the room from outside; drag with the right button turns it, the wheel goes nearer",
           "F5        read the script again (so does saving it)",

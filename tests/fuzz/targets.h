@@ -31,6 +31,7 @@ void sgct(Bytes bytes);             ///< a configuration of SGCT, a zero byte an
 void ndisplay(Bytes bytes);         ///< a configuration of nDisplay, likewise
 void warp_mesh(Bytes bytes);        ///< the number of a warp format, and a file of it
 void light_map(Bytes bytes);        ///< a PNG file
+void web(Bytes bytes);              ///< a request to the operator's page, and the command in it
 
 struct Target {
   std::string_view name;
@@ -52,7 +53,8 @@ inline constexpr Target kTargets[] = {{"script", script},
                                       {"sgct", sgct},
                                       {"ndisplay", ndisplay},
                                       {"warp_mesh", warp_mesh},
-                                      {"light_map", light_map}};
+                                      {"light_map", light_map},
+                                      {"web", web}};
 
 inline std::string_view asText(Bytes bytes) {
   return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};

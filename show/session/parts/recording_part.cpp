@@ -68,7 +68,8 @@ private:
     const Player& player = *session_.player;
     const std::vector<std::string> walls = player.walls().names();
     RecordingOptions o;
-    o.also = session_.budget;
+    if (session_.budget) o.also.push_back(session_.budget);
+    if (session_.web) o.also.push_back(&session_.web->frameMeter());
     o.trace = s.record.trace;
     if (o.trace) {
       o.trace->show = s.show.script;
@@ -88,6 +89,7 @@ private:
     }
     o.keep = lastFramesOf(s.play, s.record.blackBox, player, walls);
     o.keep->tell = reportLate(session_.journal, session_.reporter);
+    if (session_.web) o.keep->late = session_.web->lateFunction(walls);
     return o;
   }
 
