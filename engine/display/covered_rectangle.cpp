@@ -130,6 +130,12 @@ std::optional<Wall> onCurve(const PixelRays& rays, const Vec3& eye) {
   return rectangleOn(middle, right, up, bounds);
 }
 
+/// A rectangle that is a metre wide, a metre before the visitor.
+Wall beforeVisitor(const Vec3& eye, double height) {
+  const Vec3 lowerLeft = eye + Vec3(-0.5, 1, -0.5 * height);
+  return {{}, lowerLeft, lowerLeft + Vec3(1, 0, 0), lowerLeft + Vec3(0, 0, height)};
+}
+
 }  // namespace
 
 std::optional<Wall> coveredRectangle(const Projector& projector, const ScreenSurface& surface,
@@ -160,11 +166,15 @@ void placeRectangles(WallFile& hall) {
     surfaces.push_back(isComplete(screen) ? std::make_unique<ScreenSurface>(screen) : nullptr);
   const Vec3& eye = hall.visitor.eye;
   for (WallEntry& entry : hall.walls) {
-    if (!entry.projector) continue;
-    const auto& surface = surfaces[entry.projector->screen];
+    if (entry.isFlat()) continue;
     std::optional<Wall> wall;
-    if (surface && isComplete(*entry.projector)) wall = coveredRectangle(*entry.projector, *surface, eye);
-    if (!wall) wall = Wall{{}, eye + Vec3(-0.5, 1, -0.5), eye + Vec3(0.5, 1, -0.5), eye + Vec3(-0.5, 1, 0.5)};
+    if (entry.panorama) {
+      wall = beforeVisitor(eye, static_cast<double>(entry.panorama->height) / entry.panorama->width);
+    } else {
+      const auto& surface = surfaces[entry.projector->screen];
+      if (surface && isComplete(*entry.projector)) wall = coveredRectangle(*entry.projector, *surface, eye);
+    }
+    if (!wall) wall = beforeVisitor(eye, 1);
     wall->name = std::move(entry.wall.name);
     entry.wall = std::move(*wall);
   }

@@ -15,8 +15,8 @@ namespace stadion {
 std::optional<Wall> coveredRectangle(const Projector& projector, const ScreenSurface& surface,
                                      const Vec3& eye);
 
-/// Gives each projector of the hall its rectangle. A projector without one, or whose screen or warp is not
-/// loaded, gets a square metre before the visitor.
+/// Gives each projector and panorama of the hall its rectangle. A projector without one, or whose screen or warp is
+/// not loaded, gets a square metre before the visitor; a panorama a rectangle of its shape there.
 void placeRectangles(WallFile& hall);
 
 /// Returns true if the screen has what its kind needs: a plane has an area, a mesh is loaded.

@@ -121,7 +121,9 @@ public:
         scale.bounds.include(l.b);
       }
     for (const WallEntry& e : hall.walls)
-      if (e.projector) scale.bounds.include(placeOf(e));
+      if (!e.isFlat()) scale.bounds.include(placeOf(e));
+    if (dotted_.empty() && solid_.empty())  // panoramas alone
+      for (const double side : {-1.0, 1.0}) scale.bounds.include(hall.visitor.eye + Vec3(side, side, 0));
     const Vec3 extent = scale.bounds.hi - scale.bounds.lo;
     width_ = static_cast<int>(std::clamp(columns, 20u, 200u));
     scale.lettersPerMetre = (width_ - 3) / std::max({extent.x(), extent.y(), 1e-3});
@@ -143,7 +145,7 @@ public:
 private:
   void collect() {
     for (const WallEntry& e : hall_.walls)
-      if (!e.projector) addOutline(e.wall, isLevel(e.wall) ? dotted_ : solid_);
+      if (e.isFlat()) addOutline(e.wall, isLevel(e.wall) ? dotted_ : solid_);
     for (const Screen& s : hall_.screens) {
       if (const auto* wall = std::get_if<Wall>(&s.surface))
         addOutline(*wall, isLevel(*wall) ? dotted_ : solid_);
@@ -156,8 +158,9 @@ private:
     }
   }
 
-  /// Where the projector's light comes from, or the middle of what it lights.
-  static Vec3 placeOf(const WallEntry& e) {
+  /// Where the projector's light comes from, or the middle of what it lights; from where a panorama is seen.
+  Vec3 placeOf(const WallEntry& e) const {
+    if (e.panorama) return e.panorama->at.value_or(hall_.visitor.eye);
     const Projector& p = *e.projector;
     if (const auto* lens = std::get_if<LensImage>(&p.image)) return lens->X_RP.p;
     if (const auto* fisheye = std::get_if<FisheyeImage>(&p.image)) return fisheye->X_RP.p;
@@ -171,11 +174,11 @@ private:
 
   void number(std::size_t i) {
     const WallEntry& e = hall_.walls[i];
-    const Vec3 c = e.projector ? placeOf(e) : e.wall.centre();
+    const Vec3 c = e.isFlat() ? e.wall.centre() : placeOf(e);
     // Floor and ceiling share their middle with the visitor and with each other.
-    int aside = e.projector || !isLevel(e.wall) ? 0 : c.z() < hall_.visitor.eye.z() ? -4 : 4;
-    // Projectors hang in pairs.
-    while (e.projector && aside < 8 && taken(scale_.column(c.x()) + aside, scale_.row(c.y()))) ++aside;
+    int aside = !e.isFlat() || !isLevel(e.wall) ? 0 : c.z() < hall_.visitor.eye.z() ? -4 : 4;
+    // Projectors hang in pairs, and panoramas are seen from the visitor's place.
+    while (!e.isFlat() && aside < 8 && taken(scale_.column(c.x()) + aside, scale_.row(c.y()))) ++aside;
     sheet_.put(scale_.column(c.x()) + aside, scale_.row(c.y()), sign(i));
   }
 
@@ -205,12 +208,29 @@ private:
                           b.width, b.height, hall_.screens[e.projector->screen].name,
                           e.projector->eye ? fmt::format(" for the {} eye", eyeName(*e.projector->eye)) : "",
                           e.pixels.width, e.pixels.height, place.x(), place.y(), place.z());
+    } else if (e.panorama) {
+      text += panoramaText(e);
     } else {
       text += fmt::format("{:.2f} x {:.2f} m, {}, middle at {:.2f} {:.2f} {:.2f}\n", b.width, b.height,
                           facing(w), w.centre().x(), w.centre().y(), w.centre().z());
     }
     if (e.output) text += fmt::format("   shown on{}\n", formatOutput(*e.output));
     return text;
+  }
+
+  static std::string panoramaText(const WallEntry& e) {
+    const Panorama& p = *e.panorama;
+    std::string text = "shows all directions as a cube";
+    if (p.kind == PanoramaKind::DomeMaster)
+      text = fmt::format("shows {:.4g} degrees as a dome master", p.across / kDegree);
+    if (p.kind == PanoramaKind::Equirectangular)
+      text = fmt::format("shows {:.4g} x {:.4g} degrees equirectangularly", p.across / kDegree,
+                         p.upright / kDegree);
+    text += fmt::format(", {} x {} pixels, from ", p.width, p.height);
+    constexpr const char* kFrom[] = {"the head", "the left eye", "the right eye"};
+    text += p.at ? fmt::format("{:.2f} {:.2f} {:.2f}", p.at->x(), p.at->y(), p.at->z())
+                 : kFrom[static_cast<std::size_t>(p.eye)];
+    return text + '\n';
   }
 
   const WallFile& hall_;

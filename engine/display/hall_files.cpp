@@ -1,6 +1,7 @@
 #include "engine/display/wall_file.h"
 
 #include "engine/base/plain_file.h"
+#include "engine/colour_table/cube_file.h"
 #include "engine/display/covered_rectangle.h"
 #include "engine/display/screen_mesh.h"
 
@@ -23,9 +24,12 @@ public:
     for (Screen& screen : hall_.screens)
       if (auto* mesh = std::get_if<MeshScreen>(&screen.surface))
         loadMesh(*mesh, {{hall_.file, screen.line, screen.column}, screen.excerpt});
-    for (WallEntry& entry : hall_.walls)
-      if (auto* image = entry.projector ? std::get_if<MeasuredImage>(&entry.projector->image) : nullptr)
-        loadWarp(*image, {{hall_.file, entry.line, entry.column}, entry.excerpt});
+    for (WallEntry& entry : hall_.walls) {
+      if (!entry.projector) continue;
+      const Namer namer{{hall_.file, entry.line, entry.column}, entry.excerpt};
+      if (auto* image = std::get_if<MeasuredImage>(&entry.projector->image)) loadWarp(*image, namer);
+      if (entry.projector->lut) loadTable(*entry.projector->lut, namer);
+    }
   }
 
 private:
@@ -66,6 +70,12 @@ private:
     image.columns = grid->columns;
     image.rows = grid->rows;
     image.points = std::move(grid->points);
+  }
+
+  void loadTable(ProjectorLut& lut, const Namer& namer) {
+    const auto bytes = bytesOf(lut.file, kMostCubeBytes, namer);
+    if (!bytes) return;
+    if (auto table = readCube(*bytes, pathOf(lut.file), out_)) lut.table = std::move(*table);
   }
 
   WallFile& hall_;

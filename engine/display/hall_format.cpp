@@ -79,7 +79,26 @@ std::string formatProjector(const WallEntry& entry, const std::string& screen, d
   if (entry.card) text += fmt::format("  card {}", *entry.card);
   text += "  " + std::visit(ImageText{metresPerUnit}, p.image) + lightText(p.light);
   if (!p.blend.computed) text += "  no-blend";
+  for (const PictureEdge edge :
+       {PictureEdge::Left, PictureEdge::Right, PictureEdge::Top, PictureEdge::Bottom})
+    if (const double share = p.blend.edges[static_cast<std::size_t>(edge)]; share > 0)
+      text += fmt::format("  edge-{} {}", edgeName(edge), share);
   if (!p.blend.mask.empty()) text += "  mask " + p.blend.mask;
+  if (p.lut) text += "  lut " + p.lut->file;
+  return text + '\n';
+}
+
+std::string formatPanorama(const WallEntry& entry, double metresPerUnit) {
+  const Panorama& p = *entry.panorama;
+  std::string text = fmt::format("panorama {} {}  pixels {} {}", entry.wall.name, panoramaKindName(p.kind),
+                                 p.width, p.height);
+  if (p.kind != PanoramaKind::Cube) text += fmt::format("  field-of-view {}", p.across / kDegree);
+  if (p.kind == PanoramaKind::Equirectangular) text += fmt::format(" {}", p.upright / kDegree);
+  if (p.turn != 0) text += fmt::format("  turn {}", p.turn / kDegree);
+  if (p.tilt != 0) text += fmt::format("  tilt {}", p.tilt / kDegree);
+  if (p.at) text += "  at " + pointText(*p.at, metresPerUnit);
+  if (p.eye != PanoramaEye::Middle) text += p.eye == PanoramaEye::Left ? "  eye left" : "  eye right";
+  if (entry.card) text += fmt::format("  card {}", *entry.card);
   return text + '\n';
 }
 

@@ -44,15 +44,33 @@ void HallReader::projector() {
   entry.column = nameWord.column;
   entry.excerpt = in_.excerpt();
   const auto screen = readProjector(in_, lengths_, entry);
-  if (!screen || refuseMore(hall_.walls.size(), WallFile::kMaxWalls, "walls and projectors")) return;
+  if (!screen || !add(std::move(entry), nameWord)) return;
+  links_.push_back({hall_.walls.size() - 1, screen->name, screen->at, in_.place(nameWord)});
+}
+
+void HallReader::panorama() {
+  const auto name = in_.name("the panorama's name", "a panorama");
+  if (!name) return;
+  const Word nameWord = in_.last();
+  WallEntry entry;
+  entry.wall.name = *name;
+  entry.line = in_.line();
+  entry.column = nameWord.column;
+  entry.excerpt = in_.excerpt();
+  if (!readPanorama(in_, lengths_, entry) || !add(std::move(entry), nameWord)) return;
+  panoramas_.push_back({hall_.walls.size() - 1, in_.place(nameWord)});
+}
+
+bool HallReader::add(WallEntry entry, const Word& name) {
+  if (refuseMore(hall_.walls.size(), WallFile::kMaxWalls, "walls and projectors")) return false;
   for (const WallEntry& other : hall_.walls)
-    if (other.wall.name == *name)
-      return in_.error(nameWord,
-                       fmt::format("there is a {} \"{}\" already, on line {}; give this one another "
-                                   "name",
-                                   other.projector ? "projector" : "wall", *name, other.line));
-  links_.push_back({hall_.walls.size(), screen->name, screen->at, in_.place(nameWord)});
+    if (other.wall.name == entry.wall.name) {
+      in_.error(name, fmt::format("there is a {} \"{}\" already, on line {}; give this one another name",
+                                  other.noun(), entry.wall.name, other.line));
+      return false;
+    }
   hall_.walls.push_back(std::move(entry));
+  return true;
 }
 
 void HallReader::visitor() {
@@ -121,8 +139,31 @@ bool HallReader::giveControls() {
 bool HallReader::finish() {
   bool good = giveControls();
   for (const ScreenOfProjector& one : links_) good = link(one) && good;
+  for (const NamedPanorama& one : panoramas_) good = giveSize(one) && good;
   if (good) placeRectangles(hall_);
   return good;
+}
+
+bool HallReader::giveSize(const NamedPanorama& panorama) {
+  const WallEntry& entry = hall_.walls[panorama.entry];
+  Panorama& p = *hall_.walls[panorama.entry].panorama;
+  p.width = entry.pixels.width;
+  p.height = entry.pixels.height;
+  if (p.width == 0) {
+    in_.errorAt(panorama.at,
+                fmt::format("panorama \"{}\" has no size; add: pixels WIDTH HEIGHT, here or as a "
+                            "line for all",
+                            entry.wall.name));
+    return false;
+  }
+  if (sizeFits(p)) return true;
+  const Panorama near = withWidth(p, p.width);
+  in_.errorAt(
+      panorama.at,
+      fmt::format("the six squares of a cube stand in three columns and two rows, each with a multiple of "
+                  "{} pixels along its side, and {} x {} pixels are not that; write: pixels {} {}",
+                  kCubeStep, p.width, p.height, near.width, near.height));
+  return false;
 }
 
 bool HallReader::link(const ScreenOfProjector& link) {

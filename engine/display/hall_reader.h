@@ -1,5 +1,5 @@
 #pragma once
-/// The statements of a wall file about screens, projectors and visitors (wall_file.h lists them).
+/// The statements of a wall file about screens, projectors, panoramas and visitors (wall_file.h lists them).
 ///
 /// Ownership  borrows the reader and the WallFile that it fills.
 /// Threads    one reader, one thread.
@@ -21,6 +21,7 @@ public:
   // Each reads the rest of one line.
   void screen();
   void projector();
+  void panorama();
   void visitor();
   void control();
 
@@ -46,16 +47,25 @@ private:
   };
   static const StatementField<HallReader> kControlFields[2];
 
+  struct NamedPanorama {
+    std::size_t entry;
+    StatementPlace at;  ///< of the panorama's name
+  };
+
+  /// Adds the entry, unless its name is taken or there are too many.
+  bool add(WallEntry entry, const Word& name);
   bool controlPort();
   bool controlPassword();
   bool giveControls();
   bool link(const ScreenOfProjector& link);
+  bool giveSize(const NamedPanorama& panorama);
   bool refuseMore(std::size_t count, std::size_t most, std::string_view what);
 
   StatementReader& in_;
   LengthReader& lengths_;
   WallFile& hall_;
   std::vector<ScreenOfProjector> links_;
+  std::vector<NamedPanorama> panoramas_;
   std::vector<NamedControl> controls_;
   bool tooMany_ = false;
 };
@@ -64,6 +74,7 @@ private:
 /// `metresPerUnit`.
 std::string formatScreen(const Screen& screen, double metresPerUnit);
 std::string formatProjector(const WallEntry& entry, const std::string& screen, double metresPerUnit);
+std::string formatPanorama(const WallEntry& entry, double metresPerUnit);
 std::string formatControl(const ProjectorControl& control);
 std::string formatVisitor(const VisitorPlace& visitor, double metresPerUnit);
 

@@ -1,5 +1,5 @@
 #pragma once
-/// The words of `screen` and `projector` lines after their names, and of fields that walls and projectors share.
+/// The words of `screen`, `projector` and `panorama` lines after their names, and of fields that walls and projectors share.
 ///
 /// Errors  are reported at the word that is wrong.
 
@@ -22,6 +22,10 @@ struct NamedScreen {
 /// Fills the projector, card and pixels of `entry`, whose wall has its name. Nothing after an error. A
 /// measured image gets only its file's name, and the projector no screen.
 std::optional<NamedScreen> readProjector(StatementReader& in, LengthReader& lengths, WallEntry& entry);
+
+/// Fills the panorama, card and pixels of `entry`, whose wall has its name. False after an error. The panorama
+/// has no size yet.
+bool readPanorama(StatementReader& in, LengthReader& lengths, WallEntry& entry);
 
 /// Reads the width and the height of a picture. False after an error.
 bool readPixelSize(StatementReader& in, PixelSize& target);

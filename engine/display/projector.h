@@ -9,6 +9,7 @@
 /// Units    metres, radians. Light is a share of the full white of a projector whose `white` is 1.
 /// Threads  plain values, any thread.
 
+#include "engine/colour_table/colour_table.h"
 #include "engine/display/wall.h"
 
 #include <array>
@@ -73,15 +74,32 @@ struct LightMap {
   bool operator==(const LightMap&) const = default;
 };
 
+/// Borders of a picture, in the order of ProjectorBlend::edges.
+enum class PictureEdge : std::uint32_t { Left, Right, Top, Bottom };
+inline constexpr double kMostEdge = 0.45;  ///< of the width or height
+constexpr const char* edgeName(PictureEdge edge) {
+  constexpr const char* kNames[] = {"left", "right", "top", "bottom"};
+  return kNames[static_cast<std::size_t>(edge)];
+}
+
 /// How a projector's picture fades out towards its neighbours. By channel, the light of a pixel whose picture
 /// has the light p is p alpha (1 - beta) + beta, after the computed ramps.
 struct ProjectorBlend {
   bool computed = true;  ///< ramps follow from what the projectors of the hall cover
+  /// Where the ramps begin: so far inside of the picture's left, right, upper and lower border, as shares of its
+  /// width and height. Beyond, neighbours give the light; where none reaches, this projector does.
+  std::array<double, 4> edges{0, 0, 0, 0};
   /// A file whose pixels multiply the light, by channel, on top of that (0 = none, 255 = all; in proportion to
   /// light). Empty = none.
   std::string mask;
   std::optional<LightMap> alpha;  ///< of a file that holds its masks inside; none: 1
   std::optional<LightMap> beta;   ///< lifts black where fewer projectors light the screen; none: 0
+};
+
+/// A colour table between the picture and the display. `light` of the projector describes both together.
+struct ProjectorLut {
+  std::string file;   ///< as the user named it
+  ColourTable table;  ///< empty until the file is read
 };
 
 struct Projector {
@@ -91,6 +109,7 @@ struct Projector {
   std::variant<LensImage, FisheyeImage, PinnedImage, MeasuredImage> image;
   ProjectorLight light;
   ProjectorBlend blend;
+  std::optional<ProjectorLut> lut;  ///< maps values after blending and encoding; none: they stay
 };
 
 /// How the projector of an entry is switched over the network: PJLink, class 1.

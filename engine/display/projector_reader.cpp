@@ -26,12 +26,12 @@ public:
   }
 
 private:
-  static const StatementField<ProjectorReader> kFields[19];
+  static const StatementField<ProjectorReader> kFields[24];
 
   /// What the line says about its image.
   struct Given {
     bool at = false, lookAt = false, turn = false, roll = false, throwRatio = false, shift = false,
-         pixelAspect = false, fisheye = false, pins = false, warp = false;
+         pixelAspect = false, fisheye = false, pins = false, warp = false, edge = false;
   };
 
   bool missing(std::string_view what) {
@@ -130,6 +130,18 @@ private:
     projector_.blend.computed = false;
     return true;
   }
+  bool edge(PictureEdge which) {
+    const auto share = in_.number(fmt::format("the {} edge", edgeName(which)), 0, kMostEdge);
+    if (share) projector_.blend.edges[static_cast<std::size_t>(which)] = *share;
+    return given_.edge = share.has_value();
+  }
+  bool edgeLeft() { return edge(PictureEdge::Left); }
+  bool edgeRight() { return edge(PictureEdge::Right); }
+  bool edgeTop() { return edge(PictureEdge::Top); }
+  bool edgeBottom() { return edge(PictureEdge::Bottom); }
+  bool lut() {
+    return readFileName(in_, "the file of the colour table", {".cube"}, projector_.lut.emplace().file);
+  }
   bool mask() { return readFileName(in_, "the file of the mask", {".png"}, projector_.blend.mask); }
 
   bool numberFollows() const {
@@ -180,6 +192,7 @@ private:
       return missing(g.fisheye ? "has throw and fisheye; keep one of them"
                                : "has no lens; add: throw RATIO, or fisheye DEGREES");
     if (g.shift && g.fisheye) return missing("has a fisheye with a shift; leave shift out");
+    if (g.edge && g.fisheye) return missing("has a fisheye with edges; leave them out: its picture is round");
     if (g.pixelAspect && g.fisheye)
       return missing("has a fisheye with a pixel-aspect; leave pixel-aspect out");
     if (g.lookAt) {
@@ -223,7 +236,7 @@ private:
 };
 
 using ProjectorField = StatementField<ProjectorReader>;
-constexpr ProjectorField ProjectorReader::kFields[19] = {{"screen", &ProjectorReader::screen},
+constexpr ProjectorField ProjectorReader::kFields[24] = {{"screen", &ProjectorReader::screen},
                                                          {"pixels", &ProjectorReader::pixels},
                                                          {"eye", &ProjectorReader::eye},
                                                          {"card", &ProjectorReader::card},
@@ -241,9 +254,85 @@ constexpr ProjectorField ProjectorReader::kFields[19] = {{"screen", &ProjectorRe
                                                          {"white", &ProjectorReader::white},
                                                          {"black", &ProjectorReader::black},
                                                          {"no-blend", &ProjectorReader::noBlend},
-                                                         {"mask", &ProjectorReader::mask}};
+                                                         {"edge-left", &ProjectorReader::edgeLeft},
+                                                         {"edge-right", &ProjectorReader::edgeRight},
+                                                         {"edge-top", &ProjectorReader::edgeTop},
+                                                         {"edge-bottom", &ProjectorReader::edgeBottom},
+                                                         {"mask", &ProjectorReader::mask},
+                                                         {"lut", &ProjectorReader::lut}};
+
+class PanoramaReader {
+public:
+  PanoramaReader(StatementReader& in, LengthReader& lengths, WallEntry& entry)
+      : in_(in), lengths_(lengths), entry_(entry), panorama_(entry.panorama.emplace()) {}
+
+  bool run() {
+    static constexpr std::string_view kKinds[] = {panoramaKindName(PanoramaKind::DomeMaster),
+                                                  panoramaKindName(PanoramaKind::Equirectangular),
+                                                  panoramaKindName(PanoramaKind::Cube)};
+    const auto kind = in_.choice("a kind of panorama", kKinds);
+    if (!kind) return false;
+    panorama_.kind = static_cast<PanoramaKind>(*kind);
+    panorama_.across = panorama_.kind == PanoramaKind::DomeMaster ? kPi : 2 * kPi;
+    panorama_.upright = kPi;
+    if (!in_.fields(*this, kFields, "a panorama")) return false;
+    if (!panorama_.at || panorama_.eye == PanoramaEye::Middle) return true;
+    in_.errorAtEnd(fmt::format("panorama \"{}\" has at and eye; keep one of them", entry_.wall.name));
+    return false;
+  }
+
+private:
+  static const StatementField<PanoramaReader> kFields[7];
+
+  bool pixels() { return readPixelSize(in_, entry_.pixels); }
+  bool card() { return readCard(in_, entry_.card); }
+  bool fieldOfView() {
+    if (panorama_.kind == PanoramaKind::Cube) {
+      in_.error(in_.last(), "a cube always shows all directions; leave field-of-view out");
+      return false;
+    }
+    const auto across = in_.number("the field of view", 1, 360, " degrees");
+    if (across) panorama_.across = *across * kDegree;
+    if (!across || panorama_.kind == PanoramaKind::DomeMaster) return across.has_value();
+    const auto upright = in_.number("the upright field of view", 1, 180, " degrees");
+    if (upright) panorama_.upright = *upright * kDegree;
+    return upright.has_value();
+  }
+  bool at() { return lengths_.point("the place from which it is seen", panorama_.at.emplace()); }
+  bool eye() {
+    static constexpr std::string_view kEyeWords[] = {"middle", "left", "right"};
+    const auto which = in_.choice("an eye", kEyeWords);
+    if (which) panorama_.eye = static_cast<PanoramaEye>(*which);
+    return which.has_value();
+  }
+  bool turn() { return angle("the turn to the right", 360, panorama_.turn); }
+  bool tilt() { return angle("the tilt", 180, panorama_.tilt); }
+  bool angle(std::string_view what, double most, double& target) {
+    const auto degrees = in_.number(what, -most, most, " degrees");
+    if (degrees) target = *degrees * kDegree;
+    return degrees.has_value();
+  }
+
+  StatementReader& in_;
+  LengthReader& lengths_;
+  WallEntry& entry_;
+  Panorama& panorama_;
+};
+
+constexpr StatementField<PanoramaReader> PanoramaReader::kFields[7] = {
+    {"pixels", &PanoramaReader::pixels},
+    {"card", &PanoramaReader::card},
+    {"field-of-view", &PanoramaReader::fieldOfView},
+    {"at", &PanoramaReader::at},
+    {"eye", &PanoramaReader::eye},
+    {"turn", &PanoramaReader::turn},
+    {"tilt", &PanoramaReader::tilt}};
 
 }  // namespace
+
+bool readPanorama(StatementReader& in, LengthReader& lengths, WallEntry& entry) {
+  return PanoramaReader(in, lengths, entry).run();
+}
 
 std::optional<NamedScreen> readProjector(StatementReader& in, LengthReader& lengths, WallEntry& entry) {
   return ProjectorReader(in, lengths, entry).run();

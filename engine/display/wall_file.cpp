@@ -55,7 +55,7 @@ public:
   }
 
 private:
-  static const Statement<WallParser> kStatements[13];
+  static const Statement<WallParser> kStatements[14];
   static const StatementField<WallParser> kFields[5];
 
   void unit() {
@@ -97,6 +97,7 @@ private:
 
   void screen() { hall_.screen(); }
   void projector() { hall_.projector(); }
+  void panorama() { hall_.panorama(); }
   void visitor() { hall_.visitor(); }
   void control() { hall_.control(); }
   void loudspeaker() { loudspeakers_.loudspeaker(); }
@@ -142,7 +143,7 @@ private:
         return in_.error(nameWord,
                          fmt::format("there is a {} \"{}\" already, on line {}; give this one another "
                                      "name",
-                                     other.projector ? "projector" : "wall", *name, other.line));
+                                     other.noun(), *name, other.line));
     walls_.walls.push_back(std::move(entry_));
   }
 
@@ -203,7 +204,7 @@ private:
   bool tooMany_ = false;  ///< walls or outputs
 };
 
-constexpr Statement<WallParser> WallParser::kStatements[13] = {
+constexpr Statement<WallParser> WallParser::kStatements[14] = {
     {"wall", &WallParser::wall, true},
     {"output", &WallParser::output, true},
     {"unit", &WallParser::unit},
@@ -213,6 +214,7 @@ constexpr Statement<WallParser> WallParser::kStatements[13] = {
     {"pixels", &WallParser::pixels},
     {"screen", &WallParser::screen, true},
     {"projector", &WallParser::projector, true},
+    {"panorama", &WallParser::panorama, true},
     {"visitor", &WallParser::visitor},
     {"control", &WallParser::control, true},
     {"loudspeaker", &WallParser::loudspeaker, true},
@@ -303,11 +305,14 @@ std::string formatWalls(const WallFile& walls) {
   const double unit = named ? walls.metresPerUnit : 1;
   std::string text = fmt::format("unit {}\neye-separation {}\nnear {}\nfar {}\n", unitName(unit),
                                  walls.eyeSeparation / unit, walls.depth.near / unit, walls.depth.far / unit);
-  if (!walls.screens.empty() || !walls.loudspeakers.empty()) text += formatVisitor(walls.visitor, unit);
+  const bool hall = !std::ranges::all_of(walls.walls, &WallEntry::isFlat);
+  if (hall || !walls.screens.empty() || !walls.loudspeakers.empty())
+    text += formatVisitor(walls.visitor, unit);
   for (const Screen& screen : walls.screens) text += formatScreen(screen, unit);
   for (const WallEntry& entry : walls.walls) {
-    text += entry.projector ? formatProjector(entry, walls.screens[entry.projector->screen].name, unit)
-                            : formatWall(entry, unit);
+    text += entry.projector  ? formatProjector(entry, walls.screens[entry.projector->screen].name, unit)
+            : entry.panorama ? formatPanorama(entry, unit)
+                             : formatWall(entry, unit);
     if (entry.output) text += fmt::format("output {}{}\n", entry.wall.name, formatOutput(*entry.output));
     if (entry.control)
       text += fmt::format("control {}  {}\n", entry.wall.name, formatControl(*entry.control));

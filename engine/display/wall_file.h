@@ -29,6 +29,12 @@
 ///               pins X Y  X Y  X Y  X Y       upper left, upper right, lower right, lower left (planes only)
 ///               warp FILE.pfm                 points of the screen that a camera system measured
 ///       LIGHT   [display-gamma G | R G B | srgb]  [white R G B]  [black L]  [no-blend]  [mask FILE.png]
+///               [edge-left A]  [edge-right A]  [edge-top A]  [edge-bottom A]   where ramps begin, as shares
+///               [lut FILE.cube]   colour table for the values that the projector gets
+///     panorama NAME dome-master      [field-of-view A]            [FIELDS]   directions around the head, as a circle
+///     panorama NAME equirectangular  [field-of-view ACROSS UP]    [FIELDS]
+///     panorama NAME cube                                          [FIELDS]
+///       FIELDS  [pixels W H]  [at X Y Z]  [eye left|right|middle]  [turn YAW]  [tilt A]  [card N]
 ///     control NAME pjlink HOST  [port N]  [password FILE]   how the projector of a wall or projector is switched
 ///     loudspeaker NAME X Y Z  [channel N]  [delay MS]  [gain DB]  [subwoofer HZ]   (loudspeaker_text.h)
 ///     sound [card NAME]  [align on|off]   what the loudspeakers are connected to
@@ -48,6 +54,7 @@
 #include "engine/display/screen.h"
 #include "engine/display/wall.h"
 #include "engine/loudspeakers/loudspeaker.h"
+#include "engine/panorama/panorama.h"
 
 #include <array>
 #include <cstdint>
@@ -64,9 +71,11 @@ struct PixelSize {
 
 /// A wall as a file describes it: what one output shows.
 struct WallEntry {
-  /// Of a projector: its name, and a rectangle about as large as the part of the screen that it covers.
+  /// Of a projector: its name, and a rectangle about as large as the part of the screen that it covers. Of a
+  /// panorama: its name, and a rectangle before the visitor.
   Wall wall;
-  std::optional<Projector> projector;       ///< none: the wall is flat, and its picture fills it
+  std::optional<Projector> projector;       ///< lights a screen
+  std::optional<Panorama> panorama;         ///< shows directions; an entry has at most one of both
   PixelSize pixels;                         ///< size of one eye's picture, if the file states it
   std::optional<WallOutput> output;         ///< output of the wall, if the file states one
   std::optional<ProjectorControl> control;  ///< how its projector is switched, if the file states it
@@ -74,6 +83,16 @@ struct WallEntry {
   std::uint32_t line = 0;             ///< in the file; 0 = made by a program
   std::uint32_t column = 0;           ///< column of the wall's name
   std::string excerpt;                ///< the line, for messages
+
+  /// Returns true if the entry is a wall: its picture is one view and fills it.
+  bool isFlat() const { return !projector && !panorama; }
+  /// What messages call the entry.
+  const char* noun() const { return projector ? "projector" : panorama ? "panorama" : "wall"; }
+  /// Returns the size of the output's picture, if the entry fixes it.
+  PixelSize outputSize() const {
+    if (projector) return {projector->width, projector->height};
+    return panorama ? PixelSize{panorama->width, panorama->height} : pixels;
+  }
 };
 
 struct WallFile {
@@ -83,7 +102,7 @@ struct WallFile {
   static constexpr std::size_t kMaxScreens = 256;
 
   std::string file;              ///< as the user named it
-  std::vector<WallEntry> walls;  ///< walls and projectors in file order
+  std::vector<WallEntry> walls;  ///< walls, projectors and panoramas in file order
   std::vector<Screen> screens;   ///< what the projectors light
   VisitorPlace visitor;          ///< for what depends on where eyes usually are
   LoudspeakerSet loudspeakers;   ///< empty: the hall's sound has no layout of its own
@@ -99,10 +118,10 @@ struct WallFile {
 };
 
 /// Reads the text; nothing if it has errors. Says nothing about geometry: lintWalls (wall_lint.h) does. Opens
-/// no file: meshes and warps have their names only, until loadHallFiles reads them.
+/// no file: meshes, warps and colour tables have their names only, until loadHallFiles reads them.
 std::optional<WallFile> parseWalls(std::string_view text, const std::string& file, Diagnostics& out);
 
-/// Reads the meshes and warps that the hall names, relative to the folder of WallFile::file, and places the
+/// Reads the meshes, warps and colour tables that the hall names, relative to the folder of WallFile::file, and places the
 /// rectangles of projectors. False after an error; findings name the file, and the line of the wall file.
 bool loadHallFiles(WallFile& hall, Diagnostics& out);
 

@@ -206,11 +206,11 @@ WallFile emptyLike(const WallFile& walls) {
   return like;
 }
 
-/// The walls that fill their pictures. Projectors overlap by intent.
+/// The walls that fill their pictures. Projectors overlap by intent, and panoramas are nowhere.
 WallFile flatWalls(const WallFile& walls) {
   WallFile flat = emptyLike(walls);
   for (const WallEntry& e : walls.walls)
-    if (!e.projector) flat.walls.push_back(e);
+    if (e.isFlat()) flat.walls.push_back(e);
   return flat;
 }
 

@@ -1,6 +1,7 @@
 #include "engine/hall_formats/hall_text.h"
 
 #include "engine/base/atomic_file.h"
+#include "engine/colour_table/cube_file.h"
 #include "engine/hall_formats/light_map_file.h"
 #include "engine/maths/functions.h"
 
@@ -45,6 +46,10 @@ std::optional<Diagnostic> nameFilesOf(WallEntry& entry, const std::string& prefi
       if (!png) return png.error();
       made.files[p.blend.mask] = png.value();
     }
+  }
+  if (p.lut && !p.lut->table.empty()) {
+    p.lut->file = stem + "-lut.cube";
+    made.files[p.lut->file] = formatCube(p.lut->table);
   }
   if (p.blend.beta)
     made.lost.push_back(fmt::format("projector \"{}\": its black level map", entry.wall.name));

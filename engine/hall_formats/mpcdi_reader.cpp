@@ -1,5 +1,6 @@
 #include "engine/hall_formats/mpcdi_reader.h"
 
+#include "engine/colour_table/cube_file.h"
 #include "engine/display/lens_turn.h"
 #include "engine/display/screen_mesh.h"
 #include "engine/hall_formats/light_map_file.h"
@@ -400,8 +401,15 @@ private:
         if (!read) return false;
         *mesh = std::move(*read);
       }
-    for (WallEntry& entry : hall.walls)
-      if (auto* image = entry.projector ? std::get_if<MeasuredImage>(&entry.projector->image) : nullptr) {
+    for (WallEntry& entry : hall.walls) {
+      if (!entry.projector) continue;
+      if (auto& lut = entry.projector->lut) {
+        const auto bytes = files_(lut->file, kMostCubeBytes);
+        auto table = bytes ? readCube(bytes.value(), lut->file, findings) : std::nullopt;
+        if (!table) return false;
+        lut->table = std::move(*table);
+      }
+      if (auto* image = std::get_if<MeasuredImage>(&entry.projector->image)) {
         const auto bytes = files_(image->file, kMostWarpBytes);
         auto grid = bytes ? readPointGrid(bytes.value(), image->file, 1, findings) : std::nullopt;
         if (!grid) return false;
@@ -409,6 +417,7 @@ private:
         image->rows = grid->rows;
         image->points = std::move(grid->points);
       }
+    }
     return true;
   }
 

@@ -61,6 +61,11 @@ public:
       : hall_(hall), files_(files), two_(settings.version == MpcdiVersion::Two), date_(settings.date) {}
 
   Result<std::string> run() {
+    for (const WallEntry& e : hall_.walls)
+      if (e.panorama)
+        return Result<std::string>::failure(
+            fmt::format("MPCDI has no panoramas; take panorama {} out of the hall, or write a .walls file",
+                        quotedWord(e.wall.name)));
     lenses_ = !hall_.walls.empty() && std::ranges::all_of(hall_.walls, [](const WallEntry& e) {
       return e.projector && std::holds_alternative<LensImage>(e.projector->image);
     });

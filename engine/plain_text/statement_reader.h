@@ -131,6 +131,8 @@ public:
 
   /// Reads a word as name() does.
   std::optional<std::string> nameIn(const Word& word, std::string_view of) { return lines_.name(word, of); }
+  /// Reads a word as number() does.
+  std::optional<double> numberIn(const Word& word, std::string_view what) { return lines_.number(word, what); }
   /// Reads a word, or a part of one, as count() does.
   std::optional<std::uint64_t> countIn(const Word& part, std::string_view what, std::uint64_t lo,
                                        std::uint64_t hi) {

@@ -32,6 +32,7 @@ void ndisplay(Bytes bytes);         ///< a configuration of nDisplay, likewise
 void warp_mesh(Bytes bytes);        ///< the number of a warp format, and a file of it
 void light_map(Bytes bytes);        ///< a PNG file
 void web(Bytes bytes);              ///< a request to the operator's page, and the command in it
+void colour_table(Bytes bytes);     ///< a .cube file
 
 struct Target {
   std::string_view name;
@@ -54,7 +55,9 @@ inline constexpr Target kTargets[] = {{"script", script},
                                       {"ndisplay", ndisplay},
                                       {"warp_mesh", warp_mesh},
                                       {"light_map", light_map},
-                                      {"web", web}};
+                                      {"web", web},
+
+                                      {"colour_table", colour_table}};
 
 inline std::string_view asText(Bytes bytes) {
   return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
