@@ -41,7 +41,7 @@ int writePatterns(const WallFile& walls, HallPatterns& patterns, const PatternOp
 /// True if the pictures are there and fit the output, or have a size of their own.
 bool fits(const EyePictures& pictures, const WallEntry& entry, std::uint32_t width, std::uint32_t height) {
   if (pictures.eyes.empty()) return false;
-  return entry.projector || (pictures.eyes[0].width == width && pictures.eyes[0].height == height);
+  return !entry.isFlat() || (pictures.eyes[0].width == width && pictures.eyes[0].height == height);
 }
 
 }  // namespace

@@ -6,7 +6,8 @@
 namespace stadion {
 namespace {
 
-constexpr double kNearest = 0.05;  ///< of a head to a wall [m]: heads do not pass through it
+constexpr double kNearest = 0.05;         ///< of a head to a wall [m]: heads do not pass through it
+constexpr double kNearestSurface = 1e-3;  ///< of an eye that is not the head's [m]
 
 /// The smallest factor by which the matrix shortens anything: what is left of its determinant.
 double leastScale(const Mat3& m, double most) {
@@ -29,12 +30,13 @@ void LevelChoice::lookAtWalls() {
   head_ = X_WR * X_RH.p;
   for (const WallPixels& w : wallPixels_) {
     const WallBasis b = basis(w.wall);
-    const double distance = std::max(std::abs(b.normal.dot(X_RH.p - w.wall.lowerLeft)), kNearest);
+    const Vec3 eye = w.around ? Vec3(Vec3::Zero()) : X_RH.p, from = w.at ? *w.at : X_RH.p;
+    const double distance = std::max(std::abs(b.normal.dot(eye - w.wall.lowerLeft)), kNearest);
     const double pitch = std::min(b.width / w.width, b.height / w.height);
-    Seen seen{X_WR.q * Vec3(-b.normal), distance / pitch, 0};
+    Seen seen{w.at.has_value(), X_WR.q * Vec3(from - X_RH.p), X_WR.q * Vec3(-b.normal), distance / pitch, 0};
     for (const Vec3& corner : {w.wall.lowerLeft, w.wall.lowerRight, w.wall.upperLeft, w.wall.upperRight()})
       seen.mostAngle =
-          std::max(seen.mostAngle, std::acos(std::clamp(distance / (corner - X_RH.p).norm(), 0.0, 1.0)));
+          std::max(seen.mostAngle, std::acos(std::clamp(distance / (corner - eye).norm(), 0.0, 1.0)));
     walls_.push_back(seen);
   }
 }
@@ -47,18 +49,22 @@ const Mesh* LevelChoice::mesh(MeshId id) {
 
 /// Returns how many pixels a radian has where the ball is seen; 0 if no wall shows it.
 double LevelChoice::pixelsOf(const Vec3& centre, double radius) const {
-  const double distance = centre.norm();
   double most = 0;
   for (const Seen& wall : walls_) {
+    const Vec3 away = centre - wall.from;
+    const double distance = away.norm();
     double angle = wall.mostAngle;
     if (distance > radius) {
-      const double middle = std::acos(std::clamp(wall.towards.dot(centre) / distance, -1.0, 1.0));
+      const double middle = std::acos(std::clamp(wall.towards.dot(away) / distance, -1.0, 1.0));
       const double half = std::asin(radius / distance);
       if (middle - half > wall.mostAngle) continue;
       angle = std::min(middle + half, wall.mostAngle);
     }
     const double c = std::cos(angle);
-    most = std::max(most, wall.pixels / (c * c));
+    double pixels = wall.pixels / (c * c);
+    // levelOf() measures distances from the head.
+    if (wall.elsewhere) pixels *= centre.norm() / std::max(distance - radius, kNearestSurface);
+    most = std::max(most, pixels);
   }
   return most;
 }

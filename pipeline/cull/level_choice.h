@@ -18,6 +18,7 @@
 #include "engine/display/wall.h"
 #include "engine/published/records.h"
 
+#include <optional>
 #include <span>
 #include <utility>
 #include <vector>
@@ -28,6 +29,8 @@ namespace stadion {
 struct WallPixels {
   Wall wall;
   std::uint32_t width = 0, height = 0;  ///< size of one eye's picture [pixels]
+  bool around = false;                  ///< of a panorama: `wall` is relative to the eye
+  std::optional<Vec3> at{};             ///< place of a panorama's eye, in R [m]; none: the head's
 };
 
 class LevelChoice {
@@ -45,9 +48,11 @@ public:
 
 private:
   struct Seen {
-    Vec3 towards;          ///< the wall's foot below the head, from the head; in World, unit
-    double pixels = 0;     ///< D / p, of one radian in the wall's middle
-    double mostAngle = 0;  ///< angle of the farthest corner of the wall from `towards`
+    bool elsewhere = false;  ///< the eye is not at the head
+    Vec3 from;               ///< the eye, from the head; in World [m]
+    Vec3 towards;            ///< the wall's foot below the eye, from the eye; in World, unit
+    double pixels = 0;       ///< D / p, of one radian in the wall's middle
+    double mostAngle = 0;    ///< angle of the farthest corner of the wall from `towards`
   };
 
   const Mesh* mesh(MeshId id);

@@ -56,6 +56,15 @@ void tellCounts(const FrameCounters& counters, FrameProbe& probe) {
 
 }  // namespace
 
+WallPixels wallPixelsOf(const WallViews& wall, const View& view) {
+  WallPixels pixels{view.screen, wall.width, wall.height};
+  const auto* panorama =
+      wall.projection && wall.projection->panorama() ? &*wall.projection->panorama() : nullptr;
+  pixels.around = panorama != nullptr;
+  if (panorama) pixels.at = panorama->at;
+  return pixels;
+}
+
 ShowStages::ShowStages(ShowParts parts)
     : parts_(std::move(parts)), room_(parts_.walls), wallRenderer_(wallRendererFor(parts_)),
       drawn_(parts_.walls.size()), pictures_(parts_.walls.size()) {
@@ -64,7 +73,7 @@ ShowStages::ShowStages(ShowParts parts)
     const Wall* last = nullptr;
     for (const View& view : wall.views) {
       if (!wall.camera && !(last && isSameScreen(view.screen, *last)))
-        wallPixels_.push_back({view.screen, wall.width, wall.height});
+        wallPixels_.push_back(wallPixelsOf(wall, view));
       last = &view.screen;
     }
   }

@@ -62,6 +62,9 @@ struct WallProcesses {
   std::function<void(const std::string&)> tell{};  ///< receives reports about processes; on Draw threads
 };
 
+/// Returns what a view of the wall means for levels of detail.
+WallPixels wallPixelsOf(const WallViews& wall, const View& view);
+
 /// The arguments of ShowStages. It has more than 20 fields, because each is an argument, most with a default.
 struct ShowParts {
   Scene& scene;

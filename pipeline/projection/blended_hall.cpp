@@ -5,18 +5,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 
 namespace stadion {
 namespace {
 
 constexpr double kLeastWeight = 1e-12;     ///< so that the border of a lone picture has all its light
 constexpr std::uint32_t kBlackSteps = 32;  ///< samples of a picture along each side, for its blacks
-
-/// The value from 0 to 1 that gives this part of a projector's light.
-double valueOf(double light, double gamma) {
-  if (light <= 0) return 0;
-  return gamma > 0 ? det::pow(light, 1 / gamma) : srgbFromLinear(light);
-}
 
 /// The parts of a projector's range that give light 1.
 Vec3 liftOf(const ProjectorLight& light) {
@@ -55,6 +50,11 @@ LightMap mapOf(const Picture& picture) {
 
 }  // namespace
 
+double displayValue(double light, double gamma) {
+  if (light <= 0) return 0;
+  return gamma > 0 ? det::pow(light, 1 / gamma) : srgbFromLinear(light);
+}
+
 Result<std::unique_ptr<BlendedHall>> BlendedHall::create(const WallFile& hall) {
   std::unique_ptr<BlendedHall> blended(new BlendedHall(hall));
   if (auto problem = blended->readMasks()) return *problem;
@@ -79,7 +79,8 @@ BlendedHall::BlendedHall(const WallFile& hall)
 std::optional<Diagnostic> BlendedHall::readMasks() {
   for (std::size_t i = 0; i < hall_.walls.size(); ++i) {
     if (!hall_.walls[i].projector || projector(i).blend.mask.empty()) continue;
-    auto mask = readPng(projector(i).blend.mask);
+    const std::filesystem::path folder = std::filesystem::path(hall_.file).parent_path();
+    auto mask = readPng((folder / projector(i).blend.mask).string());
     if (!mask) return mask.error();
     masks_[i] = mapOf(mask.value());
   }
@@ -147,16 +148,20 @@ std::optional<LitPoint> BlendedHall::litBy(std::size_t entry, double x, double y
 }
 
 WarpLight BlendedHall::lightOf(std::size_t entry) const {
-  const ProjectorLight& light = projector(entry).light;
+  return warpLight(projector(entry).light, white_, black_);
+}
+
+WarpLight warpLight(const ProjectorLight& light, const std::array<double, 3>& white, double black) {
   WarpLight warp;
   for (std::size_t v = 0; v < 256; ++v)
     warp.linear[v] = static_cast<float>(linearFromSrgb(static_cast<double>(v) / 255));
   for (std::size_t c = 0; c < 3; ++c) {
     const double range = light.white[c] - light.black;
-    warp.gain[c] = static_cast<float>((white_[c] - black_) / range);
+    warp.gain[c] = static_cast<float>((white[c] - black) / range);
     for (std::size_t step = 0; step <= kWarpSteps; ++step) {
       const double root = static_cast<double>(step) / kWarpSteps;
-      warp.encoded[c][step] = static_cast<std::uint8_t>(valueOf(root * root, light.gamma[c]) * 255 + 0.5);
+      warp.encoded[c][step] =
+          static_cast<std::uint8_t>(displayValue(root * root, light.gamma[c]) * 255 + 0.5);
     }
   }
   return warp;

@@ -2,7 +2,7 @@
 /// What all projectors of a hall light, and how they share the light where they overlap.
 ///
 /// Shares   of two projectors that light a point, each gets a share in proportion to the square of its
-///          distance to the border of its picture. So shares sum to 1, and ramps have no kink at their ends.
+///          distance to the edges of its picture: its borders, or lines inside that the wall file states. So shares sum to 1, and ramps have no kink at their ends.
 ///          Projectors for different eyes do not share.
 /// Black    a projector's black pixels give some light. Where fewer of them lie on each other, projectors
 ///          lift their blacks to the brightest sum in the hall.
@@ -24,6 +24,12 @@
 #include <vector>
 
 namespace stadion {
+
+/// Returns the value from 0 to 1 that gives this part of a display's light. `gamma`: 0 = the curve of sRGB.
+double displayValue(double light, double gamma);
+
+/// Returns how light becomes values of a projector, if the hall's white and black have this light.
+WarpLight warpLight(const ProjectorLight& light, const std::array<double, 3>& white, double black);
 
 class BlendedHall {
 public:

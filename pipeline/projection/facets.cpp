@@ -235,11 +235,11 @@ std::optional<Facets> split(const Projector& projector, const ThrownImage& image
   return facets;
 }
 
-double costOf(const Facets& f) {
-  return static_cast<double>(f.all.size()) * (double(f.width) * f.height + kViewCost);
-}
-
 }  // namespace
+
+double costOf(const Facets& facets) {
+  return static_cast<double>(facets.all.size()) * (double(facets.width) * facets.height + kViewCost);
+}
 
 Facets facetsOf(const Projector& projector, const ThrownImage& image, const VisitorPlace& visitor) {
   std::optional<Facets> best;

@@ -35,6 +35,9 @@ struct Facets {
   std::uint32_t width = 0, height = 0;  ///< size of the picture of each facet [pixels]
 };
 
+/// Returns what it costs to draw the facets [pixels].
+double costOf(const Facets& facets);
+
 /// Returns the facets of a projector; none: it lights nothing that a visitor can see.
 Facets facetsOf(const Projector& projector, const ThrownImage& image, const VisitorPlace& visitor);
 

@@ -102,13 +102,18 @@ HallPatterns::HallPatterns(const WallFile& hall, bool stereo) : hall_(hall), ste
 
 Result<std::unique_ptr<HallPatterns>> HallPatterns::create(const WallFile& hall, bool stereo) {
   std::unique_ptr<HallPatterns> patterns(new HallPatterns(hall, stereo));
-  const bool flat =
-      std::ranges::none_of(hall.walls, [](const WallEntry& e) { return e.projector.has_value(); });
-  if (flat) return patterns;
+  if (std::ranges::all_of(hall.walls, &WallEntry::isFlat)) return patterns;
   auto views = HallPictures::create(patterns->hall_);
   if (!views) return views.error();
   patterns->views_ = std::move(views.value());
   return patterns;
+}
+
+void HallPatterns::change(const WallFile& hall, std::size_t entry) {
+  const double separation = hall_.eyeSeparation;
+  hall_ = hall;
+  hall_.eyeSeparation = separation;
+  if (views_) views_->change(hall_, entry);
 }
 
 std::vector<Picture> HallPatterns::projected(std::size_t entry, HallPattern pattern) {
@@ -118,7 +123,7 @@ std::vector<Picture> HallPatterns::projected(std::size_t entry, HallPattern patt
                   : RoomSketch(view, hall_.visitor, picture.width, picture.height).run();
   };
   std::vector<Picture> shown = views_->draw(entry, {hall_.visitor.eye, Quat::Identity()}, paint);
-  if (!stereo_) shown.resize(1);
+  if (!stereo_ && shown.size() > 1) shown.resize(1);
   return shown;
 }
 
@@ -136,18 +141,19 @@ Picture HallPatterns::ofOutput(std::size_t entry, HallPattern pattern, std::opti
 
 std::vector<Picture> HallPatterns::pictures(std::size_t entry, HallPattern pattern, std::uint32_t width,
                                             std::uint32_t height) {
-  const auto& projector = hall_.walls[entry].projector;
-  if (projector && (pattern == HallPattern::Room || pattern == HallPattern::Blend))
-    return projected(entry, pattern);
-  if (projector) {
-    width = projector->width;
-    height = projector->height;
+  const WallEntry& e = hall_.walls[entry];
+  if (!e.isFlat()) {
+    if (pattern == HallPattern::Room || pattern == HallPattern::Blend) return projected(entry, pattern);
+    const PixelSize size = e.outputSize();
+    width = size.width;
+    height = size.height;
   }
   std::vector<Picture> shown;
   for (const Eye eye : kEyes) {
-    if (projector && projector->eye && *projector->eye != eye) continue;
-    if (!stereo_ && !shown.empty()) break;
-    shown.push_back(ofOutput(entry, pattern, stereo_ ? std::optional(eye) : std::nullopt, width, height));
+    if (e.projector && e.projector->eye && *e.projector->eye != eye) continue;
+    if ((!stereo_ || e.panorama) && !shown.empty()) break;
+    shown.push_back(
+        ofOutput(entry, pattern, stereo_ && !e.panorama ? std::optional(eye) : std::nullopt, width, height));
   }
   return shown;
 }

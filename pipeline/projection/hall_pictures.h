@@ -35,13 +35,25 @@ public:
 
   /// Returns the pictures of an entry as its output gets them, one for each eye that it shows, the left one
   /// first. X_RH is the pose of the head. The painter fills sRGB pictures of the size that it gets; it is
-  /// called once for each view. Flat walls get their views without a pass, 1 pixel for 1.
+  /// called once for each view. Flat walls get their views without a pass, 1 pixel for 1. A panorama gives one
+  /// picture.
   std::vector<Picture> draw(std::size_t entry, const Pose& X_RH, const Painter& paint);
 
+  /// Takes over an entry of another version of the hall, which has the same entries.
+  void change(const WallFile& hall, std::size_t entry);
+
 private:
+  /// An eye, and where the origin of the screen's coordinates lies, both in R [m].
+  struct SeenFrom {
+    Vec3 origin, eye;
+  };
+
   explicit HallPictures(const WallFile& hall);
   Picture paintView(const Wall& screen, std::uint32_t width, std::uint32_t height, const Pose& X_RH, Eye eye,
                     const Painter& paint, Mat4& clipFromRig) const;
+  Picture paintFrom(const Wall& screen, std::uint32_t width, std::uint32_t height, const SeenFrom& from,
+                    Eye eye, const Painter& paint, Mat4& clipFromRig) const;
+  std::vector<Picture> drawPanorama(const Projection& projection, const Pose& X_RH, const Painter& paint);
 
   WallFile hall_;
   DrawPool pool_;

@@ -20,7 +20,8 @@ bool isDark(const MapPoint& p) {
 
 class MapMaking {
 public:
-  MapMaking(PixelMap& map, const Lit& lit, DrawPool& pool) : map_(map), lit_(lit), pool_(pool) {}
+  MapMaking(PixelMap& map, const Lit& lit, DrawPool& pool, PixelMap::Edge edge)
+      : map_(map), lit_(lit), pool_(pool), edge_(edge) {}
 
   void run() {
     const std::size_t across = map_.columns + 1;
@@ -44,7 +45,8 @@ private:
   /// As at(); a pixel whose centre lies just beyond the screen's edge continues its neighbours. A part of its
   /// light still falls on the screen.
   std::optional<LitPoint> atEdge(double x, double y) const {
-    if (auto lit = at(x, y)) return lit;
+    auto lit = at(x, y);
+    if (lit || edge_ == PixelMap::Edge::Sharp) return lit;
     for (const double far : {1.0, 2.0})
       for (const auto& [i, j] :
            {std::pair{1, 0}, {-1, 0}, {0, 1}, {0, -1}, {1, 1}, {-1, 1}, {1, -1}, {-1, -1}}) {
@@ -128,13 +130,14 @@ private:
   PixelMap& map_;
   const Lit& lit_;
   DrawPool& pool_;
+  const PixelMap::Edge edge_;
   std::vector<std::optional<LitPoint>> corners_;
 };
 
 }  // namespace
 
 PixelMap makePixelMap(std::uint32_t width, std::uint32_t height, const Vec3& origin, const Lit& lit,
-                      DrawPool& pool) {
+                      DrawPool& pool, PixelMap::Edge edge) {
   PixelMap map;
   map.width = width;
   map.height = height;
@@ -142,7 +145,7 @@ PixelMap makePixelMap(std::uint32_t width, std::uint32_t height, const Vec3& ori
   map.rows = (height + kCellPixels - 1) / kCellPixels;
   map.origin = origin;
   map.cells.resize(std::size_t{map.columns} * map.rows);
-  MapMaking(map, lit, pool).run();
+  MapMaking(map, lit, pool, edge).run();
   return map;
 }
 

@@ -3,8 +3,8 @@
 ///
 /// Method   cells of 8 x 8 pixels. In most cells points and shares are interpolated between the cell's
 ///          corners, which lie at pixels of the cells' first row and column. Where that is not exact enough,
-///          at edges and creases, a cell keeps each of its pixels. Pixels up to two beyond the screen's edge are
-///          lit, too: without them, the last row on the screen is too dark.
+///          at edges and creases, a cell keeps each of its pixels. With soft edges, pixels up to two beyond the
+///          screen's edge are lit, too.
 /// Exactness  points within 5 % of a pixel, shares within 0.2 %.
 /// Frames   R is the rig; points are relative to `origin`.
 /// Units    metres.
@@ -35,6 +35,10 @@ struct MapPoint {
 };
 
 struct PixelMap {
+  /// What a pixel shows whose centre lies just beyond the screen's edge: Soft continues its neighbours, so that
+  /// the last row on the screen is not too dark. Sharp leaves it dark.
+  enum class Edge { Soft, Sharp };
+
   static constexpr std::uint32_t kSide = 8;  ///< of a cell [pixels]
   static constexpr std::uint32_t kPixels = kSide * kSide;
   static constexpr std::uint32_t kDark = ~0u, kSmooth = kDark - 1;
@@ -51,6 +55,7 @@ struct PixelMap {
 /// `lit(x, y)` returns what is lit at a place of the output [pixels], with a pixel's centre at 0.5. It is
 /// called on the pool's threads. It may be asked for places up to 8 pixels outside of the output.
 PixelMap makePixelMap(std::uint32_t width, std::uint32_t height, const Vec3& origin,
-                      const std::function<std::optional<LitPoint>(double x, double y)>& lit, DrawPool& pool);
+                      const std::function<std::optional<LitPoint>(double x, double y)>& lit, DrawPool& pool,
+                      PixelMap::Edge edge = PixelMap::Edge::Soft);
 
 }  // namespace stadion

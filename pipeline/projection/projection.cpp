@@ -1,6 +1,7 @@
 #include "pipeline/projection/projection.h"
 
 #include "pipeline/projection/blended_hall.h"
+#include "pipeline/projection/panorama_facets.h"
 
 #include <algorithm>
 #include <cstring>
@@ -15,9 +16,13 @@ constexpr std::uint32_t kBlackPixel = 0xff000000;
 /// Points relative to the map's origin, to places in the facet's picture; rows x, y, w.
 using PlaceMatrix = std::array<std::array<float, 4>, 3>;
 
-PlaceMatrix placesOf(const FacetPicture& facet, const Vec3& origin) {
+/// Without an origin, the map has directions: points at infinity, which no translation moves.
+PlaceMatrix placesOf(const FacetPicture& facet, const std::optional<Vec3>& origin) {
   Mat4 shift = Mat4::Identity();
-  shift.topRightCorner<3, 1>() = origin;
+  if (origin)
+    shift.topRightCorner<3, 1>() = *origin;
+  else
+    shift.col(3).setZero();
   const Mat4 clip = facet.clipFromRig * shift;
   const double halfWidth = 0.5 * facet.picture->width, halfHeight = 0.5 * facet.picture->height;
   const Eigen::RowVector4d x = clip.row(0), y = clip.row(1), w = clip.row(3);
@@ -48,7 +53,7 @@ void Projection::draw(std::span<const FacetPicture> facets, Picture& shown, Draw
   if (shown.width != map_.width || shown.height != map_.height) shown = Picture(map_.width, map_.height);
   Shown all{{}, {}, kernels, shown};
   for (const FacetPicture& facet : facets) {
-    all.places.push_back(placesOf(facet, map_.origin));
+    all.places.push_back(placesOf(facet, panorama_ ? std::nullopt : std::optional(map_.origin)));
     all.sources.push_back({facet.picture->rgba.data(), facet.picture->width, facet.picture->height});
   }
   const auto row = [&](std::size_t r) { drawRow(all, static_cast<std::uint32_t>(r)); };
@@ -93,6 +98,10 @@ public:
     auto made = std::make_shared<Projection>();
     made->eye_ = p.eye;
     made->light_ = blended_.lightOf(entry);
+    if (p.lut && !p.lut->table.empty()) {
+      made->table_ = std::make_unique<ProjectorTable>(p.lut->table, p.light);
+      made->light_.table = &made->table_->forKernels();
+    }
     made->facets_ = facetsOf(p, blended_.imageOf(entry), hall_.visitor);
     if (made->facets_.all.empty()) return unseen(entry);
     const auto lit = [&](double x, double y) { return blended_.litBy(entry, x, y); };
@@ -129,16 +138,54 @@ private:
   DrawPool& pool_;
 };
 
-Result<std::vector<std::shared_ptr<const Projection>>> makeProjections(const WallFile& hall, DrawPool& pool) {
+/// Makes the projection of a panorama, which shares no screen with others.
+class PanoramaMaking {
+public:
+  static Result<std::shared_ptr<const Projection>> make(const WallFile& hall, std::size_t entry,
+                                                        DrawPool& pool) {
+    const WallEntry& e = hall.walls[entry];
+    const Panorama& p = *e.panorama;
+    const Quat q_RP = rotationOf(p);
+    auto made = std::make_shared<Projection>();
+    made->panorama_ = {p.eye, p.at};
+    made->light_ = warpLight({}, {1, 1, 1}, 0);
+    const auto lit = [&](double x, double y) -> std::optional<LitPoint> {
+      const auto direction = directionAt(p, Vec2(x / p.width, y / p.height));
+      if (!direction) return std::nullopt;
+      return LitPoint{q_RP * *direction, Vec3::Ones(), Vec3::Zero()};
+    };
+    made->map_ = makePixelMap(p.width, p.height, Vec3::Zero(), lit, pool, PixelMap::Edge::Sharp);
+    auto facets = panoramaFacets(p, made->map_);
+    if (!facets)
+      return Diagnostic{
+          .where = {hall.file, e.line, e.column},
+          .message = fmt::format("panorama \"{}\" has too few pixels ({} x {}) to show its directions; "
+                                 "give it more",
+                                 e.wall.name, p.width, p.height),
+          .excerpt = e.excerpt};
+    made->facets_ = std::move(facets->facets);
+    made->facetOf_ = std::move(facets->byCell);
+    return std::shared_ptr<const Projection>(std::move(made));
+  }
+};
+
+Result<std::vector<std::shared_ptr<const Projection>>> makeProjections(const WallFile& hall, DrawPool& pool,
+                                                                       std::optional<std::size_t> only) {
   std::vector<std::shared_ptr<const Projection>> all(hall.walls.size());
-  const bool flat =
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    if (!hall.walls[i].panorama || (only && *only != i)) continue;
+    auto made = PanoramaMaking::make(hall, i, pool);
+    if (!made) return made.error();
+    all[i] = std::move(made.value());
+  }
+  const bool none =
       std::ranges::none_of(hall.walls, [](const WallEntry& e) { return e.projector.has_value(); });
-  if (flat) return all;
+  if (none) return all;
   const auto blended = BlendedHall::create(hall);
   if (!blended) return blended.error();
   const ProjectionMaking making(hall, *blended.value(), pool);
   for (std::size_t i = 0; i < all.size(); ++i) {
-    if (!hall.walls[i].projector) continue;
+    if (!hall.walls[i].projector || (only && *only != i)) continue;
     auto made = making.make(i);
     if (!made) return made.error();
     all[i] = std::move(made.value());

@@ -81,7 +81,9 @@ std::optional<Vec2> ThrownImage::shareOf(const Vec3& point) const {
 }
 
 double ThrownImage::depthAt(const Vec2& share) const {
-  const double across = std::min(share.x(), 1 - share.x()), down = std::min(share.y(), 1 - share.y());
+  const auto& [left, right, top, bottom] = projector_.blend.edges;
+  const double across = std::min(share.x() - left, 1 - right - share.x()) / (1 - left - right);
+  const double down = std::min(share.y() - top, 1 - bottom - share.y()) / (1 - top - bottom);
   const double rectangle = 4 * std::max(0.0, across) * std::max(0.0, down);
   if (!std::holds_alternative<FisheyeImage>(projector_.image)) return rectangle;
   return std::max(0.0, 1 - radiusAt(projector_, share));

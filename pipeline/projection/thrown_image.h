@@ -25,7 +25,8 @@ public:
   /// Returns the share that lights the point of the screen; nothing: none does. A point that hides behind
   /// another part of the screen is not lit.
   std::optional<Vec2> shareOf(const Vec3& point) const;
-  /// Returns how far the share is from the border of the picture: 0 on the border, at most 1 in its middle.
+  /// Returns how far the share is from the edges of the picture, where ramps begin: 0 on them and beyond, at most 1
+  /// in its middle.
   double depthAt(const Vec2& share) const;
 
 private:

@@ -20,6 +20,77 @@ inline float withinPicture(float place, float last) {
   return above < last ? above : last;
 }
 
+/// The place between two entries of a table along an axis.
+struct TablePlace {
+  int entry;
+  float beyond;
+};
+
+inline TablePlace placeIn(const TableGrid& grid, int channel, float value) {
+  const float place =
+      withinPicture((value - grid.low[channel]) * grid.scale[channel], static_cast<float>(grid.last));
+  const int below = static_cast<int>(place);
+  const int entry = below < grid.last - 1 ? below : grid.last - 1;
+  return {entry, place - static_cast<float>(entry)};
+}
+
+inline void throughCurves(const TableGrid& grid, float (&values)[3][kCellPixels]) {
+  for (int channel = 0; channel < 3; ++channel)
+    for (int i = 0; i < kCellPixels; ++i) {
+      const TablePlace at = placeIn(grid, channel, values[channel][i]);
+      const float a = grid.values[3 * at.entry + channel], b = grid.values[3 * at.entry + 3 + channel];
+      values[channel][i] = a + (b - a) * at.beyond;
+    }
+}
+
+/// From the corner of the cube nearest to black, a way along the edges leads to the opposite one: first along the axis
+/// on which the colour is farthest, last along the one on which it is nearest. These corners are the tetrahedron's.
+inline void throughSolid(const TableGrid& grid, float (&values)[3][kCellPixels]) {
+  const int edge = grid.last + 1, across = 3, along = 3 * edge, up = along * edge,
+            whole = across + along + up;
+  for (int i = 0; i < kCellPixels; ++i) {
+    const TablePlace red = placeIn(grid, 0, values[0][i]), green = placeIn(grid, 1, values[1][i]),
+                     blue = placeIn(grid, 2, values[2][i]);
+    const float r = red.beyond, g = green.beyond, b = blue.beyond;
+    const float least = r < g ? (r < b ? r : b) : (g < b ? g : b),
+                most = r > g ? (r > b ? r : b) : (g > b ? g : b);
+    const float low = r < g ? r : g, high = r < g ? g : r;
+    const float middle = b < low ? low : (b > high ? high : b);
+    // Of equal parts, the same one must not be first and last.
+    const int first = r >= g && r >= b ? across : g >= b ? along : up;
+    const int last = b <= r && b <= g ? up : g <= r ? along : across;
+    const float* const corner = grid.values + red.entry * across + green.entry * along + blue.entry * up;
+    for (int channel = 0; channel < 3; ++channel) {
+      const float black = corner[channel], one = corner[channel + first],
+                  two = corner[channel + whole - last], white = corner[channel + whole];
+      values[channel][i] = black + (one - black) * most + (two - one) * middle + (white - two) * least;
+    }
+  }
+}
+
+/// Encodes the roots of light, and maps these values.
+inline void throughTable(const WarpTable& table, float (&roots)[3][kCellPixels],
+                         std::uint32_t (&pixels)[kCellPixels]) {
+  for (int channel = 0; channel < 3; ++channel) {
+    const float* const encoded = table.encoded[channel];
+    for (int i = 0; i < kCellPixels; ++i) {
+      const float place = roots[channel][i] * static_cast<float>(kWarpSteps);
+      int step = static_cast<int>(place);
+      step = step < static_cast<int>(kWarpSteps) - 1 ? step : static_cast<int>(kWarpSteps) - 1;
+      const float a = encoded[step], b = encoded[step + 1];
+      roots[channel][i] = a + (b - a) * (place - static_cast<float>(step));
+    }
+  }
+  if (table.curve.values) throughCurves(table.curve, roots);
+  if (table.solid.values) throughSolid(table.solid, roots);
+  for (int channel = 0; channel < 3; ++channel)
+    for (int i = 0; i < kCellPixels; ++i) {
+      const float value = withinPicture(roots[channel][i], 1.0f) * 255.0f + 0.5f;
+      pixels[i] |= static_cast<std::uint32_t>(static_cast<int>(value)) << (8 * channel);
+    }
+}
+
+template <bool kThroughTable>
 inline void light(const CellPlaces& at, const FacetPixels& from, const WarpLight& by,
                   std::uint32_t (&pixels)[kCellPixels]) {
   const float lastColumn = static_cast<float>(from.width - 1), lastRow = static_cast<float>(from.height - 1);
@@ -45,6 +116,7 @@ inline void light(const CellPlaces& at, const FacetPixels& from, const WarpLight
     __builtin_memcpy(&corners[3][i], first + pitch + 4, 4);
   }
   for (int i = 0; i < kCellPixels; ++i) pixels[i] = 0xff000000u;
+  [[maybe_unused]] float roots[kThroughTable ? 3 : 1][kCellPixels];
   for (int channel = 0; channel < 3; ++channel) {
     const int shift = 8 * channel;
     const float* const linear = by.linear.data();
@@ -58,11 +130,23 @@ inline void light(const CellPlaces& at, const FacetPixels& from, const WarpLight
       float shown = mean * at.share[channel][i] * gain + at.lift[channel][i];
       shown = shown < 1.0f ? shown : 1.0f;
       shown = shown > 0.0f ? shown : 0.0f;
-      step[i] = static_cast<int>(__builtin_sqrtf(shown) * static_cast<float>(kWarpSteps) + 0.5f);
+      const float root = __builtin_sqrtf(shown);
+      if constexpr (kThroughTable)
+        roots[channel][i] = root;
+      else
+        step[i] = static_cast<int>(root * static_cast<float>(kWarpSteps) + 0.5f);
     }
+    if constexpr (kThroughTable) continue;
     const std::uint8_t* const encoded = by.encoded[static_cast<std::size_t>(channel)].data();
     for (int i = 0; i < kCellPixels; ++i) pixels[i] |= static_cast<std::uint32_t>(encoded[step[i]]) << shift;
   }
+  if constexpr (kThroughTable) throughTable(*by.table, roots, pixels);
+}
+
+inline void light(const CellPlaces& at, const FacetPixels& from, const WarpLight& by,
+                  std::uint32_t (&pixels)[kCellPixels]) {
+  if (by.table) return light<true>(at, from, by, pixels);
+  light<false>(at, from, by, pixels);
 }
 
 inline float between(float a, float b, float s) {

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cassert>
+#include <cmath>
+#include <span>
 
 namespace stadion {
 namespace {
@@ -11,6 +13,20 @@ namespace {
 /// The eye that looks from there. `from` is not Middle.
 Eye eyeAt(ViewPoint from, bool swapped) {
   return (from == ViewPoint::Right) != swapped ? Eye::Right : Eye::Left;
+}
+
+/// Moves the views, which have the panorama's eye, so that this eye is their origin.
+void placeAround(const PanoramaView& panorama, PlacedViews& placed) {
+  const Vec3 eye = panorama.at ? *panorama.at : placed.views[0].eye;
+  placed.around = true;
+  placed.X_WR.p = placed.X_WR * eye;
+  for (std::uint32_t v = 0; v < placed.count; ++v) {
+    placed.views[v].eye = Vec3::Zero();
+    placed.views[v].picture = Eye::Left;
+  }
+  if (!panorama.at) return;
+  placed.origin = placed.X_WR.p;
+  placed.margin = 0;
 }
 
 }  // namespace
@@ -26,6 +42,12 @@ std::vector<View> viewsOf(const Wall& screen, bool stereo) {
 
 std::vector<View> viewsOf(const Projection& projection, bool stereo) {
   std::vector<View> views;
+  if (projection.panorama()) {
+    constexpr ViewPoint kFrom[] = {ViewPoint::Middle, ViewPoint::Left, ViewPoint::Right};
+    const ViewPoint from = kFrom[static_cast<std::size_t>(projection.panorama()->eye)];
+    for (const Facet& facet : projection.facets().all) views.push_back({facet.rectangle, from});
+    return views;
+  }
   for (const Facet& facet : projection.facets().all) {
     if (!stereo) {
       views.push_back({facet.rectangle, ViewPoint::Middle});
@@ -54,8 +76,11 @@ std::uint32_t PlacedViews::endOfScreen(std::uint32_t first) const {
 ConvexVolume PlacedViews::volume(std::uint32_t first, std::uint32_t end) const {
   std::array<Vec3, DrawList::kMostViews> eyes;
   for (std::uint32_t v = first; v < end; ++v) eyes[v - first] = views[v].eye;
-  return unionFrustum(*views[first].screen, {eyes.data(), end - first}, depth, margin)
-      .transformed(X_WR, origin);
+  ConvexVolume seen =
+      unionFrustum(*views[first].screen, {eyes.data(), end - first}, depth, around ? 0 : margin);
+  if (around)  // the whole volume moves along
+    for (Plane& plane : std::span(seen.planes.data(), seen.count)) plane.offset += std::sqrt(3.0) * margin;
+  return seen.transformed(X_WR, origin);
 }
 
 void PlacedViews::setUp(DrawList& list) const {
@@ -93,6 +118,7 @@ PlacedViews place(const ViewerRecord& viewer, const WallViews& wall, const EyeCh
   }
   placed.origin = placed.X_WR * X_RH.p;
   placed.margin = wall.reach.ofEyes(widest);
+  if (wall.projection && wall.projection->panorama()) placeAround(*wall.projection->panorama(), placed);
   return placed;
 }
 

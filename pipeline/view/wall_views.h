@@ -40,7 +40,8 @@ bool isSameScreen(const Wall& a, const Wall& b);
 
 /// Returns the views of a flat wall: one for each eye, or one from the middle.
 std::vector<View> viewsOf(const Wall& screen, bool stereo);
-/// Returns the views of a projector: its facets one after the other, each for the eyes that it serves.
+/// Returns the views of a projector: its facets one after the other, each for the eyes that it serves. Those of a
+/// panorama are from one eye, and their screens are relative to it.
 std::vector<View> viewsOf(const Projection& projection, bool stereo);
 
 struct WallViews {
@@ -73,9 +74,10 @@ struct PlacedViews {
   std::array<Placed, DrawList::kMostViews> views;
   std::uint32_t count = 0;
   DepthRange depth;
-  Pose X_WR;
+  Pose X_WR;                   ///< of a panorama: places its eye in World
   Vec3 origin = Vec3::Zero();  ///< where the head is, in World [m]
   double margin = 0;           ///< how far each eye may go [m]
+  bool around = false;         ///< a panorama: its screens go with its eye
 
   /// The end of the views from number `first` on that look through the same screen.
   std::uint32_t endOfScreen(std::uint32_t first) const;
@@ -89,6 +91,7 @@ struct PlacedViews {
 Mat4 clipFromRig(const DrawList& list, std::uint32_t view);
 
 /// Where the views of a wall are for this viewer, or the camera's if it looks. Borrows the wall and `camera`.
+/// Frames: those of a panorama are relative to its eye, which stands still in them.
 PlacedViews place(const ViewerRecord& viewer, const WallViews& wall, const EyeChoice& choice,
                   const CameraView* camera = nullptr);
 

@@ -193,14 +193,15 @@ FrameLoopOptions Player::loopOptions() const {
   return l;
 }
 
-/// Finds how the projectors of the hall, if it has any, share its screens. Neighbours that other hosts draw
-/// count, too.
+/// Finds how the projectors of the hall, if it has any, share its screens, and the views of panoramas. Neighbours
+/// that other hosts draw count, too.
 bool Player::project(WallFile& room, Diagnostics& findings) {
-  const auto isProjector = [](const WallEntry& entry) { return entry.projector.has_value(); };
-  if (!options_.isDrawn || std::ranges::none_of(room.walls, isProjector)) return true;
+  if (!options_.isDrawn || std::ranges::all_of(room.walls, &WallEntry::isFlat)) return true;
   for (WallEntry& entry : room.walls) {
-    if (!entry.projector || options_.size.empty()) continue;
-    // --size states the width: a projector's picture keeps its shape.
+    // --size states the width: the pictures of projectors and panoramas keep their shape.
+    if (options_.size.empty()) break;
+    if (entry.panorama) entry.panorama = withWidth(*entry.panorama, options_.width);
+    if (!entry.projector) continue;
     Projector& p = *entry.projector;
     p.height = std::max(1u, static_cast<std::uint32_t>(std::uint64_t{p.height} * options_.width / p.width));
     p.width = options_.width;
@@ -266,7 +267,7 @@ ShowParts Player::parts(StereoLayout stereo, InputDevice* instead) {
     parts.walls.push_back(viewsOfEntry(entry, eyeCount(stereo) == 2));
   for (const WallEntry& entry : others_) {
     const WallViews wall = viewsOfEntry(entry, false);
-    for (const View& view : wall.views) parts.otherWalls.push_back({view.screen, wall.width, wall.height});
+    for (const View& view : wall.views) parts.otherWalls.push_back(wallPixelsOf(wall, view));
   }
   patterns_ = std::make_unique<PatternPictures>(walls_, eyeCount(stereo) == 2);
   parts.patterns = patterns_.get();

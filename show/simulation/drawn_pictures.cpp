@@ -22,7 +22,12 @@ private:
 }  // namespace
 
 Result<std::unique_ptr<PictureSource>> drawnPictures(const WallFile& hall) {
-  auto pictures = HallPictures::create(hall);
+  // A table and its display together have the light that the wall file states: this is what the simulator assumes of
+  // a display alone.
+  WallFile withoutTables = hall;
+  for (WallEntry& entry : withoutTables.walls)
+    if (entry.projector) entry.projector->lut.reset();
+  auto pictures = HallPictures::create(withoutTables);
   if (!pictures) return pictures.error();
   return std::unique_ptr<PictureSource>(std::make_unique<DrawnPictures>(std::move(pictures.value())));
 }

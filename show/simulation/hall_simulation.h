@@ -12,6 +12,8 @@
 ///   Coverage    at points all over the screens: places without light, and places that are too bright because
 ///               projectors overlap without blending.
 ///
+/// Colour tables count as parts of their displays: both together have the light that the wall file states.
+///
 /// Limits      a screen does not hide itself from the eye. Flat walls without projectors are not simulated.
 /// Frames      R is the rig.
 /// Ownership   borrows nothing after run().

@@ -1,5 +1,6 @@
 #include "show/view/playing_show.h"
 
+#include "pipeline/projection/projection.h"
 #include "show/player/write_watching.h"
 #include "show/recording/governor_options.h"
 #include "show/recording/last_frames.h"
@@ -78,7 +79,9 @@ PlayingShow::~PlayingShow() {
 ShowParts PlayingShow::parts() {
   ShowParts parts = player_->parts(around_.settings.draw.layout);
   for (std::size_t i = 0; i < parts.walls.size() && i < around_.pictureSizes.size(); ++i) {
-    const bool projected = parts.walls[i].projection != nullptr;
+    const auto& projection = parts.walls[i].projection;
+    if (projection && projection->panorama()) continue;  // the window shows its picture
+    const bool projected = projection != nullptr;
     if (projected) {  // the window shows about what the audience sees
       parts.walls[i].projection = nullptr;
       parts.walls[i].views =

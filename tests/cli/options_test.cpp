@@ -240,10 +240,10 @@ TEST(ProgramCompletion, KnowsCommandsOptionsAndValues) {
   EXPECT_EQ(complete({"run", "--pictures", ""}), "last\nall\nnone\n");
   EXPECT_EQ(complete({"run", "--out", ""}), ":folders\n");
   EXPECT_EQ(complete({"run", "--walls", ""}), ":files\ncave-blended\ncave4\ncave6\ncylinder-180\ncylinder-"
-                                              "360\ndesktop\ndome-5\nirregular-4\npowerwall\n"
+                                              "360\ndesktop\ndome-5\ndome-master\nequirectangular\nirregular-4\npowerwall\n"
                                               "powerwall-2x3\n");
   EXPECT_EQ(complete({"run", "--walls", "cave"}), ":files\ncave-blended\ncave4\ncave6\n");
-  EXPECT_EQ(complete({"walls", "d"}), ":files\ndesktop\ndome-5\n");
+  EXPECT_EQ(complete({"walls", "d"}), ":files\ndesktop\ndome-5\ndome-master\n");
   EXPECT_TRUE(has(complete({"doctor", "--for", ""}), "\nsound\n"));
   EXPECT_EQ(complete({"doctor", "--for", "clu"}), ":files\ncluster\n");
   EXPECT_EQ(complete({"run", "--pace="}), "free\nlock\nfloat\n");

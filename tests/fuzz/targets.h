@@ -56,7 +56,6 @@ inline constexpr Target kTargets[] = {{"script", script},
                                       {"warp_mesh", warp_mesh},
                                       {"light_map", light_map},
                                       {"web", web},
-
                                       {"colour_table", colour_table}};
 
 inline std::string_view asText(Bytes bytes) {

@@ -10,7 +10,7 @@ namespace {
 
 /// Width by height of what is shown.
 double aspectOf(const WallEntry& entry) {
-  if (entry.projector) return static_cast<double>(entry.projector->width) / entry.projector->height;
+  if (!entry.isFlat()) return static_cast<double>(entry.outputSize().width) / entry.outputSize().height;
   const WallBasis shape = basis(entry.wall);
   return shape.width / shape.height;
 }

@@ -117,6 +117,37 @@ TEST(Projection, SharesOfOverlappingProjectorsSumToAll) {
   EXPECT_GT(overlapping, 300U);
 }
 
+TEST(Projection, RampsBeginAtTheEdgesThatTheFileStatesAndSharesStillSumToAll) {
+  WallFile hall = roundHall(2, 60 * kDegree, 0.3);
+  // The ring goes from left to right: the first one's picture overlaps the second one's at its right border.
+  hall.walls[0].projector->blend.edges = {0, 0.1, 0, 0};
+  hall.walls[1].projector->blend.edges = {0.05, 0, 0, 0};
+  auto pictures = HallPictures::create(hall);
+  ASSERT_TRUE(pictures) << pictures.error().message;
+  const auto paint = byDirection([](const Vec3&) { return grey(0.6); });
+  std::vector<Picture> shown;
+  for (std::size_t i = 0; i < 2; ++i)
+    shown.push_back(pictures.value()->draw(i, headAt({0, 0, 1.6}), paint)[0]);
+  const ScreenSurface surface(hall.screens[0]);
+  const ThrownImage left(*hall.walls[0].projector, surface), right(*hall.walls[1].projector, surface);
+  std::size_t beyond = 0, overlapping = 0;
+  for (double azimuth = -50; azimuth < 50; azimuth += 0.23) {
+    const double a = azimuth * kDegree;
+    const Vec3 point(3 * std::sin(a), 3 * std::cos(a), 1.4);
+    const auto one = left.shareOf(point), two = right.shareOf(point);
+    if (!one || !two) continue;
+    const double light = lightAt(shown[0], one->x() * 640, one->y() * 400);
+    ++overlapping;
+    EXPECT_NEAR(light + lightAt(shown[1], two->x() * 640, two->y() * 400), 0.6, 0.012) << azimuth;
+    if (one->x() < 0.905) continue;
+    ++beyond;
+    EXPECT_LT(light, 1e-3) << azimuth;
+  }
+  EXPECT_GT(overlapping, 40U);
+  EXPECT_GT(beyond, 10U);
+  EXPECT_NEAR(lightAt(shown[0], 100, 200), 0.6, 0.012) << "where it is alone";
+}
+
 TEST(Projection, ProjectorForOneEyeGivesOnePicture) {
   WallFile hall = roundHall(1, 30 * kDegree, 0.1);
   hall.walls.push_back(hall.walls[0]);
