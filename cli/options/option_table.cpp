@@ -148,6 +148,13 @@ constexpr OptionRow kRows[] = {
      "with --simulate: the projector is so far from where the file says, in the unit of the file", Drawing},
     {"--wrong-gamma", values("NAME G", 2),
      "with --simulate: the display gamma of the projector is not the file's", Drawing},
+    {"--adjust", flag(),
+     "shows a test pattern on the outputs, and keys move corner pins and edges of ramps; S writes them back "
+     "into the "
+     "wall file",
+     Drawing},
+    {"--commands", flag(), "with --adjust: opens no windows; the commands are lines of the standard input",
+     Drawing},
     {"--pattern-kind", word("room|pixels|blend|gamma|bars"),
      "room: metres, names and a cube, or on curved screens azimuths and elevations; pixels: numbered lines "
      "of "

@@ -5,6 +5,7 @@
 #include "cli/findings_json.h"
 #include "cli/options/command_options.h"
 #include "cli/terminal.h"
+#include "cli/walls/adjust_walls.h"
 #include "cli/walls/simulate_walls.h"
 #include "cli/walls/wall_pattern.h"
 #include "engine/base/installed_files.h"
@@ -33,16 +34,19 @@ constexpr std::array<std::string_view, 5> kPatternKinds{"room", "pixels", "blend
 
 struct WallsOptions {
   std::string file, out, stereo = "off", size, kind, write;
-  bool pattern = false, json = false, simulate = false;
+  bool pattern = false, json = false, simulate = false, adjust = false;
   PatternOptions shown;  ///< from the others
   SimulateOptions simulated;
+  AdjustOptions adjusted;
 
   void addTo(CLI::App& command) {
     CommandOptions options(command);
     options.add("WALLS", file).required();
     options.add("--pattern", pattern);
-    options.add("--pattern-kind", kind).needs("--pattern");
-    options.add("--simulate", simulate).excludes("--pattern");
+    options.add("--adjust", adjust).excludes("--pattern");
+    options.add("--commands", adjusted.commands).needs("--adjust");
+    options.add("--pattern-kind", kind);
+    options.add("--simulate", simulate).excludes("--pattern").excludes("--adjust");
     options.add("--heads", simulated.heads).needs("--simulate");
     options.add("--every", simulated.every).needs("--simulate");
     options.add("--moved", simulated.moved).needs("--simulate");
@@ -55,23 +59,32 @@ struct WallsOptions {
     command.footer(
         R"(--pattern shows border, metres, the wall's name, L or R, and a cube of 1 m in the middle of the room. Projectors show
 azimuths and elevations around the visitor instead. --pattern-kind blend is white with all ramps between projectors.
+--adjust: Tab chooses a projector, 1 to 4 a corner pin, 5 to 8 the left, top, right or bottom edge of its ramps. Arrows
+move by 1 pixel, with Shift by 10, with Control by 0.1. U undoes, R redoes, S saves, Q quits.
 --size is for walls whose pixels neither the file nor the output states.)");
   }
 
   bool complete(Diagnostics& findings) {
     if (!size.empty()) std::tie(shown.width, shown.height) = *parseSize(size);
-    if (!out.empty() && !pattern && !simulate)
-      findings.error({}, "--out needs --pattern or --simulate: the floor plan is printed");
-    if (json && pattern)
-      findings.error({}, "--json describes the walls, and --pattern shows them: leave one out");
-    if (!write.empty() && (pattern || simulate || json))
-      findings.error({}, "--write converts the walls: leave out --pattern, --simulate and --json");
+    if (!out.empty() && !pattern && !simulate && !adjusted.commands)
+      findings.error({}, "--out needs --pattern, --simulate or --commands: the floor plan is printed");
+    if (json && (pattern || adjust))
+      findings.error({}, "--json describes the walls, and --pattern and --adjust show them: leave one out");
+    if (!write.empty() && (pattern || simulate || json || adjust))
+      findings.error({}, "--write converts the walls: leave out --pattern, --simulate, --adjust and --json");
+    if (!kind.empty() && !pattern && !adjust)
+      findings.error({}, "--pattern-kind needs --pattern or --adjust");
     shown.out = out;
     simulated.out = out;
     simulated.json = json;
     for (std::size_t k = 0; k < kPatternKinds.size(); ++k)
       if (kind == kPatternKinds[k]) shown.pattern = static_cast<HallPattern>(k);
     shown.windowStereo = windowStereo(*stereoLayout(stereo));
+    adjusted.pattern = shown.pattern;
+    adjusted.out = out;
+    adjusted.windowStereo = shown.windowStereo;
+    adjusted.width = shown.width;
+    adjusted.height = shown.height;
     return !findings.hasErrors();
   }
 };
@@ -91,6 +104,7 @@ nlohmann::ordered_json describe(const WallFile& walls, const ThreadCount& thread
   Json all = Json::array();
   for (const WallEntry& e : walls.walls)
     all.push_back({{"name", e.wall.name},
+                   {"kind", e.panorama ? panoramaKindName(e.panorama->kind) : e.noun()},
                    {"lower_left_m", point(e.wall.lowerLeft)},
                    {"lower_right_m", point(e.wall.lowerRight)},
                    {"upper_left_m", point(e.wall.upperLeft)},
@@ -124,6 +138,7 @@ int lookAtWalls(WallsOptions o) {
   if (!walls) return kBadInput;
   if (!o.write.empty()) return convert(*walls, o.write);
   if (o.simulate) return simulateWalls(*walls, o.simulated);
+  if (o.adjust) return adjustWalls(*walls, o.adjusted, catchStopSignals());
   if (o.pattern) return showPattern(*walls, o.shown, catchStopSignals());
   Diagnostics ofMachine;
   const std::size_t processors = std::max<std::size_t>(1, processorsOfThisThread().size());

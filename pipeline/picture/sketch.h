@@ -20,6 +20,8 @@ public:
   Sketch(std::uint32_t width, std::uint32_t height, const Colour& ground) : picture_(width, height) {
     fill(0, 0, width, height, ground);
   }
+  /// Draws on a picture.
+  explicit Sketch(Picture picture) : picture_(std::move(picture)) {}
   Picture take() { return std::move(picture_); }
   Picture& picture() { return picture_; }
   double width() const { return picture_.width; }

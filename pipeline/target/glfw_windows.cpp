@@ -172,12 +172,12 @@ public:
         monitors_(monitors), saver_(saver) {
     glfw_.SetWindowUserPointer(handle_, this);
     glfw_.SetKeyCallback(handle_, [](GLFWwindow* w, int key, int, int action, int mods) {
-      if (action == GLFW_REPEAT) return;
       WindowEvent e;
-      e.kind = WindowEvent::Kind::Key;
+      e.kind = action == GLFW_REPEAT ? WindowEvent::Kind::KeyRepeat : WindowEvent::Kind::Key;
       e.key = keyOf(key);
-      e.down = action == GLFW_PRESS;
+      e.down = action != GLFW_RELEASE;
       e.shift = mods & GLFW_MOD_SHIFT;
+      e.control = mods & GLFW_MOD_CONTROL;
       note(w, e);
     });
     glfw_.SetMouseButtonCallback(handle_, [](GLFWwindow* w, int button, int action, int mods) {

@@ -50,12 +50,14 @@ enum class Key : std::uint32_t {
 };
 
 struct WindowEvent {
-  enum class Kind { Key, Button, Move, Wheel, PointerEntered, FocusLost, Close };
+  /// KeyRepeat: a key is still held down, and the window system repeats it.
+  enum class Kind { Key, KeyRepeat, Button, Move, Wheel, PointerEntered, FocusLost, Close };
   Kind kind = Kind::Key;
-  Key key = Key::Unknown;    ///< the key; for Key
+  Key key = Key::Unknown;    ///< the key; for Key and KeyRepeat
   std::uint32_t button = 0;  ///< the button; for Button: 0 left, 1 right, 2 middle
   bool down = false;         ///< pressed, else released; for Key and Button
-  bool shift = false;        ///< the shift key was held; for Key, Button and Wheel
+  bool shift = false;        ///< the shift key was held; for Key, KeyRepeat, Button and Wheel
+  bool control = false;      ///< the control key was held; for Key and KeyRepeat
   double x = 0, y = 0;       ///< for Move: the pointer's place; for Wheel: the rotation, y away from the user
 };
 

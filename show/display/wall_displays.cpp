@@ -131,13 +131,25 @@ void WallDisplays::show(const std::vector<EyePictures>& pictures) {
 
 std::vector<Key> WallDisplays::poll() {
   std::vector<Key> keys;
+  for (const WindowEvent& event : pollPresses())
+    if (event.kind == WindowEvent::Kind::Key) keys.push_back(event.key);
+  return keys;
+}
+
+std::vector<WindowEvent> WallDisplays::pollPresses() {
+  std::vector<WindowEvent> presses;
   for (const auto& [screen, system] : systems_) system->poll();
   for (const auto& window : windows_)
-    for (const WindowEvent& event : window->window().takeEvents()) {
-      if (event.kind == WindowEvent::Kind::Close) keys.push_back(Key::Escape);
-      if (event.kind == WindowEvent::Kind::Key && event.down) keys.push_back(event.key);
+    for (WindowEvent event : window->window().takeEvents()) {
+      if (event.kind == WindowEvent::Kind::Close) {
+        event.kind = WindowEvent::Kind::Key;
+        event.key = Key::Escape;
+        event.down = true;
+      }
+      const bool key = event.kind == WindowEvent::Kind::Key || event.kind == WindowEvent::Kind::KeyRepeat;
+      if (key && event.down) presses.push_back(event);
     }
-  return keys;
+  return presses;
 }
 
 std::optional<std::string> WallDisplays::lost() const {

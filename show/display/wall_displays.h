@@ -32,6 +32,10 @@ public:
   /// Takes in what happened and returns the keys that were pressed. Escape also stands for a window that
   /// somebody closed.
   std::vector<Key> poll();
+  /// The same with all presses of keys that are held down, and with the keys that were held beside them.
+  std::vector<WindowEvent> pollPresses();
+  /// Changes how a wall's picture gets to its output.
+  void setShape(std::size_t wall, const OutputShape& shape) { shapes_[wall] = shape; }
   /// How the windows swap together, such as "a swap group of 4 windows"; empty if they swap one after the other.
   std::string swapSync() const;
   /// Why nothing can be shown any more; nothing while it can.

@@ -42,6 +42,7 @@ void ViewControls::take(const WindowEvent& event) {
     held_.clear();
     visitor_.letGo();
     break;
+  case WindowEvent::Kind::KeyRepeat:
   case WindowEvent::Kind::Close: break;
   }
 }
