@@ -215,8 +215,9 @@ int adjustWalls(const WallFile& walls, const AdjustOptions& options, const std::
   }
   Adjusting adjusting(adjuster.value(), *pictures.value(), options);
   if (options.commands) return byCommands(adjusting, adjuster.value(), stop);
-  const auto displays = WallDisplays::open(walls, windowSurface(false, options.windowStereo),
-                                           options.windowStereo, options.width, options.height, findings);
+  const auto displays =
+      WallDisplays::open(walls, windowSurface(false, options.windowStereo), options.windowStereo,
+                         options.width, options.height, SwapSync::Off, findings);
   printFindings(findings);
   if (!displays) return kBadInput;
   return inWindows(adjusting, adjuster.value(), *pictures.value(), *displays, stop);

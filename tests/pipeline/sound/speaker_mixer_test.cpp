@@ -4,8 +4,8 @@
 #include "pipeline/sound/loudspeaker_device.h"
 #include "pipeline/sound/sound_recording.h"
 #include "pipeline/sound/speaker_mixer.h"
+#include "tests/fresh_folder.h"
 #include "tests/programs/becomes.h"
-#include "tests/programs/program.h"
 
 #include <gtest/gtest.h>
 
@@ -14,6 +14,8 @@
 #include <cstring>
 #include <fcntl.h>
 #include <filesystem>
+#include <fstream>
+#include <iterator>
 
 namespace stadion {
 namespace {
@@ -178,8 +180,13 @@ SoundRecord thudAt(const Vec3& place, double since) {
   return s;
 }
 
+std::string bytesOfSound(const std::string& file) {
+  std::ifstream in(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
 /// Plays half a second with a sound that moves, in frames of that rate, and returns the file.
-std::string recordedAt(const TestFolder& folder, const std::string& name, double rate) {
+std::string recordedAt(const FreshFolder& folder, const std::string& name, double rate) {
   AssetRoots roots;
   roots.add(std::string(STADION_SOURCE_DIR) + "/assets");
   const std::string path = folder.path() / name;
@@ -194,11 +201,11 @@ std::string recordedAt(const TestFolder& folder, const std::string& name, double
   EXPECT_FALSE(recording.finish());
   EXPECT_EQ(recording.file(), path);
   EXPECT_EQ(recording.clipped(), 0U);
-  return fileContent(path);
+  return bytesOfSound(path);
 }
 
 TEST(SoundRecording, IsAWaveFileThatBeginsWithTheShow) {
-  const TestFolder folder;
+  const FreshFolder folder;
   const std::string file = recordedAt(folder, "one.wav", 60);
   ASSERT_GT(file.size(), 100U);
   EXPECT_EQ(file.substr(0, 4), "RIFF");
@@ -216,7 +223,7 @@ TEST(SoundRecording, IsAWaveFileThatBeginsWithTheShow) {
 }
 
 TEST(SoundRecording, ReadsAsAnySoundFile) {
-  const TestFolder folder;
+  const FreshFolder folder;
   recordedAt(folder, "one.wav", 60);
   const FileDescriptor file(open((folder.path() / "one.wav").c_str(), O_RDONLY | O_CLOEXEC));
   const auto info = readSoundInfo(file.get(), "one.wav");
@@ -227,7 +234,7 @@ TEST(SoundRecording, ReadsAsAnySoundFile) {
 }
 
 TEST(SoundRecording, AShowWithoutSoundsLeavesNoFile) {
-  const TestFolder folder;
+  const FreshFolder folder;
   const AssetRoots roots;
   SoundRecording recording(stereoHall(), roots, [] {
     ADD_FAILURE() << "no file is asked for";
@@ -246,7 +253,7 @@ TEST(SoundRecording, AShowWithoutSoundsLeavesNoFile) {
 
 /// Keeps what it gets; goes away after some blocks.
 struct KeptOutput : SpeakerOutput {
-  explicit KeptOutput(std::atomic<int>& blocks, int most) : blocks(blocks), most(most) {}
+  KeptOutput(std::atomic<int>& all, int limit) : blocks(all), most(limit) {}
   bool write(std::span<const float> frames) override {
     for (const float x : frames) loudest = std::max(loudest, std::fabs(x));
     ++blocks;
@@ -274,7 +281,7 @@ TEST(ThreadsLoudspeakerDevice, ADeviceThatHasGoneIsOpenedAgain) {
 }
 
 TEST(ThreadsLoudspeakerDevice, AlsaPlaysIntoAFile) {
-  const TestFolder folder;
+  const FreshFolder folder;
   LoudspeakerSet hall = stereoHall();
   hall.all[1].channel = 11;  // no usual layout has so many
   const std::string file = folder.path() / "sound.raw";
@@ -286,7 +293,7 @@ TEST(ThreadsLoudspeakerDevice, AlsaPlaysIntoAFile) {
   EXPECT_TRUE(
       becomes([&] { return std::filesystem::exists(file) && std::filesystem::file_size(file) > 200'000; }));
   device = Result<std::unique_ptr<SoundDevice>>::failure("closed");
-  const std::string all = fileContent(file);
+  const std::string all = bytesOfSound(file);
   ASSERT_EQ(all.size() % (12 * sizeof(float)), 0U);
   std::vector<float> frames(all.size() / sizeof(float));
   std::memcpy(frames.data(), all.data(), all.size());
