@@ -243,8 +243,8 @@ TEST(ProgramProfile, TheFolderReceivesTheFiguresToo) {
     EXPECT_EQ(r.status, 0) << r.err;
     return r.out;
   };
-  const std::string json = playedWith({"--json"});
-  EXPECT_EQ(fileContent(out + "/profile.json"), json);
+  const std::string answer = playedWith({"--json"});
+  EXPECT_EQ(fileContent(out + "/profile.json"), answer);
   const std::string csv = playedWith({"--csv"});
   EXPECT_EQ(fileContent(out + "/profile.csv"), csv);
   EXPECT_FALSE(std::filesystem::exists(out + "/fidelity.json")) << "nothing was asked for";
