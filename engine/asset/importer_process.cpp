@@ -123,7 +123,7 @@ struct SpawnSettings {
 };
 
 /// The environment of this process and, unless it says otherwise, large pages for large blocks of memory. assimp
-/// fills 16 MiB anew for each OBJ file and each of its libraries: with pages of 4 KiB that takes ten times as long.
+/// fills 16 MiB again for each OBJ file and each of its libraries: with pages of 4 KiB that takes ten times as long.
 class ImporterEnvironment {
 public:
   ImporterEnvironment() {
