@@ -34,29 +34,30 @@ void HallReader::screen() {
   hall_.screens.push_back(std::move(screen));
 }
 
+std::optional<HallReader::NamedEntry> HallReader::namedEntry(const char* what, const char* whose) {
+  const auto name = in_.name(what, whose);
+  if (!name) return std::nullopt;
+  NamedEntry named{{}, in_.last()};
+  named.entry.wall.name = *name;
+  named.entry.line = in_.line();
+  named.entry.column = named.name.column;
+  named.entry.excerpt = in_.excerpt();
+  return named;
+}
+
 void HallReader::projector() {
-  const auto name = in_.name("the projector's name", "a projector");
-  if (!name) return;
-  const Word nameWord = in_.last();
-  WallEntry entry;
-  entry.wall.name = *name;
-  entry.line = in_.line();
-  entry.column = nameWord.column;
-  entry.excerpt = in_.excerpt();
+  auto named = namedEntry("the projector's name", "a projector");
+  if (!named) return;
+  auto& [entry, nameWord] = *named;
   const auto screen = readProjector(in_, lengths_, entry);
   if (!screen || !add(std::move(entry), nameWord)) return;
   links_.push_back({hall_.walls.size() - 1, screen->name, screen->at, in_.place(nameWord)});
 }
 
 void HallReader::panorama() {
-  const auto name = in_.name("the panorama's name", "a panorama");
-  if (!name) return;
-  const Word nameWord = in_.last();
-  WallEntry entry;
-  entry.wall.name = *name;
-  entry.line = in_.line();
-  entry.column = nameWord.column;
-  entry.excerpt = in_.excerpt();
+  auto named = namedEntry("the panorama's name", "a panorama");
+  if (!named) return;
+  auto& [entry, nameWord] = *named;
   if (!readPanorama(in_, lengths_, entry) || !add(std::move(entry), nameWord)) return;
   panoramas_.push_back({hall_.walls.size() - 1, in_.place(nameWord)});
 }

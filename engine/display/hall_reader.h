@@ -52,6 +52,13 @@ private:
     StatementPlace at;  ///< of the panorama's name
   };
 
+  struct NamedEntry {
+    WallEntry entry;
+    Word name;
+  };
+
+  /// Reads the name that follows the keyword. Null after an error.
+  std::optional<NamedEntry> namedEntry(const char* what, const char* whose);
   /// Adds the entry, unless its name is taken or there are too many.
   bool add(WallEntry entry, const Word& name);
   bool controlPort();
