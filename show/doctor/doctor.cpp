@@ -28,7 +28,8 @@ constexpr const char* kTestPackages[] = {"xvfb",
                                          "assimp-testmodels",
                                          "valgrind",
                                          "iproute2",
-                                         "procps"};
+                                         "procps",
+                                         "systemd"};
 constexpr const char* kPeerPackages[] = {"libbullet-dev", "libode-dev", "libmujoco-dev",
                                          "libopenscenegraph-dev", "libegl-dev"};
 constexpr const char* kFuzzPackages[] = {"clang", "libclang-rt-dev"};
