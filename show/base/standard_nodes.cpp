@@ -6,10 +6,14 @@
 namespace stadion {
 
 SharedTypes standardNodes() {
-  auto types = std::make_shared<NodeRegistry>();
-  addEngineNodes(*types);
-  addDynamicsNodes(*types);
-  return types;
+  // Nothing changes them: a show with plugins has a registry of its own.
+  static const SharedTypes standard = [] {
+    auto types = std::make_shared<NodeRegistry>();
+    addEngineNodes(*types);
+    addDynamicsNodes(*types);
+    return types;
+  }();
+  return standard;
 }
 
 }  // namespace stadion

@@ -10,6 +10,7 @@ namespace stadion {
 /// Node types as the parts of a run share them.
 using SharedTypes = std::shared_ptr<const NodeRegistry>;
 
+/// Returns the same registry each time, from any thread.
 SharedTypes standardNodes();
 
 }  // namespace stadion
