@@ -51,7 +51,7 @@ TestResults readResults(const std::string& file) {
 /// Many tests wait for a show's clock most of the time. More at once would take the processors from shows
 /// that play in real time.
 unsigned testsAtATime() {
-  return std::max(2U, std::thread::hardware_concurrency() * 3 / 2);
+  return std::max(2U, std::thread::hardware_concurrency() * 2);
 }
 
 /// Names each skipped test with its reason, then prints the closing line.
