@@ -4,7 +4,8 @@
 include(CMakePackageConfigHelpers)
 
 install(TARGETS stadion RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT runtime)
-install(TARGETS stadion-import stadion-wall RUNTIME DESTINATION lib/stadion COMPONENT runtime)
+install(TARGETS stadion-import stadion-wall stadion-http RUNTIME DESTINATION lib/stadion
+  LIBRARY DESTINATION lib/stadion COMPONENT runtime)
 # Where they have been built.
 install(TARGETS stadion-measure stadion-bench stadion-dyn-stadion RUNTIME DESTINATION lib/stadion COMPONENT runtime
   OPTIONAL)
@@ -87,7 +88,7 @@ if(PROJECT_IS_TOP_LEVEL)
   set(CPACK_DEBIAN_RUNTIME_PACKAGE_SECTION graphics)
   set(CPACK_DEBIAN_RUNTIME_PACKAGE_SHLIBDEPS ON)
   # Loaded at run time: no program names them.
-  set(CPACK_DEBIAN_RUNTIME_PACKAGE_DEPENDS "libosmesa6")
+  set(CPACK_DEBIAN_RUNTIME_PACKAGE_DEPENDS "libosmesa6, libddsc0debian, libsndfile1, libzip4")
   set(CPACK_DEBIAN_RUNTIME_PACKAGE_RECOMMENDS
     "libegl1, libegl-mesa0, libgl1-mesa-dri, libglfw3, libopenal1, libasound2, libxss1, ffmpeg")
   # For stadion-display.service, and for its user.
@@ -100,7 +101,7 @@ if(PROJECT_IS_TOP_LEVEL)
   set(CPACK_DEBIAN_ENABLE_COMPONENT_DEPENDS ON)
   string(CONCAT CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS
     "g++, cmake, pkg-config, libeigen3-dev, libfcl-dev, libfmt-dev, "
-    "libxxhash-dev, libsndfile1-dev, libpng-dev, libzip-dev, libpugixml-dev, libcpp-httplib-dev, libmeshoptimizer-dev, libhwloc-dev, liblo-dev, "
+    "libxxhash-dev, libpng-dev, libpugixml-dev, libmeshoptimizer-dev, libhwloc-dev, liblo-dev, "
     "libmd-dev, nlohmann-json3-dev, "
     "cyclonedds-dev, libgl-dev")
   include(CPack)

@@ -8,9 +8,9 @@
 set -eu
 build=$1
 [ -x "$build/bin/stadion" ] || { echo "sbom: there is no program in $build/bin; build it first" >&2; exit 2; }
-programs="./stadion ./stadion-import ./stadion-wall"
+programs="./stadion ./stadion-import ./stadion-wall ./libstadion-http.so"
 # Loaded at run time, also by GLFW and OpenAL, and libraries that are headers alone: no program names them.
-others="libosmesa6 libegl1 libegl-mesa0 libgl1-mesa-dri libglfw3 libopenal1 libx11-6 libasound2 \
+others="libosmesa6 libddsc0debian libsndfile1 libzip4 libegl1 libegl-mesa0 libgl1-mesa-dri libglfw3 libopenal1 libx11-6 libasound2 \
 libgl1 libglx0 libglx-mesa0 libx11-xcb1 libxcursor1 libxi6 libxinerama1 libxrandr2 libxrender1 libxxf86vm1 libxss1 libxext6 libdbus-1-3 libpulse0 \
 libjack-jackd2-0 libportaudio2 libeigen3-dev libcli11-dev nlohmann-json3-dev tao-pegtl-dev"
 

@@ -1,5 +1,7 @@
 #include "engine/asset/sound_file.h"
 
+#include "engine/base/late_library.h"
+
 #include <sndfile.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -10,6 +12,12 @@
 
 namespace stadion {
 namespace {
+
+const LateLibrary soundLibrary(STADION_LIBSNDFILE, "libsndfile1");
+const LateFunction<decltype(::sf_close)> sf_close(soundLibrary, "sf_close");
+const LateFunction<decltype(::sf_open_fd)> sf_open_fd(soundLibrary, "sf_open_fd");
+const LateFunction<decltype(::sf_readf_short)> sf_readf_short(soundLibrary, "sf_readf_short");
+const LateFunction<decltype(::sf_strerror)> sf_strerror(soundLibrary, "sf_strerror");
 
 constexpr std::uint64_t kMostBytes = 256ull << 20;   ///< of a file
 constexpr std::uint64_t kMostSamples = 100'000'000;  ///< of all channels: 37 minutes of a CD
@@ -39,6 +47,7 @@ Result<OpenedSound> openSound(int file, const std::string& path) {
   const auto refuse = [&](const std::string& why) {
     return Result<OpenedSound>::failure(fmt::format("\"{}\" {}", path, why));
   };
+  if (auto missing = soundLibrary.load()) return *std::move(missing);
   struct stat s {};
   if (fstat(file, &s) != 0 || !S_ISREG(s.st_mode)) return refuse("is not a plain file");
   if (static_cast<std::uint64_t>(s.st_size) > kMostBytes)

@@ -15,7 +15,8 @@ namespace stadion {
 /// upwards, that has walls/ or share/stadion/walls/. Empty if there is none.
 std::string shareFolder();
 
-/// Returns a program that another one starts, such as "stadion-import". It is looked for in STADION_PROGRAMS,
+/// Returns a program that another one starts, such as "stadion-import", or a library of Stadion that it loads. It
+/// is looked for in STADION_PROGRAMS,
 /// else beside the running program, in ../lib/stadion, or (for a program there) in ../../bin. Returns the
 /// bare name if there is none: starting it then fails, and says so.
 std::filesystem::path helperProgram(const std::string& name);

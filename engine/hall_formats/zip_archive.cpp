@@ -1,5 +1,6 @@
 #include "engine/hall_formats/zip_archive.h"
 
+#include "engine/base/late_library.h"
 #include "engine/plain_text/text_line.h"
 
 #include <fmt/format.h>
@@ -9,6 +10,33 @@
 
 namespace stadion {
 namespace {
+
+const LateLibrary zipLibrary(STADION_LIBZIP, "libzip4");
+const LateFunction<decltype(::zip_close)> zip_close(zipLibrary, "zip_close");
+const LateFunction<decltype(::zip_discard)> zip_discard(zipLibrary, "zip_discard");
+const LateFunction<decltype(::zip_error_fini)> zip_error_fini(zipLibrary, "zip_error_fini");
+const LateFunction<decltype(::zip_error_init)> zip_error_init(zipLibrary, "zip_error_init");
+const LateFunction<decltype(::zip_error_strerror)> zip_error_strerror(zipLibrary, "zip_error_strerror");
+const LateFunction<decltype(::zip_fclose)> zip_fclose(zipLibrary, "zip_fclose");
+const LateFunction<decltype(::zip_file_add)> zip_file_add(zipLibrary, "zip_file_add");
+const LateFunction<decltype(::zip_file_set_dostime)> zip_file_set_dostime(zipLibrary, "zip_file_set_dostime");
+const LateFunction<decltype(::zip_file_strerror)> zip_file_strerror(zipLibrary, "zip_file_strerror");
+const LateFunction<decltype(::zip_fopen)> zip_fopen(zipLibrary, "zip_fopen");
+const LateFunction<decltype(::zip_fread)> zip_fread(zipLibrary, "zip_fread");
+const LateFunction<decltype(::zip_get_name)> zip_get_name(zipLibrary, "zip_get_name");
+const LateFunction<decltype(::zip_get_num_entries)> zip_get_num_entries(zipLibrary, "zip_get_num_entries");
+const LateFunction<decltype(::zip_name_locate)> zip_name_locate(zipLibrary, "zip_name_locate");
+const LateFunction<decltype(::zip_open_from_source)> zip_open_from_source(zipLibrary, "zip_open_from_source");
+const LateFunction<decltype(::zip_source_buffer)> zip_source_buffer(zipLibrary, "zip_source_buffer");
+const LateFunction<decltype(::zip_source_buffer_create)> zip_source_buffer_create(zipLibrary,
+                                                                                  "zip_source_buffer_create");
+const LateFunction<decltype(::zip_source_close)> zip_source_close(zipLibrary, "zip_source_close");
+const LateFunction<decltype(::zip_source_free)> zip_source_free(zipLibrary, "zip_source_free");
+const LateFunction<decltype(::zip_source_keep)> zip_source_keep(zipLibrary, "zip_source_keep");
+const LateFunction<decltype(::zip_source_open)> zip_source_open(zipLibrary, "zip_source_open");
+const LateFunction<decltype(::zip_source_read)> zip_source_read(zipLibrary, "zip_source_read");
+const LateFunction<decltype(::zip_source_stat)> zip_source_stat(zipLibrary, "zip_source_stat");
+const LateFunction<decltype(::zip_strerror)> zip_strerror(zipLibrary, "zip_strerror");
 
 constexpr std::size_t kUnpackedAtOnce = 1 << 16;
 constexpr zip_uint16_t kDosDate = (0 << 9) | (1 << 5) | 1;  ///< 1 January 1980
@@ -32,6 +60,7 @@ void ZipArchive::Closer::operator()(zip* archive) const {
 }
 
 Result<ZipArchive> ZipArchive::open(const std::string& bytes) {
+  if (auto missing = zipLibrary.load()) return *std::move(missing);
   ZipFault fault;
   zip_source_t* source = zip_source_buffer_create(bytes.data(), bytes.size(), 0, &fault.value);
   ZipArchive opened;
@@ -88,6 +117,7 @@ Result<std::string> ZipArchive::file(const std::string& name, std::size_t limit)
 
 Result<std::string> packArchive(const std::map<std::string, std::string>& files) {
   using Bytes = Result<std::string>;
+  if (auto missing = zipLibrary.load()) return *std::move(missing);
   ZipFault fault;
   const auto failure = [&fault](zip_t* archive) {
     const std::string why = archive ? zip_strerror(archive) : zip_error_strerror(&fault.value);
@@ -97,7 +127,7 @@ Result<std::string> packArchive(const std::map<std::string, std::string>& files)
   zip_source_t* whole = zip_source_buffer_create(nullptr, 0, 0, &fault.value);
   if (!whole) return failure(nullptr);
   zip_source_keep(whole);
-  const std::unique_ptr<zip_source_t, void (*)(zip_source_t*)> kept(whole, &zip_source_free);
+  const std::unique_ptr<zip_source_t, void (*)(zip_source_t*)> kept(whole, zip_source_free.address());
   zip_t* archive = zip_open_from_source(whole, ZIP_TRUNCATE, &fault.value);
   if (!archive) {
     zip_source_free(whole);

@@ -1,5 +1,6 @@
 #include "pipeline/cluster/bus.h"
 
+#include "engine/base/late_library.h"
 #include "pipeline/cluster/loopback_sockets.h"
 #include "pipeline/platform/scoped_realtime_priority.h"
 
@@ -15,6 +16,36 @@
 
 namespace stadion::cluster {
 namespace {
+
+const LateLibrary ddsLibrary(STADION_LIBDDSC, "libddsc0debian");
+const LateFunction<decltype(::dds_create_domain)> dds_create_domain(ddsLibrary, "dds_create_domain");
+const LateFunction<decltype(::dds_create_listener)> dds_create_listener(ddsLibrary, "dds_create_listener");
+const LateFunction<decltype(::dds_create_participant)> dds_create_participant(ddsLibrary,
+                                                                              "dds_create_participant");
+const LateFunction<decltype(::dds_create_qos)> dds_create_qos(ddsLibrary, "dds_create_qos");
+const LateFunction<decltype(::dds_create_reader)> dds_create_reader(ddsLibrary, "dds_create_reader");
+const LateFunction<decltype(::dds_create_topic)> dds_create_topic(ddsLibrary, "dds_create_topic");
+const LateFunction<decltype(::dds_create_writer)> dds_create_writer(ddsLibrary, "dds_create_writer");
+const LateFunction<decltype(::dds_delete)> dds_delete(ddsLibrary, "dds_delete");
+const LateFunction<decltype(::dds_delete_listener)> dds_delete_listener(ddsLibrary, "dds_delete_listener");
+const LateFunction<decltype(::dds_delete_qos)> dds_delete_qos(ddsLibrary, "dds_delete_qos");
+const LateFunction<decltype(::dds_get_publication_matched_status)>
+    dds_get_publication_matched_status(ddsLibrary, "dds_get_publication_matched_status");
+const LateFunction<decltype(::dds_lset_data_available)> dds_lset_data_available(ddsLibrary,
+                                                                                "dds_lset_data_available");
+const LateFunction<decltype(::dds_lset_liveliness_changed)>
+    dds_lset_liveliness_changed(ddsLibrary, "dds_lset_liveliness_changed");
+const LateFunction<decltype(::dds_qset_durability)> dds_qset_durability(ddsLibrary, "dds_qset_durability");
+const LateFunction<decltype(::dds_qset_history)> dds_qset_history(ddsLibrary, "dds_qset_history");
+const LateFunction<decltype(::dds_qset_ignorelocal)> dds_qset_ignorelocal(ddsLibrary, "dds_qset_ignorelocal");
+const LateFunction<decltype(::dds_qset_liveliness)> dds_qset_liveliness(ddsLibrary, "dds_qset_liveliness");
+const LateFunction<decltype(::dds_qset_partition)> dds_qset_partition(ddsLibrary, "dds_qset_partition");
+const LateFunction<decltype(::dds_qset_reliability)> dds_qset_reliability(ddsLibrary, "dds_qset_reliability");
+const LateFunction<decltype(::dds_return_loan)> dds_return_loan(ddsLibrary, "dds_return_loan");
+const LateFunction<decltype(::dds_strretcode)> dds_strretcode(ddsLibrary, "dds_strretcode");
+const LateFunction<decltype(::dds_take)> dds_take(ddsLibrary, "dds_take");
+const LateFunction<decltype(::dds_wait_for_acks)> dds_wait_for_acks(ddsLibrary, "dds_wait_for_acks");
+const LateFunction<decltype(::dds_write)> dds_write(ddsLibrary, "dds_write");
 
 dds_duration_t durationOf(double seconds) {
   return static_cast<dds_duration_t>(seconds * 1e9);
@@ -121,6 +152,7 @@ Result<std::unique_ptr<Bus>> Bus::open(const ClusterFile& o, BusListener& listen
   const auto wrong = [&](const std::string& why) {
     return Diagnostic{Severity::Error, {}, "the cluster's network cannot be opened: " + why, {}};
   };
+  if (const auto missing = ddsLibrary.load()) return wrong(missing->message);
   std::unique_ptr<Bus> bus(new Bus);
   bus->listener_ = &listener;
   const ScopedRealtimePriority prompt(ScopedRealtimePriority::For::ThoseItStarts);  // Cyclone's own

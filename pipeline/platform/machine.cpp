@@ -1,6 +1,6 @@
 #include "pipeline/platform/machine.h"
 
-#include "pipeline/platform/shared_library.h"
+#include "engine/base/shared_library.h"
 #include "pipeline/platform/topology.h"
 
 #include <fmt/format.h>

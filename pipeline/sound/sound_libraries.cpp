@@ -1,6 +1,6 @@
 #include "pipeline/sound/sound_libraries.h"
 
-#include "pipeline/platform/shared_library.h"
+#include "engine/base/shared_library.h"
 
 #include <cstdlib>
 

@@ -2,7 +2,7 @@
 #include "pipeline/gl/gl_table.h"
 #include "pipeline/gl/picture_size.h"
 #include "pipeline/gl/problem.h"
-#include "pipeline/platform/shared_library.h"
+#include "engine/base/shared_library.h"
 #include "pipeline/target/rasteriser_settings.h"
 #include "pipeline/target/target.h"
 

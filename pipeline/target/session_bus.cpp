@@ -1,6 +1,6 @@
 #include "pipeline/target/session_bus.h"
 
-#include "pipeline/platform/shared_library.h"
+#include "engine/base/shared_library.h"
 
 #include <cstdint>
 #include <cstdlib>

@@ -1,6 +1,6 @@
 #include "pipeline/target/x_connection.h"
 
-#include "pipeline/platform/shared_library.h"
+#include "engine/base/shared_library.h"
 
 #include <atomic>
 

@@ -1,6 +1,6 @@
 #include "pipeline/target/x_pixels.h"
 
-#include "pipeline/platform/shared_library.h"
+#include "engine/base/shared_library.h"
 #include "pipeline/target/pixel_format.h"
 #include "pipeline/target/x_connection.h"
 

@@ -1,166 +1,44 @@
 #include "show/web/web_server.h"
 
+#include "engine/base/installed_files.h"
+#include "engine/base/shared_library.h"
 #include "pipeline/platform/idle_priority.h"
+#include "show/web/http_library/http_listener.h"
 
 #include <fmt/format.h>
-#include <httplib.h>
 
-#include <atomic>
 #include <cerrno>
 #include <cstring>
-#include <thread>
 
 namespace stadion {
-namespace {
 
-constexpr int kBacklog = 128;  ///< connections that the system holds until they are accepted
-
-/// Headers of every answer. The page loads nothing from elsewhere, stands in no frame, and leaves no trace.
-const httplib::Headers& commonHeaders() {
-  static const httplib::Headers headers{
-      {"Content-Security-Policy", "default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self' "
-                                  "blob: data:; connect-src 'self'; "
-                                  "base-uri 'none'; form-action 'none'; frame-ancestors 'none'"},
-      {"X-Content-Type-Options", "nosniff"},
-      {"X-Frame-Options", "DENY"},
-      {"Referrer-Policy", "no-referrer"},
-      {"Cross-Origin-Resource-Policy", "same-origin"},
-      {"Cross-Origin-Opener-Policy", "same-origin"},
-      {"Cache-Control", "no-store"},
-  };
-  return headers;
-}
-
-/// A request in memory, and the answer to it.
-class RequestInMemory final : public httplib::Stream {
+/// The listener accepts connections, and the gate reads them.
+class WebServer::Listening {
 public:
-  explicit RequestInMemory(std::string request) : request_(std::move(request)) {}
-
-  bool is_readable() const override { return true; }
-  bool is_writable() const override { return true; }
-  ssize_t read(char* to, size_t size) override {
-    const std::size_t count = request_.copy(to, size, read_);
-    read_ += count;
-    return static_cast<ssize_t>(count);
-  }
-  ssize_t write(const char* from, size_t size) override {
-    answer_.append(from, size);
-    return static_cast<ssize_t>(size);
-  }
-  void get_remote_ip_and_port(std::string&, int&) const override {}
-  void get_local_ip_and_port(std::string&, int&) const override {}
-  socket_t socket() const override { return INVALID_SOCKET; }
-
-  std::string takeAnswer() { return std::move(answer_); }
-
-private:
-  std::string request_, answer_;
-  std::size_t read_ = 0;
-};
-
-/// What the library gets: the request again, without headers that nothing here asks for.
-std::string plainRequest(const WebRequest& r) {
-  return fmt::format(
-      "{} {} HTTP/1.1\r\nHost: {}\r\nAuthorization: Bearer {}\r\nOrigin: {}\r\nSec-Fetch-Site: {}\r\n"
-      "Content-Type: {}\r\nConnection: close\r\nContent-Length: {}\r\n\r\n{}",
-      r.method, r.path, r.host, r.token, r.origin, r.fetchSite, r.contentType, r.body.size(), r.body);
-}
-
-WebRequest webRequestOf(const httplib::Request& r) {
-  constexpr std::size_t kBearer = 7;  // "Bearer "
-  const std::string authorization = r.get_header_value("Authorization");
-  return {r.method,
-          r.path,
-          r.get_header_value("Host"),
-          authorization.size() > kBearer ? authorization.substr(kBearer) : "",
-          r.get_header_value("Origin"),
-          r.get_header_value("Sec-Fetch-Site"),
-          r.get_header_value("Content-Type"),
-          r.body};
-}
-
-}  // namespace
-
-/// Accepts connections on a thread of its own.
-class WebServer::Listener final : public httplib::Server {
-public:
-  Listener(WebServer::Handler handler, const GateLimits& limits)
-      : gate_([this](const WebRequest& r) { return answer(r); },
-              [](int status, const std::string& why) { return refusal(status, why); }, limits) {
-    const auto answered = [handler = std::move(handler)](const httplib::Request& request,
-                                                         httplib::Response& response) {
-      const WebAnswer made = handler(webRequestOf(request));
-      response.status = made.status;
-      response.set_content(made.body, made.type);
-    };
-    Get("/.*", answered);
-    Post("/.*", answered);
-    set_default_headers(commonHeaders());
-    set_payload_max_length(RequestReader::kMostBody);
-    set_keep_alive_max_count(1);
-    // The library would share the port with another program of the same user.
-    set_socket_options([](socket_t socket) {
-      const int yes = 1;
-      setsockopt(socket, SOL_SOCKET, SO_REUSEADDR, &yes, sizeof yes);
-    });
-    new_task_queue = [] { return new AtOnce; };
-  }
-  ~Listener() override {
-    stop();
-    if (accepting_.joinable()) accepting_.join();
+  Listening(MakeHttpListener& make, WebServer::Handler handler, const GateLimits& limits)
+      : listener_(made(make, std::move(handler))),
+        gate_([this](const WebRequest& r) { return listener_->answer(r); },
+              [this](int status, const std::string& why) { return listener_->refusal(status, why); },
+              limits) {}
+  ~Listening() {
+    listener_->stop();
     gate_.stop();
   }
+  Listening(const Listening&) = delete;
+  Listening& operator=(const Listening&) = delete;
 
-  /// Returns the port; 0 if it cannot listen there.
-  int listenAt(const WebAddress& address) {
-    const int port = address.port == 0                          ? bind_to_any_port(address.host)
-                     : bind_to_port(address.host, address.port) ? address.port
-                                                                : -1;
-    if (port <= 0) return 0;
-    // The library's own limit is five, which 50 clients exceed when they reconnect together.
-    ::listen(svr_sock_, kBacklog);
-    accepting_ = std::thread([this] {
-      yieldToShow("web-accept");
-      listen_after_bind();
-      ended_ = true;
-    });
-    while (!is_running() && !ended_) std::this_thread::yield();
-    return ended_ ? 0 : port;
-  }
-
+  int at(const WebAddress& address) { return listener_->listenAt(address.host, address.port); }
   GateCounts counts() const { return gate_.counts(); }
 
 private:
-  /// The library calls it for each connection, as a task.
-  class AtOnce final : public httplib::TaskQueue {
-  public:
-    void enqueue(std::function<void()> task) override { task(); }
-    void shutdown() override {}
-  };
-
-  bool process_and_close_socket(socket_t socket) override {
-    gate_.adopt(socket);
-    return true;
+  std::unique_ptr<HttpListener> made(MakeHttpListener& make, WebServer::Handler handler) {
+    HttpDuties duties{std::move(handler), [this](int socket) { gate_.adopt(socket); },
+                      [] { yieldToShow("web-accept"); }};
+    return std::unique_ptr<HttpListener>(make(duties));
   }
 
-  std::string answer(const WebRequest& request) {
-    RequestInMemory stream(plainRequest(request));
-    bool closed = false;
-    process_request(stream, true, closed, [](httplib::Request&) {});
-    return stream.takeAnswer();
-  }
-
-  static std::string refusal(int status, const std::string& why) {
-    std::string text = fmt::format("HTTP/1.1 {} Refused\r\n", status);
-    for (const auto& [name, value] : commonHeaders()) text += name + ": " + value + "\r\n";
-    return text + fmt::format("Content-Type: text/plain; charset=utf-8\r\nContent-Length: {}\r\n"
-                              "Connection: close\r\n\r\n{}\n",
-                              why.size() + 1, why);
-  }
-
+  std::unique_ptr<HttpListener> listener_;
   RequestGate gate_;
-  std::atomic<bool> ended_ = false;
-  std::thread accepting_;
 };
 
 WebServer::WebServer(const WebAddress& address) : address_(address) {}
@@ -169,12 +47,17 @@ WebServer::~WebServer() = default;
 
 Result<std::unique_ptr<WebServer>> WebServer::open(const WebAddress& address, Handler handler,
                                                    GateLimits limits) {
+  using Opened = Result<std::unique_ptr<WebServer>>;
+  const auto library = SharedLibrary::open(helperProgram("libstadion-http.so").c_str(), "stadion");
+  if (!library) return library.error();
+  auto* make = library.value().find<MakeHttpListener>("stadionMakeHttpListener");
+  if (!make) return Opened::failure("libstadion-http.so is of another version: install Stadion again");
   std::unique_ptr<WebServer> made(new WebServer(address));
-  made->listener_ = std::make_unique<Listener>(std::move(handler), limits);
+  made->listening_ = std::make_unique<Listening>(*make, std::move(handler), limits);
   errno = 0;
-  const int port = made->listener_->listenAt(address);
+  const int port = made->listening_->at(address);
   if (port <= 0)
-    return Result<std::unique_ptr<WebServer>>::failure(fmt::format(
+    return Opened::failure(fmt::format(
         "cannot listen on {}: {}", address.authority(),
         errno != 0 ? std::strerror(errno) : "the port is taken, or the address is not this machine's"));
   made->address_.port = static_cast<std::uint16_t>(port);
@@ -182,7 +65,7 @@ Result<std::unique_ptr<WebServer>> WebServer::open(const WebAddress& address, Ha
 }
 
 GateCounts WebServer::counts() const {
-  return listener_->counts();
+  return listening_->counts();
 }
 
 }  // namespace stadion

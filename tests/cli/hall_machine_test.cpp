@@ -1,6 +1,6 @@
 /// What a machine in a hall has: services, an X server for shows, an archive that installs without internet.
 
-#include "pipeline/platform/shared_library.h"
+#include "engine/base/shared_library.h"
 #include "tests/programs/desk.h"
 #include "tests/programs/notify_socket.h"
 

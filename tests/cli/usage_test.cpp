@@ -43,6 +43,16 @@ TEST(ProgramUsage, AReaderThatHasSeenEnoughIsNoFault) {
   EXPECT_TRUE(has(full, "status 2")) << full;
 }
 
+/// Loading them took more than half of a program's start.
+TEST(ProgramUsage, AStartLoadsNoLibraryThatOnlySomeShowsNeed) {
+  ProgramRun run{{stadionPath(), "--version"}};
+  run.environment = {"LD_TRACE_LOADED_OBJECTS=1"};
+  const ProgramResult r = runProgram(run);
+  ASSERT_TRUE(has(r.out, "libstdc++")) << r.out << r.err;
+  for (const char* late : {"libcrypto", "libssl", "libcpp-httplib", "libzip", "libsndfile", "libddsc"})
+    EXPECT_FALSE(has(r.out, late)) << r.out;
+}
+
 TEST(ProgramUsage, HelpIsNotAnError) {
   const ProgramResult r = stadionProgram({"run", "--help"});
   EXPECT_EQ(r.status, 0);

@@ -259,7 +259,7 @@ TEST(Layering, EachForeignLibraryIsIncludedInFewFiles) {
   EXPECT_EQ(includersOf("pugixml"),
             (Files{"engine/hall_formats/mpcdi_document.cpp", "engine/hall_formats/mpcdi_writer.cpp",
                    "engine/hall_formats/warp_formats_grid.cpp"}));
-  EXPECT_EQ(includersOf("httplib"), Files{"show/web/web_server.cpp"});
+  EXPECT_EQ(includersOf("httplib"), Files{"show/web/http_library/http_library.cpp"});
   EXPECT_EQ(includersOf("sndfile"), Files{"engine/asset/sound_file.cpp"});
   EXPECT_EQ(includersOf("hwloc"), Files{"pipeline/platform/topology.cpp"});
   EXPECT_EQ(includersOf("lo/"), Files{"pipeline/device/osc_server.cpp"});

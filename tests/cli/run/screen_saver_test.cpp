@@ -1,7 +1,7 @@
 /// Displays in memory whose screen saver or DPMS is due after a second: both wait while a show is shown, and
 /// no longer.
 
-#include "pipeline/platform/shared_library.h"
+#include "engine/base/shared_library.h"
 #include "tests/programs/becomes.h"
 #include "tests/programs/desk.h"
 

@@ -1,4 +1,4 @@
-#include "pipeline/platform/shared_library.h"
+#include "engine/base/shared_library.h"
 
 #include "engine/base/file_descriptor.h"
 
