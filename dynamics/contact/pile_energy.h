@@ -12,7 +12,7 @@ class PileEnergy {
 public:
   explicit PileEnergy(const Pile& pile);
 
-  /// After the jump, `before` being the velocities before it: no group is faster in all.
+  /// After the jump, `before` being the velocities before it: no group gains kinetic energy.
   void boundJump(Pile& pile, const std::vector<PileBody>& before);
   /// After the shift: what it lifts is paid with what the jump took and with a little motion; `deep` is the
   /// overlap from which on it costs nothing [m].

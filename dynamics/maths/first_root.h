@@ -14,7 +14,7 @@ struct Probe {
 };
 
 /// Before this time the gap, which is like this at tau, cannot close; tau itself if it closes right there,
-/// nothing if it never does. `acceleration` bounds |gap''| from below.
+/// nothing if it never does. `acceleration` is the largest |gap''|.
 inline std::optional<double> soonestRoot(Probe p, double tau, double acceleration, double tolerance) {
   if (!(p.gap == p.gap) || !(p.rate == p.rate)) return {};
   if (p.gap <= tolerance) {

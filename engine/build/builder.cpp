@@ -79,7 +79,7 @@ public:
     return true;
   }
   std::uint32_t parent(std::uint32_t i) const { return parent_[i]; }
-  /// Those that say that they stand below it, in the order of the file.
+  /// Levels whose parent it is, in the order of the file.
   std::vector<std::uint32_t> childrenOf(std::uint32_t node) const {
     std::vector<std::uint32_t> children;
     for (std::uint32_t i = 0; i < parent_.size(); ++i)

@@ -7,7 +7,8 @@
 ///           detached node goes along with its parent again, from where the two were at that time.
 /// Times     attach, detach and reset take effect at their exact time: within the frame for dynamics (by the
 ///           pose track that the node leaves in the scene), at the frame's end for the picture.
-/// Threads   App only: no other thread changes the pose of a node. Dynamics nodes call hold() when a body
+/// Threads   App only: no other thread changes the pose of a node while the show plays. The thread that opens a scene
+///           sets the first ones. Dynamics nodes call hold() when a body
 ///           joins, at a reset, and after their worlds have computed.
 /// Errors    place() and hold() return false and keep the old pose if X_WN is not finite.
 

@@ -256,7 +256,8 @@ std::optional<FrameOrder> Follower::next() {
   return heard.order;
 }
 
-/// Expects the lock. Returns true if the scene differs.
+/// Expects the lock. Returns true if this host has to join again: it is late, or its scene differs and the cluster goes
+/// on all the same.
 bool Follower::explain(std::unique_lock<std::mutex>& lock) {
   std::uint64_t received = 0;
   auto since = Clock::now();

@@ -1,7 +1,7 @@
 #pragma once
 /// Converts the time stamps of a sender's clock to the machine's clock.
 ///
-/// The least recent delay counts as zero, so clocks that drift apart are followed.
+/// The smallest delay of late counts as zero, so clocks that drift apart are followed.
 ///
 /// A sender's clock may be set while it sends, by NTP or by hand. If it is set forwards, the next stamp shows
 /// it. If it is set backwards, stamps get older than the previous ones. A datagram that another one overtook

@@ -1,8 +1,8 @@
 #pragma once
 /// Takes the picture of one view now and then, out of the pictures that a show draws anyway.
 ///
-/// The show's thread copies few of the picture's pixels and goes on; it never waits. Where pictures are not read
-/// back from the graphics anyway, only those of the wall in question are, and only in that frame.
+/// The show's thread copies few of the picture's pixels and goes on; it never waits. A graphics card whose
+/// pictures stay with it is read for that wall and that frame only.
 ///
 /// Threads  ask() and collect() on one thread of the page; wants(), wantsWall() and take() on Draw threads.
 
@@ -24,7 +24,7 @@ public:
     Picture picture;  ///< each n-th pixel of each n-th row; empty if the wall has no such view
   };
 
-  /// Pictures also go to this sink; null: to none. While no frames are drawn.
+  /// Pictures also go to this sink; null: to none. Call it only while no frame is drawn.
   void passOnTo(PictureSink* sink) { next_ = sink; }
 
   /// Asks for the next picture of that view. False: the one before has not been collected.
