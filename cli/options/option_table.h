@@ -1,7 +1,7 @@
 #pragma once
-/// All options of all commands, of `stadion`, `stadion-measure` and `stadion-bench` alike. A name has one grammar and one help
-/// text, whichever command has it. Help, man pages, shell completion and docs/options.md are made from this
-/// table.
+/// All options of all commands, of `stadion`, `stadion-measure` and `stadion-bench` alike. A name has one
+/// grammar and one help text, whichever command has it. Help, man pages, shell completion and docs/options.md
+/// are made from this table.
 
 #include "cli/options/value_grammar.h"
 

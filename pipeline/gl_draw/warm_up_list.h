@@ -9,8 +9,8 @@
 
 namespace stadion {
 
-/// A complete list, and one of each mesh in the store that it does not show: those are drawn in
-/// front of the viewer at their coarsest level. One more of each that scripts make transparent (`fading`) has such a paint.
+/// A complete list, and one of each mesh in the store that it does not show: those are drawn in front of the
+/// viewer at their coarsest level. One more of each that scripts make transparent (`fading`) has such a paint.
 DrawList warmUpList(const DrawList& first, const MeshStore& meshes, std::span<const MeshId> fading = {});
 
 }  // namespace stadion
