@@ -1,8 +1,8 @@
 // The only file that knows EGL.
+#include "engine/base/shared_library.h"
 #include "pipeline/gl/gl_table.h"
 #include "pipeline/gl/picture_size.h"
 #include "pipeline/gl/problem.h"
-#include "engine/base/shared_library.h"
 #include "pipeline/target/rasteriser_settings.h"
 #include "pipeline/target/target.h"
 

@@ -1,7 +1,7 @@
 // The only file that knows GLFW.
+#include "engine/base/shared_library.h"
 #include "pipeline/gl/gl_table.h"
 #include "pipeline/gl/problem.h"
-#include "engine/base/shared_library.h"
 #include "pipeline/target/screen_saver.h"
 #include "pipeline/target/window.h"
 #include "pipeline/target/x_connection.h"

@@ -3,9 +3,9 @@
 #include "show/doctor/doctor.h"
 
 #include "engine/base/installed_files.h"
+#include "engine/base/shared_library.h"
 #include "pipeline/cpu_draw/kernels/choose_kernels.h"
 #include "pipeline/platform/processor_set.h"
-#include "engine/base/shared_library.h"
 #include "pipeline/sound/sound_device.h"
 #include "pipeline/target/target.h"
 #include "pipeline/target/window.h"

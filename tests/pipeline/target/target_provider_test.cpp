@@ -1,6 +1,6 @@
+#include "engine/base/shared_library.h"
 #include "pipeline/gl/gl_table.h"
 #include "pipeline/gl/picture_size.h"
-#include "engine/base/shared_library.h"
 #include "pipeline/target/rasteriser_settings.h"
 #include "tests/pipeline/gl_draw/renderer_scene.h"
 
