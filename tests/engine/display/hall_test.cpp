@@ -1,9 +1,9 @@
 #include "engine/base/plain_file.h"
 #include "engine/display/covered_rectangle.h"
-#include "engine/display/wall_file.h"
 #include "engine/display/lens_turn.h"
 #include "engine/display/screen_coverage.h"
 #include "engine/display/unfolding.h"
+#include "engine/display/wall_file.h"
 #include "engine/display/wall_lint.h"
 #include "engine/maths/angles.h"
 #include "tests/fresh_folder.h"
@@ -27,7 +27,7 @@ const fs::path kHallCorpus = fs::path(STADION_SOURCE_DIR) / "tests/corpus/halls"
 const std::string kFrontScreen =
     "screen front plane  lower-left -2 3 0  lower-right 2 3 0  upper-left -2 3 2.5\n";
 
-std::string contentOf(const fs::path& path) {
+std::string hallFileContent(const fs::path& path) {
   const auto text = readPlainFile(path.string(), 1 << 20);
   return text ? text.value() : std::string();
 }
@@ -112,12 +112,12 @@ TEST(Hall, WithMistakesGetsTheListedFindings) {
   for (const auto& entry : fs::directory_iterator(kHallCorpus)) {
     if (entry.path().extension() != ".walls") continue;
     ++files;
-    const std::string found = findingsOf(contentOf(entry.path()));
+    const std::string found = findingsOf(hallFileContent(entry.path()));
     fs::path golden = entry.path();
     golden.replace_extension(".expected");
     // STADION_WRITE_EXPECTED=1 updates the listings; read them before they are committed.
     if (std::getenv("STADION_WRITE_EXPECTED")) std::ofstream(golden) << found;
-    EXPECT_EQ(found, contentOf(golden)) << entry.path();
+    EXPECT_EQ(found, hallFileContent(golden)) << entry.path();
     EXPECT_FALSE(found.empty()) << entry.path();
   }
   EXPECT_GE(files, 9u);
@@ -260,8 +260,9 @@ TEST(Hall, ThatIsMutatedNeverCrashes) {
   std::mt19937 random(static_cast<std::uint32_t>(42 + start));
   std::vector<std::string> seeds;
   for (const auto& [name, projectors] : kShippedHalls)
-    seeds.push_back(contentOf(kWallsFolder + "/" + name + ".walls"));
-  for (const auto& entry : fs::directory_iterator(kHallCorpus)) seeds.push_back(contentOf(entry.path()));
+    seeds.push_back(hallFileContent(kWallsFolder + "/" + name + ".walls"));
+  for (const auto& entry : fs::directory_iterator(kHallCorpus))
+    seeds.push_back(hallFileContent(entry.path()));
   static const std::vector<std::string> kWords{"nan",       "1e308",       "-0",      "0",       "360",
                                                "throw",     "fisheye 360", "\n",      "#",       "mesh",
                                                "turn 0 90", "pins",        "unit mm", "eye left"};
