@@ -3,7 +3,7 @@
 #include "engine/base/installed_files.h"
 #include "engine/base/shared_library.h"
 #include "pipeline/platform/idle_priority.h"
-#include "show/web/http_library/http_listener.h"
+#include "show/web/http_listener.h"
 
 #include <fmt/format.h>
 

@@ -1,7 +1,7 @@
 #pragma once
 /// An HTTP server for the operator's page: it listens, and hands each request to a function.
 ///
-/// cpp-httplib accepts connections and speaks HTTP; it is loaded by open() (http_library). RequestGate stands in front of it: it reads each request within
+/// cpp-httplib accepts connections and speaks HTTP; it is loaded by open() (http_listener.h). RequestGate stands in front of it: it reads each request within
 /// limits and passes on only what is well-formed. So nothing hostile reaches the library, and no client delays another
 /// one.
 ///

@@ -1,6 +1,6 @@
 /// libstadion-http.so: cpp-httplib, for the operator's page.
 
-#include "show/web/http_library/http_listener.h"
+#include "show/web/http_listener.h"
 
 #include <fmt/format.h>
 #include <httplib.h>
