@@ -15,7 +15,8 @@ TEST(ProgramBenchPlan, ARoomWithFewerWallsIsToldBeforeAnythingIsPlayed) {
   EXPECT_EQ(r.out, "");
 }
 
-TEST(ProgramBenchPlan, AHallIsPlayedByAProcessForEachProjector) {
+// It measures processes for as long as many tests take.
+TEST(ProgramFullBenchPlan, AHallIsPlayedByAProcessForEachProjector) {
   const ProgramResult r =
       stadionProgram({"bench", "plan", testShow("moving.evs"), "--walls", "cylinder-180", "--processes",
                       "--rounds", "1", "--frames", "12", "--size", "16x12", "--within", "1000", "--json"});
