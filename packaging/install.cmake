@@ -4,8 +4,8 @@
 include(CMakePackageConfigHelpers)
 
 install(TARGETS stadion RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT runtime)
-install(TARGETS stadion-import stadion-wall stadion-http RUNTIME DESTINATION lib/stadion
-  LIBRARY DESTINATION lib/stadion COMPONENT runtime)
+install(TARGETS stadion-import stadion-wall RUNTIME DESTINATION lib/stadion COMPONENT runtime)
+install(TARGETS stadion-http LIBRARY DESTINATION lib/stadion COMPONENT runtime)
 # Where they have been built.
 install(TARGETS stadion-measure stadion-bench stadion-dyn-stadion RUNTIME DESTINATION lib/stadion COMPONENT runtime
   OPTIONAL)

@@ -62,6 +62,21 @@ TEST_F(ProgramInstall, AnInstalledCopyPlaysAShow) {
   EXPECT_TRUE(fs::exists(out + "/contact-sheet.png")) << r.err;
 }
 
+// A file without a component is in no Debian package.
+TEST_F(ProgramInstall, EachFileIsInOneOfThePackages) {
+  std::ifstream rules(STADION_BINARY_DIR "/cmake_install.cmake");
+  std::string component;
+  int files = 0;
+  for (std::string line; std::getline(rules, line);) {
+    if (const std::size_t at = line.find("CMAKE_INSTALL_COMPONENT STREQUAL \""); at != std::string::npos)
+      component = line.substr(at);
+    if (!has(line, "file(INSTALL DESTINATION")) continue;
+    ++files;
+    EXPECT_TRUE(has(component, "\"runtime\"") || has(component, "\"development\"")) << component << line;
+  }
+  EXPECT_GT(files, 20);
+}
+
 TEST_F(ProgramInstall, HasManPagesAndCompletion) {
   const std::string page = fileContent(prefix() + "/share/man/man1/stadion.1");
   EXPECT_TRUE(page.starts_with(".TH stadion 1")) << page.substr(0, 80);
