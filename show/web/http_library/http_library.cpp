@@ -1,6 +1,7 @@
 /// libstadion-http.so: cpp-httplib, for the operator's page.
 
 #include "show/web/http_listener.h"
+#include "show/web/request_reader.h"
 
 #include <fmt/format.h>
 #include <httplib.h>
@@ -11,8 +12,7 @@
 namespace stadion {
 namespace {
 
-constexpr int kBacklog = 128;            ///< connections that the system holds until they are accepted
-constexpr std::size_t kMostBody = 4096;  ///< bytes; RequestReader accepts no more
+constexpr int kBacklog = 128;  ///< connections that the system holds until they are accepted
 
 /// Headers of every answer. The page loads nothing from elsewhere, stands in no frame, and leaves no trace.
 const httplib::Headers& commonHeaders() {
@@ -89,7 +89,7 @@ public:
     Get("/.*", answered);
     Post("/.*", answered);
     set_default_headers(commonHeaders());
-    set_payload_max_length(kMostBody);
+    set_payload_max_length(RequestReader::kMostBody);
     set_keep_alive_max_count(1);
     // The library would share the port with another program of the same user.
     set_socket_options([](socket_t socket) {
